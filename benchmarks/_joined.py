@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import kineme
 from _options import few
 from kineme.evaluation.comparison import UNLABELLED
-from kineme.evaluation.folder import recordings_below
+from kineme.evaluation.folder import find_recordings
 from kineme.labels.collections import find_labels
 from kineme.labels.spans import text_of
 from kineme.recordings import Signals
@@ -60,7 +60,7 @@ class Piece(NamedTuple):
 
 
 def pieces(folder: Path) -> Iterator[Piece]:
-    sources = find_labels(recordings_below(folder / "recordings"), folder / "labels.csv")
+    sources = find_labels(find_recordings(folder / "recordings"), folder / "labels.csv")
     for path, source in few(list(sources.items()), list(sources.items())[:2]):
         one = read_sensors(path)
         if isinstance(one, Signals):

@@ -24,7 +24,7 @@ from _recordings import Case, by_recording, hdm05, subject_86, synthetic
 from _sparse_recordings import SparseCase, found_units, matches, sparse_events
 from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
-from kineme.evaluation.folder import recordings_below
+from kineme.evaluation.folder import find_recordings
 from kineme.evaluation.score import Ratio, pool_scores, scores
 from kineme.labels.collections import LabelSource, find_labels
 from kineme.recordings import Motion, Signals, Skeleton
@@ -256,7 +256,7 @@ def continuous(folder: str, every: int) -> Iterator[Sample]:
         compared = compare(truth, found)
         return {name: scores()[name].function(compared) for name in CONTINUOUS}
 
-    labels = find_labels(recordings_below(DATA / folder), DATA / folder / "labels.csv")
+    labels = find_labels(find_recordings(DATA / folder), DATA / folder / "labels.csv")
     for path, source in list(labels.items())[::every]:
         yield Sample(path.stem, kineme.read(path), partial(judge, source=source))
 
@@ -269,7 +269,7 @@ def sensors(name: str, every: int) -> Iterator[Sample]:
         return judged_labels(compare(truth, found))
 
     labels = find_labels(
-        recordings_below(DATA / "sets" / name / "recordings"), DATA / "sets" / name / "labels.csv"
+        find_recordings(DATA / "sets" / name / "recordings"), DATA / "sets" / name / "labels.csv"
     )
     for path, source in list(labels.items())[::every]:
         yield Sample(path.stem, read_sensors(path), partial(judge, source=source))
@@ -329,7 +329,7 @@ def counted_sets(name: str, every: int) -> Iterator[Sample]:
             "within_one": Ratio(sum(each <= 1 for each in wrong), len(wrong)),
         }
 
-    files = {path.stem: path for path in recordings_below(folder / "recordings")}
+    files = {path.stem: path for path in find_recordings(folder / "recordings")}
     for key, rows in list(by_recording(folder / "counts.csv").items())[::every]:
         yield Sample(key, kineme.read(files[key]), partial(judge, rows=rows))
 

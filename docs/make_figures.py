@@ -31,7 +31,7 @@ from kineme.plot.matrix import (
     SHADES,
     plot_matrix,
 )
-from kineme.segments.colors import PALETTE, cluster_color
+from kineme.segments.colors import PALETTE, get_cluster_color
 from kineme_reproduction.figures.matrix import draw_neighbors
 
 IMAGES = Path(__file__).parent / "images"
@@ -118,7 +118,7 @@ def draw_bundling(pair: np.ndarray, motion: kineme.Motion, segments: kineme.Segm
         for row in segments.activities:
             if row.kind == "activity":
                 span = slice(round(row.start_s * FPS), round(row.stop_s * FPS))
-                panel.plot(x[span], y[span], color=cluster_color(row.cluster), linewidth=0.7)
+                panel.plot(x[span], y[span], color=get_cluster_color(row.cluster), linewidth=0.7)
         panel.set_title(title, loc="left", fontsize=10)
         panel.set(xlabel="metres", aspect="equal")
         panel.spines[["top", "right"]].set_visible(False)
@@ -197,7 +197,7 @@ def draw_bars(axes: Axes, rows: dict[str, kineme.Segmentation]) -> None:
     for place, result in enumerate(rows.values()):
         for row in result.primitives:
             box = Rectangle((row.start_s, place), row.stop_s - row.start_s, 0.8)
-            box.set(facecolor=cluster_color(row.cluster), edgecolor="white", linewidth=0.8)
+            box.set(facecolor=get_cluster_color(row.cluster), edgecolor="white", linewidth=0.8)
             axes.add_patch(box)
     axes.set(xlim=(0, result.n_frames / result.fps), ylim=(len(rows), 0), xlabel="seconds")
     axes.set_yticks(np.arange(len(rows)) + 0.4, list(rows))

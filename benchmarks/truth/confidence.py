@@ -42,7 +42,7 @@ from _recordings import (
     synthetic,
 )
 from _sources import NEAR_S, session_recordings
-from kineme.evaluation.folder import recordings_below
+from kineme.evaluation.folder import find_recordings
 from kineme.methods.base import Columns
 from kineme.methods.kineme.found import KinemeFound
 from kineme.methods.segmenter import segment_and_found
@@ -190,7 +190,7 @@ def continuous(name: str, every: int) -> Known:
     """Recordings of several activities without a cut between them."""
     folder = needed(name)
     labels = by_recording(folder / "labels.csv")
-    paths = [path for path in recordings_below(folder) if path.stem in labels]
+    paths = [path for path in find_recordings(folder) if path.stem in labels]
     for path in paths[:: few(every, 4)]:
         motion = kineme.read(path)
         yield motion, truth_of_labels(labels[path.stem], [], motion.n_frames / motion.fps)

@@ -28,9 +28,9 @@ from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import (
     Answer,
     Job,
+    find_recordings,
     join_comparisons,
     read_selected,
-    recordings_below,
     run_job,
 )
 from kineme.evaluation.score import format_markdown, pool_scores, scores
@@ -100,7 +100,7 @@ def main() -> None:
     rows = []
     for name in options.sets:
         folder = needed(f"sets/{name}", options.data)
-        labels = find_labels(recordings_below(folder / "recordings"), folder / "labels.csv")
+        labels = find_labels(find_recordings(folder / "recordings"), folder / "labels.csv")
         chosen = list(labels.items())[:: options.every][: few(None, 2)]
         with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
             for method in methods:

@@ -28,7 +28,7 @@ from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Score, choose_number
 from kineme.evaluation.truth import TRANSITION, Labelling
 from kineme.features._warping_kernels import find_cheapest_path
-from kineme.features.point_clouds import cloud_distances
+from kineme.features.point_clouds import compute_cloud_distances
 
 Distances = Callable[[slice, slice], Floats]
 
@@ -85,7 +85,9 @@ def point_cloud_variance(positions: ArrayLike, found: Labelling) -> list[Cluster
     if points.ndim != 3 or points.shape[2] != 3:
         raise ParameterError(f"positions must be (frames, joints, 3), not {points.shape}")
     half = round(WINDOW_S * found.fps / 2)
-    return _variances(lambda a, b: cloud_distances(points, a, b, half=half), len(points), found)
+    return _variances(
+        lambda a, b: compute_cloud_distances(points, a, b, half=half), len(points), found
+    )
 
 
 def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVariance]:

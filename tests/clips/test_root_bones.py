@@ -12,7 +12,7 @@ from kineme.clips.loops import carry_of
 from kineme.clips.root_motion import remove_root_motion, root_motion
 from kineme.clips.shaping import loop_qualities, planted_feet
 from kineme.datasets import bundled_recording, bundled_truth
-from kineme.features import body_size
+from kineme.features import measure_body_size
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import cut
 
@@ -61,7 +61,7 @@ def test_the_unit_is_that_of_the_body(rooted, tmp_path) -> None:
 
 
 def test_size_and_segments_are_the_same(motion, rooted) -> None:
-    sizes = [body_size(each, kineme.end_effectors(each)) for each in (motion, rooted)]
+    sizes = [measure_body_size(each, kineme.end_effectors(each)) for each in (motion, rooted)]
     assert sizes[0] == pytest.approx(sizes[1], abs=1e-12)
     assert kineme.segment(rooted).table == kineme.segment(motion).table
 

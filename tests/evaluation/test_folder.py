@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, compare, map_clusters
-from kineme.evaluation.folder import evaluate_folder, recordings_below
-from kineme.evaluation.measures import edit_distance
+from kineme.evaluation.folder import evaluate_folder, find_recordings
+from kineme.evaluation.measures import compute_edit_distance
 from kineme.evaluation.score import (
     SCORES,
     Ratio,
@@ -60,7 +60,7 @@ def test_edit_distance_is_levenshteins(a: list[int], b: list[int]) -> None:
         for j in range(1, len(b) + 1):
             exchange = table[i - 1, j - 1] + (a[i - 1] != b[j - 1])
             table[i, j] = min(table[i - 1, j] + 1, table[i, j - 1] + 1, exchange)
-    assert edit_distance(a, b) == table[len(a), len(b)]
+    assert compute_edit_distance(a, b) == table[len(a), len(b)]
 
 
 @given(compared=comparisons, percent=st.sampled_from([10, 25, 50]))
@@ -168,7 +168,7 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
     labels.mkdir()
     (labels / "a.txt").write_text("0\t20\tslow\n20\t40\tfast\n")
     (labels / "b.labels.csv").write_text("start_s,stop_s,label\n0,20,slow\n20,40,fast\n")
-    sources = find_labels(recordings_below(corpus), labels)
+    sources = find_labels(find_recordings(corpus), labels)
     assert [path.name for path in sources] == ["a.csv", "b.csv"]
     result = evaluate_folder(sources, ["uniform"], processes=1)
     assert [one.error for one in result.methods["uniform"]] == ["", ""]
@@ -176,7 +176,7 @@ def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> Non
 
 
 def test_clusters_are_joined_for_one_mapping(corpus) -> None:
-    sources = find_labels(recordings_below(corpus), corpus / "labels.csv")
+    sources = find_labels(find_recordings(corpus), corpus / "labels.csv")
     given = {"mapping": "folder", "without": ("emg*",), "processes": 1}
     result = evaluate_folder(sources, ["uniform"], n_clusters=2, **given)  # clusters of no meaning
     assert result.pool_scores("uniform")["mof"] > 0.95
@@ -186,16 +186,16 @@ def test_clusters_are_joined_for_one_mapping(corpus) -> None:
 def test_labels_that_belong_to_nothing_here_are_refused(corpus, tmp_path) -> None:
     (tmp_path / "labels.csv").write_text("recording,start_s,stop_s,label\nwalk,0,1,step\n")
     with pytest.raises(ReadError, match="no labels of any of the 4 recordings, such as 'a'"):
-        find_labels(recordings_below(corpus), tmp_path / "labels.csv")
+        find_labels(find_recordings(corpus), tmp_path / "labels.csv")
     (tmp_path / "one.csv").write_text("start_s,stop_s,label\n0,1,step\n")
     with pytest.raises(ReadError, match="names no recording in the column 'recording'"):
-        find_labels(recordings_below(corpus), tmp_path / "one.csv")
+        find_labels(find_recordings(corpus), tmp_path / "one.csv")
 
 
 def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
     register(Score("longest", "longest", "longest segment, frames", "segments", longest))
     try:
-        sources = find_labels(recordings_below(corpus), corpus / "labels.csv")
+        sources = find_labels(find_recordings(corpus), corpus / "labels.csv")
         result = evaluate_folder(sources, ["uniform"], processes=1)
         assert result.methods["uniform"][0].scores["longest"] == 15
         with pytest.raises(ParameterError, match="there is a score 'longest' already"):
@@ -233,7 +233,7 @@ def test_the_figures_of_a_set_with_human_labels_come_out(data_dir, name) -> None
     home = data_dir / "sets" / name
     if not home.is_dir():
         pytest.skip(f"no {home}")
-    sources = find_labels(recordings_below(home), home / "labels.csv")
+    sources = find_labels(find_recordings(home), home / "labels.csv")
     some = dict([*sources.items()][::5])
     result = evaluate_folder(some, ["kineme"], without=("emg*",), processes=1)
     found = result.pool_scores("kineme")

@@ -8,11 +8,11 @@ from kineme.errors import ReadError
 from kineme.evaluation import TRANSITION
 from kineme.evaluation.comparison import compare
 from kineme.evaluation.inputs import (
-    agreement,
-    differences,
+    find_differences,
     read_result,
     read_truth,
     score,
+    score_agreement,
 )
 from kineme.evaluation.label_truth import make_truth
 from kineme.evaluation.score import compute_results, get_value
@@ -167,7 +167,7 @@ def test_an_activity_may_be_called_transition_in_a_segment_table() -> None:
                "label": ["transition", "", "walk"]}  # fmt: skip
     table = Segmentation.from_columns(columns, n_frames=60, fps=10)
     assert make_truth(table, n_frames=60, fps=10).labels == ("transition (activity)", "walk")
-    found = agreement(table, table)
+    found = score_agreement(table, table)
     assert found["cluster_ratio"] == found["border_f1"] == found["mof"] == 1.0
     assert get_value(compute_results(compare(table, table))["mof"]) == 1.0
 
@@ -201,10 +201,10 @@ def test_labelled_intervals_are_clusters_by_their_names(tmp_path) -> None:
     path = tmp_path / "found.csv"
     path.write_text("start_s,stop_s,label\n0,2,a\n2,4,b\n4,6,a\n")
     found = read_result(path, fps=10)
-    assert agreement(found, found)["one_to_one"] == 1.0
-    assert agreement(found, found)["cluster_ratio"] == 1.0
-    assert agreement(found, result(60))["cluster_ratio"] == 0.5
-    assert not agreement(Segmentation.from_columns(
+    assert score_agreement(found, found)["one_to_one"] == 1.0
+    assert score_agreement(found, found)["cluster_ratio"] == 1.0
+    assert score_agreement(found, result(60))["cluster_ratio"] == 0.5
+    assert not score_agreement(Segmentation.from_columns(
         {"level": ["activity"], "kind": ["transition"], "start_frame": [0], "stop_frame": [60]},
         n_frames=60, fps=10.0), found)  # fmt: skip
 
@@ -214,5 +214,5 @@ def test_where_two_people_differ_is_told_but_not_what_borders_leave_open(tmp_pat
     first.write_text("start_s,stop_s,label\n0,2,a\n2,4,b\n4,6,a\n")
     second.write_text("start_s,stop_s,label\n0,2.2,a\n2.2,4,b\n4,5,a\n5,6,b\n")
     ann, bob = (read_result(path, fps=10) for path in (first, second))
-    assert differences(ann, bob) == [(5.0, 6.0)]
-    assert differences(ann, ann) == []
+    assert find_differences(ann, bob) == [(5.0, 6.0)]
+    assert find_differences(ann, ann) == []

@@ -11,7 +11,7 @@ import pytest
 from kineme.datasets import Action, synthesize
 from kineme.datasets.figure import figure
 from kineme.errors import EndEffectorError, MotionError
-from kineme.features import body_size, end_effectors
+from kineme.features import end_effectors, measure_body_size
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import move, scale, turn
 
@@ -161,7 +161,7 @@ def performed(name: str, size: float = 1.75) -> Motion:
 
 
 def size_of(motion: Motion) -> float:
-    return body_size(motion, end_effectors(motion))
+    return measure_body_size(motion, end_effectors(motion))
 
 
 def test_it_is_close_to_the_height_and_follows_it() -> None:
@@ -194,4 +194,4 @@ def test_a_body_without_extent_is_refused() -> None:
     walk = performed("walk")
     point = replace(walk, rotations=None, positions=np.zeros_like(walk.positions))
     with pytest.raises(MotionError, match="no length"):
-        body_size(point, end_effectors(walk))
+        measure_body_size(point, end_effectors(walk))

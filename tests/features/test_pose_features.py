@@ -16,9 +16,9 @@ import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
-    body_frame,
+    compute_body_frame,
+    compute_heading,
     end_effectors,
-    heading,
     pose_features,
     round_offsets,
     stack,
@@ -88,7 +88,7 @@ def test_scaling_scales(scale: float) -> None:
 
 
 def test_left_is_x_up_is_y_ahead_is_z() -> None:
-    local = body_frame(RECORDING)
+    local = compute_body_frame(RECORDING)
     joint = RECORDING.joint
     assert (local[:, joint("LeftUpLeg"), 0] > 0.05).all()
     assert (local[:, joint("RightUpLeg"), 0] < -0.05).all()
@@ -147,27 +147,29 @@ def test_lying_on_the_side_keeps_the_last_facing() -> None:
     quaternions[:, 0] = Rotation.from_euler("y", 30, degrees=True).as_quat(scalar_first=True)
     quaternions[3:7, 0] = on_the_side
     motion = Motion.from_rotations(RECORDING.skeleton, quaternions, 30.0, np.zeros((9, 3)))
-    local = body_frame(motion)
+    local = compute_body_frame(motion)
     relative = motion.positions - motion.positions[:, :1]
     back = Rotation.from_euler("y", -30, degrees=True)
     for frame in range(9):
         np.testing.assert_allclose(local[frame], back.apply(relative[frame]), atol=1e-12)
     never = Motion.from_rotations(RECORDING.skeleton, quaternions[3:7], 30.0, np.zeros((4, 3)))
-    np.testing.assert_array_equal(body_frame(never), never.positions)
+    np.testing.assert_array_equal(compute_body_frame(never), never.positions)
 
 
 def test_heading_is_what_the_body_frame_takes_away() -> None:
-    pelvis, angles = heading(RECORDING)
+    pelvis, angles = compute_heading(RECORDING)
     relative = RECORDING.positions - RECORDING.positions[:, pelvis, None]
     back = Rotation.from_euler("y", -angles[:, None])
     for joint in (2, 7):
         np.testing.assert_allclose(
-            body_frame(RECORDING)[:, joint], back.apply(relative[:, joint]), atol=1e-9
+            compute_body_frame(RECORDING)[:, joint], back.apply(relative[:, joint]), atol=1e-9
         )
 
 
 def test_some_joints_are_those_of_all() -> None:
-    np.testing.assert_array_equal(body_frame(RECORDING, (7, 2)), body_frame(RECORDING)[:, [7, 2]])
+    np.testing.assert_array_equal(
+        compute_body_frame(RECORDING, (7, 2)), compute_body_frame(RECORDING)[:, [7, 2]]
+    )
 
 
 def test_legs_without_hips_are_refused() -> None:

@@ -411,8 +411,8 @@ def test_real_trc(data_dir: Path, name: str) -> None:
 
 
 def test_a_walk_of_markers_has_the_size_of_a_person() -> None:
-    from kineme.features import body_size, end_effectors
+    from kineme.features import end_effectors, measure_body_size
     from kineme.formats.points import Points, to_motion
 
     motion = to_motion(Points(PLUG_IN_GAIT, walking(), 100, "m", "y"), kineme.Provenance())
-    assert 1.4 < body_size(motion, end_effectors(motion)) < 1.8
+    assert 1.4 < measure_body_size(motion, end_effectors(motion)) < 1.8

@@ -15,9 +15,9 @@ from kineme.datasets import random_recording
 from kineme.methods.doubts import list_doubts
 from kineme.methods.kineme.confidence import (
     compute_changes,
+    compute_mean_correlation,
     compute_probability,
     compute_sharpness,
-    mean_correlation,
 )
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
@@ -56,7 +56,7 @@ def test_what_happens_once_is_never_a_sure_repetition(seed: int) -> None:
 
 
 def test_one_repetition_has_nothing_that_speaks_for_it() -> None:
-    alone = mean_correlation(np.ones((1, 16, 6)))
+    alone = compute_mean_correlation(np.ones((1, 16, 6)))
     assert compute_probability(np.array([alone]), KINEME.count_weights)[0] < 0.5
 
 
@@ -65,7 +65,7 @@ def test_more_similar_repetitions_are_surer(count: int, noise: float, seed: int)
     rng = np.random.default_rng(seed)
     shape = rng.standard_normal((16, 6)).cumsum(axis=0)
     shaken = rng.standard_normal((count, 16, 6))
-    clear, less = (mean_correlation(shape + more * shaken) for more in (noise, noise + 3))
+    clear, less = (compute_mean_correlation(shape + more * shaken) for more in (noise, noise + 3))
     assert less <= clear
 
 

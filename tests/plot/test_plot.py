@@ -18,7 +18,7 @@ import kineme
 from kineme.errors import ParameterError, WriteError
 from kineme.plot import matrix, plot_matrix, plot_segmentation, plot_strip
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.segments.colors import NO_CLUSTER, PALETTE, cluster_color
+from kineme.segments.colors import NO_CLUSTER, PALETTE, get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 
@@ -122,11 +122,11 @@ def test_no_global_plotting_state() -> None:
 
 
 def test_colours_repeat_only_after_three_rounds() -> None:
-    first = [cluster_color(cluster) for cluster in range(3 * len(PALETTE))]
+    first = [get_cluster_color(cluster) for cluster in range(3 * len(PALETTE))]
     assert len(set(first)) == len(first)
     assert first[: len(PALETTE)] == list(PALETTE)
-    assert cluster_color(3 * len(PALETTE)) == first[0]
-    assert cluster_color(-1) == NO_CLUSTER
+    assert get_cluster_color(3 * len(PALETTE)) == first[0]
+    assert get_cluster_color(-1) == NO_CLUSTER
 
 
 # Linear RGB as seen without red, green or blue cones: Machado, Oliveira and Fernandes 2009.

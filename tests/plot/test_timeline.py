@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 import kineme
 from kineme.errors import ParameterError
 from kineme.plot.timeline import match_clusters
-from kineme.segments.colors import cluster_color
+from kineme.segments.colors import get_cluster_color
 from kineme.segments.editing import name_segment
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
@@ -54,7 +54,7 @@ def test_every_result_is_drawn_segment_by_segment(found: Segmentation) -> None:
         np.testing.assert_allclose(stops, table.stop_s)
         for segment, color in zip(table, colors):
             if segment.cluster >= 0:
-                assert color == cluster_color(segment.cluster)
+                assert color == get_cluster_color(segment.cluster)
     assert given_axes.get_xlim() == (0, found.n_frames / found.fps)
 
 
@@ -80,8 +80,8 @@ def test_compared_clusters_take_the_colours_of_those_they_share_time_with() -> N
     assert match_clusters(first.table, other.table) == {7: 0, 2: 1, 4: 2}
     axes = kineme.compare([first, other], ax=Figure().add_subplot())
     top, below = rows_of(axes)
-    assert [color for *_, color in top] == [cluster_color(c) for c in (0, 1, 0)]
-    assert [color for *_, color in below] == [cluster_color(c) for c in (0, 1, 0, 2)]
+    assert [color for *_, color in top] == [get_cluster_color(c) for c in (0, 1, 0)]
+    assert [color for *_, color in below] == [get_cluster_color(c) for c in (0, 1, 0, 2)]
     assert axes.get_xlim() == (0, 10.0)
 
 

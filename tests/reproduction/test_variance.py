@@ -18,7 +18,7 @@ from kineme.evaluation import (
     evaluate,
 )
 from kineme.features._warping_kernels import find_cheapest_path
-from kineme.features.point_clouds import cloud_distances
+from kineme.features.point_clouds import compute_cloud_distances
 from kineme_reproduction.variance import feature_variance, overall, point_cloud_variance
 
 
@@ -51,16 +51,16 @@ def moved(points: np.ndarray, angle: float) -> np.ndarray:
 
 def test_place_and_facing_do_not_matter_but_height_does(walk):
     twice = np.concatenate([walk, moved(walk, 2.0)])
-    inner = cloud_distances(twice, slice(5, 35), slice(45, 75), half=2)
+    inner = compute_cloud_distances(twice, slice(5, 35), slice(45, 75), half=2)
     assert np.abs(np.diag(inner)).max() < 1e-6
     lifted = np.concatenate([walk, walk + [0, 0.1, 0]])
-    assert np.diag(cloud_distances(lifted, slice(5, 35), slice(45, 75), half=2)) == pytest.approx(
-        0.1
-    )
+    assert np.diag(
+        compute_cloud_distances(lifted, slice(5, 35), slice(45, 75), half=2)
+    ) == pytest.approx(0.1)
 
 
 def test_the_closed_form_is_the_least_over_all_turns(walk):
-    found = cloud_distances(walk, slice(3, 5), slice(20, 22), half=1)
+    found = compute_cloud_distances(walk, slice(3, 5), slice(20, 22), half=1)
     for i, j in ((0, 1), (1, 0)):
         least = naive.cloud_distance(walk, 3 + i, 20 + j, half=1)
         assert found[i, j] == pytest.approx(least, abs=1e-3)

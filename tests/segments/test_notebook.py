@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 
 from kineme.segments import html
-from kineme.segments.colors import cluster_color, label_colors
+from kineme.segments.colors import choose_label_colors, get_cluster_color
 from kineme.segments.html import FIRST_ROWS
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
@@ -37,8 +37,8 @@ def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None
     assert len(page.findall(".//tbody/tr")) == min(FIRST_ROWS, len(result.activities))
     bars = page.findall(".//rect")
     colors = {bar.get("fill") for bar in bars}
-    labels = label_colors(result)
-    assert colors <= {html.segment_color(segment, labels) for segment in result}
+    labels = choose_label_colors(result)
+    assert colors <= {html.get_segment_color(segment, labels) for segment in result}
     assert len(bars) == len(result)
     for table in (result.table, result.activities, result.table[:0]):
         parsed(table._repr_html_())
@@ -70,4 +70,4 @@ def test_bars_lie_where_their_segments_do() -> None:
     bars = parsed(long_result(4)._repr_html_()).findall(".//rect")[1:]
     assert [float(bar.get("x")) for bar in bars] == [0, 180, 360, 540]
     assert all(170 < float(bar.get("width")) < 180 for bar in bars)
-    assert [bar.get("fill") for bar in bars] == [cluster_color(i) for i in range(4)]
+    assert [bar.get("fill") for bar in bars] == [get_cluster_color(i) for i in range(4)]

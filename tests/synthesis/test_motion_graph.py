@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets.bundled import bundled_truth
 from kineme.errors import ParameterError
-from kineme.features.point_clouds import cloud_distances, fit_clouds
+from kineme.features.point_clouds import compute_cloud_distances, fit_clouds
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
 from kineme.synthesis import (
@@ -49,7 +49,7 @@ def test_fitting_undoes_a_turn_and_a_move(exercises: Motion) -> None:
     assert np.abs(distances).max() < 1e-9
     back = move(turn(moved, float(angles[0])), [shifts[0, 0], 0, shifts[0, 1]])
     assert np.abs(back.positions - exercises.positions[:40]).max() < 1e-9
-    whole = cloud_distances(exercises.positions, slice(10, 30), slice(100, 120), half=3)
+    whole = compute_cloud_distances(exercises.positions, slice(10, 30), slice(100, 120), half=3)
     pairs = fit_clouds(exercises.positions, at, at + 90, half=3)[0]
     assert pairs == pytest.approx(np.diag(whole), abs=1e-7)
 
@@ -79,7 +79,7 @@ def test_edges_carry_the_distance_that_all_pairs_of_frames_have(
         for b in runs[:3]:
             leave, enter = graph.nodes[a].stop // 2, graph.nodes[b].start // 2
             reach = min(n.stop - n.start for n in (graph.nodes[a], graph.nodes[b])) // 8 - 1
-            every = cloud_distances(
+            every = compute_cloud_distances(
                 points,
                 slice(leave - reach, leave + reach + 1),
                 slice(enter - reach, enter + reach + 1),

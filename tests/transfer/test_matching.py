@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from kineme.transfer.matching import Primitives, label_costs, number_movements
+from kineme.transfer.matching import Primitives, compute_label_costs, number_movements
 
 DIMS = 3
 
@@ -51,7 +51,7 @@ def primitives(draw: st.DrawFn, most: int = 5) -> Primitives:
 @given(primitives(), primitives())
 def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> None:
     codes = known.runs % 3
-    costs = label_costs(unknown, known, codes, 3, radius=1e3)
+    costs = compute_label_costs(unknown, known, codes, 3, radius=1e3)
     expected = naive_label_costs(unknown, known, codes, 3)
     np.testing.assert_allclose(costs, expected, rtol=1e-4, atol=1e-3)  # of single precision
 
@@ -65,7 +65,7 @@ def test_a_cycle_cut_at_another_phase_matches_inside_a_run_only() -> None:
     unknown = Primitives(cycles(2, phase=0.5), np.array([12, 12]), np.array([0, 0]))
     for runs, cost in (([0, 0, 0], 0.0), ([0, 1, 2], np.inf)):
         known = Primitives(cycles(3), np.array([12] * 3), np.array(runs))
-        found = label_costs(unknown, known, np.zeros(3, int), 1, radius=0.2)
+        found = compute_label_costs(unknown, known, np.zeros(3, int), 1, radius=0.2)
         np.testing.assert_allclose(found, cost, atol=1e-5)
 
 
@@ -73,9 +73,9 @@ def test_a_part_of_a_movement_is_not_that_movement() -> None:
     whole = np.linspace([0, 0, 0], [3, 0, 0], 30)
     short, long = (Primitives(f, np.array([len(f)]), np.array([0])) for f in (whole[:8], whole))
     for unknown, known in ((short, long), (long, short)):
-        found = label_costs(unknown, known, np.zeros(1, int), 1, radius=0.3)
+        found = compute_label_costs(unknown, known, np.zeros(1, int), 1, radius=0.3)
         assert np.isinf(found).all()
-    assert label_costs(long, long, np.zeros(1, int), 1, radius=0.3).item() < 1e-5
+    assert compute_label_costs(long, long, np.zeros(1, int), 1, radius=0.3).item() < 1e-5
 
 
 def test_a_fragment_does_not_stand_for_its_run() -> None:
@@ -85,7 +85,7 @@ def test_a_fragment_does_not_stand_for_its_run() -> None:
         np.concatenate([line, fragment, line[::-1]]), np.array([20, 4, 20]), np.zeros(3, int)
     )
     still = Primitives(np.zeros((4, 3)), np.array([4]), np.array([0]))
-    assert np.isinf(label_costs(still, run, np.zeros(3, int), 1, radius=0.3)).all()
+    assert np.isinf(compute_label_costs(still, run, np.zeros(3, int), 1, radius=0.3)).all()
 
 
 def test_what_matches_through_others_is_one_movement() -> None:

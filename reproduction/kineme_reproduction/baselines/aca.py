@@ -62,7 +62,7 @@ def aca(features: Floats, preset: AcaConstants) -> Segments:
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
-        At 120 Hz, such as `joints.log_maps`.
+        At 120 Hz, such as `compute_log_maps`.
     preset : AcaConstants
         Told the number of classes; equal seeds give equal results.
 

@@ -36,7 +36,7 @@ def gmm(features: Floats, preset: GmmConstants) -> Segments:
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
-        Such as the quaternions of `joints.joint_quaternions`.
+        Such as the quaternions of `compute_joint_quaternions`.
     preset : GmmConstants
         Told the number of Gaussians.
 

@@ -43,7 +43,7 @@ def haca_levels(features: Floats, preset: HacaConstants) -> tuple[Segments, Segm
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
-        At 120 Hz, such as `joints.log_maps`.
+        At 120 Hz, such as `compute_log_maps`.
     preset : HacaConstants
         Told the number of classes; equal seeds give equal results.
 

@@ -1,7 +1,7 @@
 """Two methods that cut where a model of the frames so far stops to fit (Barbič et al. 2004).
 
 The features are the quaternions of 14 joints in one row per frame
-(`joints.joint_quaternions`); lengths are the paper's frame numbers at 120 Hz,
+(`compute_joint_quaternions`); lengths are the paper's frame numbers at 120 Hz,
 in seconds. Both methods start anew at each cut, and find no clusters.
 
 Source: Barbič, Safonova, Pan, Faloutsos, Hodgins and Pollard, "Segmenting

@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from kineme.cli.terminal import Console
-from kineme.segments.colors import cluster_color
+from kineme.segments.colors import get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -208,7 +208,7 @@ def _format_span(number: int, row: Segment) -> tuple[str, ...]:
 
 def format_cluster(cluster: int) -> RenderableType:
     """Return a cluster with its colour; nothing for none."""
-    return Text.assemble(("■ ", cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
+    return Text.assemble(("■ ", get_cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
 
 
 def _choose_style(row: Segment) -> str:

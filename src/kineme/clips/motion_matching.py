@@ -29,7 +29,7 @@ from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
 from kineme.clips.shaping import planted_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import end_effectors, heading
+from kineme.features import compute_heading, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.arrays import to_samples
 from kineme.recordings.kinematics import compute_local_translations
@@ -136,7 +136,7 @@ def _describe(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
     """Return features, poses and contacts of each frame, float32 but for the contacts."""
     try:
         ends = end_effectors(motion)
-        pelvis, angles = heading(motion, effectors=ends)
+        pelvis, angles = compute_heading(motion, effectors=ends)
     except (EndEffectorError, MotionError) as error:
         raise ParameterError(f"motion_matching needs a body: {error}") from error
     place = _smooth(motion.positions[:, pelvis] * [1.0, 0.0, 1.0], SMOOTH_PLACE)

@@ -20,7 +20,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.clips.loops import Carry
 from kineme.errors import EndEffectorError, MotionError
-from kineme.features import heading
+from kineme.features import compute_heading
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root, get_rig
@@ -178,7 +178,7 @@ def _arc(turn: float) -> Floats:
 def _facing(motion: Motion) -> float:
     """Where the body looks in the mean, radians from +z; 0 where nothing tells."""
     try:
-        _, angles = heading(motion)
+        _, angles = compute_heading(motion)
     except (EndEffectorError, MotionError):
         return 0.0
     # Circular mean: angles near pi and -pi are neighbours.

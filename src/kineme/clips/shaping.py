@@ -25,7 +25,7 @@ from kineme.clips.tags import Tag, Travel, travel_of
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.joints import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import PARTS, body_frame, end_effectors
+from kineme.features import PARTS, compute_body_frame, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.arrays import find_spans, to_samples
 from kineme.recordings.operations import cut, resample
@@ -311,7 +311,7 @@ def _poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
     try:
         ends = end_effectors(clip)
         # First and last frame only.
-        relative = body_frame(clip, ends.indices)[[0, -1]]
+        relative = compute_body_frame(clip, ends.indices)[[0, -1]]
     except (EndEffectorError, MotionError):
         return None
     heights = clip.positions[[0, -1], clip.skeleton.carrier, 1]

@@ -17,7 +17,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.errors import EndEffectorError, MotionError
-from kineme.features import EndEffectors, end_effectors, heading
+from kineme.features import EndEffectors, compute_heading, end_effectors
 from kineme.features.body_frame import find_facing, find_parting
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import compute_world_rotations
@@ -101,7 +101,7 @@ def travel_of(motion: Motion) -> Travel | None:
         return None
     try:
         ends = end_effectors(motion)
-        pelvis, headings = heading(motion, effectors=ends)
+        pelvis, headings = compute_heading(motion, effectors=ends)
         looks = headings if motion.rotations is None else _looks(motion, motion.rotations, ends)
     except (EndEffectorError, MotionError):
         return None

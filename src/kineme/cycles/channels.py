@@ -43,7 +43,7 @@ from kineme.cycles.joints import (
     remove_along,
 )
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.features import body_frame, heading
+from kineme.features import compute_body_frame, compute_heading
 from kineme.features.feet import measure_speed
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import SIDES
@@ -194,7 +194,7 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
 
     try:
         # Without jumps by 360 degrees.
-        facing = np.degrees(np.unwrap(heading(motion)[1]))
+        facing = np.degrees(np.unwrap(compute_heading(motion)[1]))
     except (EndEffectorError, MotionError):
         facing = None  # nothing tells where the body faces
     _add_bends(extended.positions, parts, add)
@@ -223,7 +223,7 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
     for joint, name in joints:
         add_axes(name, "xyz", "m", "position", joint, partial(np.asarray, places[:, joint]))
     for joint, name in joints if faces else []:
-        compute = partial(body_frame, motion, (joint,))
+        compute = partial(compute_body_frame, motion, (joint,))
         add_axes(name, ("left", "up", "ahead"), "m", "from the pelvis", joint, compute)
     for joint, name in joints:
         compute = partial(measure_speed, places[:, joint], motion.fps)

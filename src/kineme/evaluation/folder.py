@@ -46,7 +46,7 @@ NUMBER_OF_CLASSES = "n_classes"
 
 
 @dataclass(frozen=True)
-class Evaluated:
+class RecordingScores:
     """One method on one recording of ``length_s``: results by score, or the error why not.
 
     ``seconds`` are what segmenting took; ``notes`` what is unusual about the labels.
@@ -72,7 +72,7 @@ class FolderScores:
     Clusters were mapped to classes for each recording, or at once for the folder.
     """
 
-    methods: Mapping[str, Sequence[Evaluated]]
+    methods: Mapping[str, Sequence[RecordingScores]]
     mapping: Mapped
 
     def pool_scores(self, method: str) -> dict[str, float]:
@@ -186,7 +186,7 @@ def evaluate_folder(
         answers[job] = answer
         if progress is not None:
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
-    results: dict[str, list[Evaluated]] = {}
+    results: dict[str, list[RecordingScores]] = {}
     for name in methods:
         of_method = [(job, answers[job]) for job in jobs if job.method == name]
         if progress is not None and mapping == "folder":
@@ -196,9 +196,9 @@ def evaluate_folder(
         else:
             compared = [answer.compared for _, answer in of_method]
         results[name] = [
-            Evaluated(job.path.name, error=answer.error)
+            RecordingScores(job.path.name, error=answer.error)
             if one is None
-            else Evaluated(
+            else RecordingScores(
                 job.path.name, answer.seconds, answer.length_s, compute_results(one), answer.notes
             )
             for (job, answer), one in zip(of_method, compared, strict=True)
@@ -293,7 +293,7 @@ def _fits(name: str, *patterns: str) -> bool:
     return any(fnmatchcase(name.lower(), pattern.lower()) for pattern in patterns)
 
 
-def recordings_below(folder: Path) -> list[Path]:
+def find_recordings(folder: Path) -> list[Path]:
     """Return the recordings in a folder and in the folders in it, one at least, by name."""
     from kineme.formats.listing import scan_folder
 

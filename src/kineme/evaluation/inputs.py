@@ -72,7 +72,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
         raise ReadError(path, str(error)) from error
 
 
-def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
+def score_agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     """Return the scores of a result, another segmentation of the recording taken for the truth.
 
     Examples
@@ -88,7 +88,7 @@ def agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
     return {name: value for name, value in scores.items() if isfinite(value)}
 
 
-def differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, float]]:
+def find_differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, float]]:
     """Spans in seconds, in order, in which two segmentations of a recording differ.
 
     Those no longer than the tolerance of borders are none; nor is what the truth calls a

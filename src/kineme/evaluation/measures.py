@@ -165,15 +165,15 @@ def edit_score(compared: Comparison) -> float:
     """
     true = [run.label for run in compared.true_runs]
     found = [run.label for run in compared.mapped_runs]
-    return 1 - edit_distance(true, found) / max(len(true), len(found))
+    return 1 - compute_edit_distance(true, found) / max(len(true), len(found))
 
 
-def edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
+def compute_edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
     """Return the fewest insertions, deletions and exchanges that turn one sequence into another.
 
     Examples
     --------
-    >>> edit_distance([1, 2, 3], [1, 3, 3, 4])
+    >>> compute_edit_distance([1, 2, 3], [1, 3, 3, 4])
     2
     """
     # Distances from the empty sequence: as many insertions.

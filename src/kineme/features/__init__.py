@@ -4,9 +4,9 @@ Where there is no body: distances between points. ``bundling`` is not loaded
 here: it comes with compiled code.
 """
 
-from kineme.features.body_frame import body_frame, heading
+from kineme.features.body_frame import compute_body_frame, compute_heading
 from kineme.features.distances import compute_distance_features
-from kineme.features.effectors import PARTS, EndEffectors, Names, body_size, end_effectors
+from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors, measure_body_size
 from kineme.features.mirroring import mirror, mirror_features
 from kineme.features.pose import pose_features, round_offsets, stack
 
@@ -14,11 +14,11 @@ __all__ = [
     "PARTS",
     "EndEffectors",
     "Names",
-    "body_frame",
-    "body_size",
+    "compute_body_frame",
     "compute_distance_features",
+    "compute_heading",
     "end_effectors",
-    "heading",
+    "measure_body_size",
     "mirror",
     "mirror_features",
     "pose_features",

@@ -27,7 +27,7 @@ from kineme.recordings import Motion, Skeleton
 _UPRIGHT = 1e-6  # horizontal part of the unit axis below which it has no direction
 
 
-def body_frame(
+def compute_body_frame(
     motion: Motion, joints: tuple[int, ...] | None = None, *, effectors: EndEffectors | None = None
 ) -> Floats:
     """Positions (frames, joints, 3) relative to the pelvis, heading removed, in metres.
@@ -56,9 +56,9 @@ def body_frame(
     Examples
     --------
     >>> import kineme
-    >>> from kineme.features import body_frame
+    >>> from kineme.features import compute_body_frame
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> body_frame(motion).shape == motion.positions.shape
+    >>> compute_body_frame(motion).shape == motion.positions.shape
     True
     """
     pelvis, cos, sin = _compute_turns(motion, effectors or end_effectors(motion))
@@ -71,18 +71,18 @@ def body_frame(
     return relative
 
 
-def heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[int, Floats]:
+def compute_heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[int, Floats]:
     """Return the pelvis's joint, and the angles (frames,) by which the body looks away from +z.
 
-    Radians about the vertical, positive towards +x: what ``body_frame`` takes
-    away. Arguments and errors are those of ``body_frame``.
+    Radians about the vertical, positive towards +x: what ``compute_body_frame`` takes
+    away. Arguments and errors are those of ``compute_body_frame``.
 
     Examples
     --------
     >>> import kineme
-    >>> from kineme.features import heading
+    >>> from kineme.features import compute_heading
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> pelvis, angles = heading(motion)
+    >>> pelvis, angles = compute_heading(motion)
     >>> motion.skeleton.names[pelvis], angles.shape
     ('Hips', (2898,))
     """

@@ -192,7 +192,7 @@ def _find_upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
     return place_at_rest(source)
 
 
-def body_size(motion: Motion, effectors: EndEffectors) -> float:
+def measure_body_size(motion: Motion, effectors: EndEffectors) -> float:
     """Length of the chain of bones from the ankles to the head, in metres.
 
     The legs' mean plus the trunk's, at rest: close to the height of the person.
@@ -207,9 +207,9 @@ def body_size(motion: Motion, effectors: EndEffectors) -> float:
     Examples
     --------
     >>> import kineme
-    >>> from kineme.features import body_size
+    >>> from kineme.features import measure_body_size
     >>> motion = kineme.read(kineme.bundled_recording())
-    >>> round(body_size(motion, kineme.end_effectors(motion)), 2)
+    >>> round(measure_body_size(motion, kineme.end_effectors(motion)), 2)
     1.72
     """
     legs = [

@@ -23,7 +23,7 @@ Complex = NDArray[np.complex128]
 PAIRS_AT_ONCE = 2048
 
 
-def cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -> Floats:
+def compute_cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -> Floats:
     """``d[i, j]``: clouds around frame i of ``rows`` and frame j of ``columns``, metres.
 
     Parameters

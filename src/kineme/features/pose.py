@@ -1,7 +1,7 @@
 """Pose features, and their stacking with neighbouring frames.
 
 A pose is 15 numbers: x, y, z of the left ankle, right ankle, head, left wrist
-and right wrist in the body's own frame (see ``body_frame``), in metres. Stacked
+and right wrist in the body's own frame (see ``compute_body_frame``), in metres. Stacked
 with the poses some frames before and after, it also tells the direction of
 movement, and is what the neighbour search compares.
 """
@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats, as_indices
 from kineme.errors import ParameterError
-from kineme.features.body_frame import body_frame
+from kineme.features.body_frame import compute_body_frame
 from kineme.features.effectors import EndEffectors, Names, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
@@ -50,7 +50,7 @@ def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = No
     check_motion(motion, "pose_features")
     if not isinstance(effectors, EndEffectors):
         effectors = end_effectors(motion, names=effectors)
-    local = body_frame(motion, effectors.indices, effectors=effectors)
+    local = compute_body_frame(motion, effectors.indices, effectors=effectors)
     return local.reshape(len(local), -1)
 
 

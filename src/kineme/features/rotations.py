@@ -20,7 +20,7 @@ JOINTS = (
 )
 
 
-def joint_quaternions(motion: Motion) -> Floats:
+def compute_joint_quaternions(motion: Motion) -> Floats:
     """Local rotations of the 14 joints, unit quaternions (w, x, y, z) with w >= 0.
 
     Parameters
@@ -50,7 +50,7 @@ def joint_quaternions(motion: Motion) -> Floats:
     return np.where(q[..., :1] < 0, -q, q)
 
 
-def log_maps(quaternions: Floats) -> Floats:
+def compute_log_maps(quaternions: Floats) -> Floats:
     """Half the rotation vector of each quaternion.
 
     Parameters

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Float32s, Floats
 from kineme.errors import MotionError, ParameterError
 from kineme.features.distances import SIZE, compute_distance_features
-from kineme.features.effectors import Names, body_size, end_effectors
+from kineme.features.effectors import Names, end_effectors, measure_body_size
 from kineme.features.pose import pose_features
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample
@@ -94,7 +94,7 @@ def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) 
     try:
         found = end_effectors(motion, names=effectors)
         values = pose_features(motion, effectors=found)
-        values /= BODY_SCALE * body_size(motion, found)
+        values /= BODY_SCALE * measure_body_size(motion, found)
     except MotionError:
         motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
         values = _measure_distances(motion)

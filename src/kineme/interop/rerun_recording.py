@@ -24,7 +24,7 @@ from kineme.errors import ParameterError
 from kineme.formats.gaps import mark_spans
 from kineme.labels.spans import text_of
 from kineme.recordings import Motion
-from kineme.segments.colors import cluster_color
+from kineme.segments.colors import get_cluster_color
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
@@ -147,4 +147,4 @@ def _blueprint(lanes: bool) -> Any:
 
 
 def _rgba(cluster: int) -> int:
-    return int(cluster_color(cluster)[1:] + "FF", 16)
+    return int(get_cluster_color(cluster)[1:] + "FF", 16)

@@ -23,7 +23,7 @@ from kineme.clips.quality import PHASES, LoopQuality
 from kineme.clips.shaping import RankedLoop, loop_qualities, planted_feet
 from kineme.clips.tags import DIRECTIONS, travel_of
 from kineme.errors import KinemeError, ParameterError
-from kineme.features import body_frame, end_effectors
+from kineme.features import compute_body_frame, end_effectors
 from kineme.library.open_library import OpenTables
 from kineme.library.storage.layout import BODIES
 from kineme.recordings import Motion
@@ -186,7 +186,7 @@ def _list_candidates(
         row = own[place]
         clip = cut(motion, row.start_frame, row.stop_frame)
         try:
-            poses = body_frame(clip, end_effectors(clip).indices)
+            poses = compute_body_frame(clip, end_effectors(clip).indices)
             # The last phase is one step before the first comes again.
             at = np.linspace(0, clip.n_frames - 1, PHASES, endpoint=False)
             sampled = interpolate_frames(poses, at)

@@ -5,8 +5,8 @@
 ``region_growing``  the published methods of 2014 and 2017
 =================== ================================================================
 
-A method is used by a preset: its constants with values, and a name.
-`kineme.methods.base` says what a preset and what it finds are made of.
+A preset is a method with a name and values of its constants.
+`kineme.methods.base` defines the interfaces of presets and of their results.
 """
 
 from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset, Unit

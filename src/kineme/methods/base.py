@@ -1,12 +1,12 @@
-"""What every method shares: `Preset`, the constants of a method, and `Found`, what it finds.
+"""Interfaces that every method implements: `Preset` (its constants) and `Found` (its result).
 
-A method is a folder of this room: a class of presets with the function
-``analyze(features, ...)``, which gives a `Found`, and one or more presets with
-values. From there on nothing needs to know which method it was.
+A method is a subfolder of this package. It has a subclass of `Preset`, whose
+``analyze(features, ...)`` returns a `Found`, and one or more presets with values.
+All other code works with any method.
 
-A third party's method is a class of presets of its own, and an object of it
-registered by `kineme.methods.register`, or named in its package as an entry
-point of the group ``kineme.presets``.
+To add a method from another package, subclass `Preset` and register an instance
+with `kineme.methods.register`, or declare it as an entry point in the group
+``kineme.presets``.
 """
 
 from __future__ import annotations
@@ -40,13 +40,13 @@ View = Literal["poses", "quaternions", "rotation vectors"]
 Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 
 RATE = Limits(0.1, 1000.0)
-"""Hertz: of anything that moves."""
+"""Limits of a sampling rate, Hz."""
 
 
 class Found(Protocol):
-    """What a method found, in samples of its working rate.
+    """Result of a method, in samples of its working rate.
 
-    Every method has what is here. Its own stages are further attributes of its class.
+    Every method provides these members. Results of its stages are further attributes.
     """
 
     @property
@@ -54,10 +54,10 @@ class Found(Protocol):
         """Seconds per stage."""
 
     def columns(self) -> Columns:
-        """Columns of a segment table: ``level``, ``kind``, ``start_frame``, ``stop_frame``.
+        """Return the columns of a segment table, with frames counted in samples.
 
-        Frames count samples. ``cluster`` and ``confidence`` go with them, and
-        ``border_confidence`` where the method has probabilities of borders.
+        They are ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster`` and
+        ``confidence``, and ``border_confidence`` if the method estimates it.
         """
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
@@ -66,32 +66,30 @@ class Found(Protocol):
         Parameters
         ----------
         columns : dict of str to array
-            Those of `columns`, in frames of the recording.
+            As returned by `columns`, in frames of the recording.
         fps : float
-            Of the recording.
+            Frame rate of the recording.
         """
 
 
 @runtime_checkable
 class Leveled(Protocol):
-    """What a method can give beside `Found`: the same at other levels of detail."""
+    """Optional extension of `Found`: the result at other levels of detail."""
 
     def levels(
         self, columns: Columns, details: tuple[float, ...] | None = None
     ) -> Mapping[float, Columns]:
-        """Columns of a segment table by their detail: below 1 coarser, above 1 finer.
+        """Return the columns of a segment table by detail: below 1 coarser, above 1 finer.
 
-        A detail may be left out where it is like the next coarser one.
-
-        Every border at one detail is one at any finer one, those of `columns` at detail 1
-        among them.
+        A detail may be missing if its result equals that of the next coarser one.
+        Every border at one detail is also a border at all finer ones.
 
         Parameters
         ----------
         columns : dict of str to array
-            Those of `Found.columns`, which are detail 1.
+            As returned by `Found.columns`: the result at detail 1.
         details : tuple of float, optional
-            Which; by default those that the method offers.
+            Details to return; by default those that the method offers.
         """
 
 
@@ -102,26 +100,26 @@ class Preset(ABC):
     Attributes
     ----------
     name : str
-        By which people choose it.
+        Name that selects it.
     help : str
-        What it is for, in a sentence.
+        Its purpose, in one sentence.
     """
 
     method: ClassVar[str]
     """Name of the method."""
     view: ClassVar[View] = "poses"
-    """Features of a body: positions of five points, or rotations of joints."""
+    """Features computed from a body: positions of five points, or rotations of joints."""
 
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "metres", "standard deviations", "any")
-    """What its lengths can be in."""
+    """Allowed units of its lengths."""
     accepts_joints: ClassVar[bool] = False
-    """Whether channels that are positions of joints become the distances between these.
-    Then `analyze` takes ``joints``: whether the features are such distances."""
+    """Whether channels that are positions of joints are replaced by distances between joints.
+    If so, `analyze` accepts ``joints``, which is True for such features."""
 
     name: str
     help: str
     unit: Unit
-    """What its lengths are in."""
+    """Unit of its lengths."""
     working_fps: float = constant(
         "samples per second at which the recording is looked at",
         unit="Hz",
@@ -151,36 +149,36 @@ class Preset(ABC):
         mirror: Mirror | None = None,
         progress: Progress | None = None,
     ) -> Found:
-        """Return what the method finds in features (samples, dims) at the working rate.
+        """Segment features (samples, dims) at the working rate.
 
         Parameters
         ----------
         features : (samples, dims) array
             In the unit of the preset.
         mirror : callable, optional
-            Exchanges left and right in such features.
+            Swaps left and right in these features.
         progress : callable, optional
             Called with the name of each stage before it runs.
         """
 
     def for_signals(self) -> Self:
-        """Return the preset with its lengths in the unit of channels."""
+        """Return the preset with its lengths converted to the unit of channels."""
         return self
 
     def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
-        """Return how many standard deviations one unit of length is in these features."""
+        """Return the number of standard deviations in one unit of length for these features."""
         return 1.0
 
     def rate_of(self, values: NDArray[np.float64], fps: float) -> float:  # noqa: ARG002
-        """Return how many samples (samples, channels) count as a second: those taken in one."""
+        """Return the rate at which to treat values (samples, channels): by default ``fps``."""
         return fps
 
-    def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods ask for no less)
-        """Return the preset for a recording of that rate, which is the highest working rate."""
+    def at_most(self, fps: float) -> Self:  # noqa: ARG002 (most methods keep their rate)
+        """Return the preset with a working rate of at most ``fps``, the recording's rate."""
         return self
 
     def frames(self, seconds: float) -> int:
-        """Seconds in whole samples of the working rate."""
+        """Convert seconds to a whole number of samples at the working rate."""
         return round(seconds * self.working_fps)
 
     def constants(self) -> tuple[Constant, ...]:
@@ -192,12 +190,12 @@ class Preset(ABC):
         return collect_values(self)
 
     def replace(self, **overrides: Any) -> Self:
-        """Return the same preset with some constants changed.
+        """Return a copy of the preset with some constants changed.
 
         Raises
         ------
         ParameterError
-            A constant that does not exist, or a value it cannot take.
+            A constant does not exist, or its value is not allowed.
 
         Examples
         --------

@@ -1,9 +1,8 @@
 """Constants: the fields of a preset, each with its meaning, unit and limits.
 
-A field made by `constant` carries all that command line, studio and docs show of
-it, so that a constant added to a preset appears in each of them. `check`
-compares a preset with its own fields: types, limits, choices. `suggest_names` names
-the constant nearest to a wrong name.
+`constant` creates a field with all that the command line, studio and docs show of
+it, so a constant added to a preset appears in each of them. `check` validates the
+types, limits and choices of a preset. `suggest_names` corrects misspelt names.
 """
 
 from __future__ import annotations
@@ -20,16 +19,16 @@ import numpy as np
 
 from kineme.errors import ParameterError
 
-HOUR = 3600.0
-"""Seconds: no time that a method looks at is longer."""
-LONGEST = 1e4
-"""Metres, body sizes or standard deviations: no distance between two samples is larger."""
-MOST = 1_000_000
-"""Of whatever is counted."""
+MAX_TIME = 3600.0
+"""Largest value of a constant that is a time, s."""
+MAX_LENGTH = 1e4
+"""Largest value of a constant that is a length: metres, body sizes or standard deviations."""
+MAX_COUNT = 1_000_000
+"""Largest value of a constant that is a count."""
 
 
 class Limits(NamedTuple):
-    """Values that a number may take: from ``minimum``, or above it, to ``maximum``."""
+    """Range of a number: from ``minimum`` (exclusive if ``above``) to ``maximum``."""
 
     minimum: float
     maximum: float
@@ -50,17 +49,17 @@ class Limits(NamedTuple):
         )
 
     def describe(self) -> str:
-        """Return the limits in words."""
+        """Describe the limits in words."""
         low = f"above {self.minimum:g}" if self.above else f"from {self.minimum:g}"
         return f"a number {low} to {self.maximum:g}"
 
 
-TIME = Limits(0.0, HOUR)
-SOME_TIME = Limits(0.0, HOUR, above=True)
-LENGTH = Limits(0.0, LONGEST)
-SOME_LENGTH = Limits(0.0, LONGEST, above=True)
-COUNT = Limits(0, MOST)
-SOME = Limits(1, MOST)
+TIME = Limits(0.0, MAX_TIME)
+SOME_TIME = Limits(0.0, MAX_TIME, above=True)
+LENGTH = Limits(0.0, MAX_LENGTH)
+SOME_LENGTH = Limits(0.0, MAX_LENGTH, above=True)
+COUNT = Limits(0, MAX_COUNT)
+SOME = Limits(1, MAX_COUNT)
 SHARE = Limits(0.0, 1.0)
 SOME_SHARE = Limits(0.0, 1.0, above=True)
 FACTOR = Limits(0.0, 1000.0)
@@ -68,7 +67,7 @@ SOME_FACTOR = Limits(0.0, 1000.0, above=True)
 
 
 class Slider(NamedTuple):
-    """Range within which a page offers to change a constant, and in which steps."""
+    """Range and step of the slider that web pages show for a constant."""
 
     minimum: float
     maximum: float
@@ -77,28 +76,28 @@ class Slider(NamedTuple):
 
 @dataclass(frozen=True)
 class Constant:
-    """One constant of a preset, as people are shown it.
+    """A constant of a preset, as shown to users.
 
     Parameters
     ----------
     name : str
-        Of the field.
+        Name of the field.
     help : str
         What it does, in a phrase.
     unit : str
         ``s``, ``Hz``, ``body sizes``, ``metres``, or empty.
     value : Any
-        Of the preset at hand.
+        Its value in this preset.
     hint : Any
         Its type.
     limits : Limits, optional
-        Of numbers.
+        Range of a number.
     slider : Slider, optional
-        For the few that pages offer.
+        Slider on web pages; None if pages do not show it.
     fine : bool
-        Whether it is one that hardly anybody needs to change.
+        Whether it rarely needs to be changed.
     default : Any
-        Of all presets of its class; ``dataclasses.MISSING`` where each has its own.
+        Default of the preset's class; ``dataclasses.MISSING`` if the class has none.
     """
 
     name: str
@@ -113,7 +112,7 @@ class Constant:
 
     @property
     def allowed(self) -> str:
-        """Return the values that it may take, in words; empty for a text.
+        """Describe the allowed values in words; empty for free text.
 
         Examples
         --------
@@ -147,7 +146,7 @@ def constant(
     fine: bool = False,
     default: Any = MISSING,
 ) -> Any:
-    """Return a field of a preset, with its help, unit and limits.
+    """Create a field of a preset, with its help, unit and limits.
 
     Parameters
     ----------
@@ -156,13 +155,13 @@ def constant(
     unit : str
         As in `Constant`.
     limits : Limits, optional
-        Of a number, or of each in a tuple.
+        Range of the number, or of each number of a tuple.
     slider : tuple of float, optional
-        Smallest and largest value that a page offers, and the step.
+        Minimum, maximum and step of the slider on web pages.
     fine : bool
-        Whether hardly anybody needs to change it.
+        Whether it rarely needs to be changed.
     default : Any
-        Of all presets of the class; none if each has its own.
+        Default of the class; leave out if each preset sets its own value.
     """
     details = {
         "help": text,
@@ -176,23 +175,23 @@ def constant(
 
 def list_constants(preset: Any) -> tuple[Constant, ...]:
     """Return the constants of a preset, in the order of its fields."""
-    hints = _hints(preset.__class__)
+    hints = _get_type_hints(preset.__class__)
     defaults = {each.name: each.default for each in fields(preset)}
     return tuple(
         Constant(
             name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **details
         )
-        for name, details in _details(preset.__class__).items()
+        for name, details in _get_details(preset.__class__).items()
     )
 
 
 def collect_values(preset: Any) -> dict[str, Any]:
     """Return the value of each constant of a preset by name."""
-    return {name: getattr(preset, name) for name in _details(preset.__class__)}
+    return {name: getattr(preset, name) for name in _get_details(preset.__class__)}
 
 
 def check(preset: Any) -> None:
-    """ParameterError for the first constant whose value it cannot take; a count of 3.0 is 3."""
+    """Raise ParameterError for the first invalid constant; convert counts such as 3.0 to int."""
     for each in list_constants(preset):
         _check(each.name, each.value, each.hint, each.limits, each.unit)
         if each.hint is int and type(each.value) is not int:
@@ -200,7 +199,7 @@ def check(preset: Any) -> None:
 
 
 def suggest_names(name: str, names: Collection[str]) -> str:
-    """Return the hint for a name that is none of these: the nearest, or all there are.
+    """Return a hint for an unknown name: the most similar name, or else all names.
 
     Examples
     --------
@@ -209,12 +208,14 @@ def suggest_names(name: str, names: Collection[str]) -> str:
     >>> suggest_names("width", ["radius", "min_action"])
     'there are radius, min_action'
     """
-    near = get_close_matches(name, names, n=1)
-    return f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
+    similar = get_close_matches(name, names, n=1)
+    return f"did you mean {similar[0]}?" if similar else f"there are {', '.join(names)}"
 
 
 def _check(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
+    """Raise ParameterError if the value does not fit the type hint and limits."""
     members = get_args(hint)
+    # `T | None`: None is valid, any other value is checked as a `T`.
     if NoneType in members:
         if value is None:
             return
@@ -240,15 +241,15 @@ def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: 
     members = get_args(hint)
     if not isinstance(value, tuple) or not value:
         raise ParameterError(f"{name} must be a tuple of numbers, not {value!r:.60}")
-    fixed = Ellipsis not in members
-    if fixed and len(value) != len(members):
+    is_fixed_length = Ellipsis not in members
+    if is_fixed_length and len(value) != len(members):
         raise ParameterError(f"{name} must be {len(members)} numbers, not {value!r:.60}")
     for each in value:
         _check(f"each of {name}", each, members[0], limits, unit)
 
 
 @cache
-def _details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
+def _get_details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
     return {
         each.name: each.metadata["constant"]
         for each in fields(cast(Any, kind))
@@ -257,5 +258,5 @@ def _details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
 
 
 @cache
-def _hints(kind: Hashable) -> dict[str, Any]:
+def _get_type_hints(kind: Hashable) -> dict[str, Any]:
     return get_type_hints(cast(Any, kind))

@@ -1,8 +1,7 @@
-"""Segmenter: segmentation by scikit-learn's rules, for arrays, data frames and grid searches.
+"""Segmenter: segmentation as a scikit-learn estimator, for arrays, data frames and grid searches.
 
-Rows are samples in time order, columns channels. Unlike the clusterers of
-scikit-learn, this one depends on that order: rows that are shuffled are another
-recording.
+Rows are samples in time order, columns are channels. Unlike the clusterers of
+scikit-learn, this one depends on the order of the rows.
 """
 
 from __future__ import annotations
@@ -26,54 +25,55 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 EVERY_DETAIL = (*(k / 64 for k in range(1, 64)), *(2 ** (k / 8) for k in range(1, 49)))
-"""Details among which that with so many segments or states is looked for."""
+"""Details that are searched for the wanted number of segments or states."""
 
 
 class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
-    """Segments of a time series; ``fit_predict`` gives a state for each row.
+    """Estimator that segments a time series; ``fit_predict`` returns a state for each row.
 
     Parameters
     ----------
     preset : str or Preset
         ``kineme``, or another of `kineme.PRESETS`.
     fps : float, optional
-        Rows per second; by default what the times of a data frame say, as `kineme.as_signals` finds
-        them, else 30, or the working rate of the preset if that is lower, with a warning.
+        Rows per second. By default it follows from the times of a data frame, see
+        `kineme.as_signals`; without times it is 30, or the working rate of the preset if that
+        is lower, with a warning.
     level : {"activity", "primitive"}
-        Whose segments are states and change points.
+        Level whose segments become states and change points.
     n_segments, n_states : int, optional
-        How many segments or different states are wanted: the level of the hierarchy that has as
-        many, else the nearest, with a warning. By default the method decides.
+        Wanted number of segments or of different states. The level of detail with this number
+        is chosen, or else the nearest, with a warning. By default the method decides.
     standardize : bool
         Divide each column by its standard deviation; not for an embedding.
     unit : float, optional
-        The length in the columns that counts as one unit of the preset's lengths; by default
-        the preset finds it in the rows.
+        Length in the columns that counts as one unit of the preset's lengths; by default
+        the preset estimates it from the rows.
     emg : bool
-        Take the envelopes of muscle signals first.
+        Compute the envelopes of muscle signals first.
     **constants
-        Of the preset, to change, as in `kineme.segment`; they are parameters like the others
-        for ``get_params``, ``set_params`` and grid searches.
+        Constants of the preset to change, as in `kineme.segment`. They are parameters like the
+        others for ``get_params``, ``set_params`` and grid searches.
 
     Attributes
     ----------
     labels_ : (rows,) array of int
-        State of each row: the cluster of its segment. All transitions are one state more, and
-        rows in a gap are in the state before it.
+        State of each row: the cluster of its segment. All transitions form one additional
+        state. Rows in a gap take the state before it.
     change_points_ : (changes,) array of int
-        Rows, in order of time, at which a segment begins; not the first.
+        Rows at which a segment begins, in order of time, without the first.
     n_states_ : int
     segmentation_ : Segmentation
-        Activities and repetitions in frames and seconds; frames are rows where their times are
-        even.
+        Activities and repetitions in frames and seconds; frames equal rows if these are evenly
+        spaced in time.
     n_features_in_ : int
     feature_names_in_ : (columns,) array
-        Where X had names.
+        Only if X had names.
 
     Raises
     ------
     ParameterError
-        In ``fit``: a constant that the preset does not have, or a value it cannot take.
+        In ``fit``: the preset has no such constant, or its value is not allowed.
 
     Examples
     --------
@@ -111,7 +111,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         self._constants = constants
 
     def fit(self, X: Any, y: Any = None) -> Self:  # noqa: ARG002, N803 (scikit-learn's names)
-        """Segment the rows of X, (rows,) or (rows, channels); y is for scikit-learn alone."""
+        """Segment the rows of X, (rows,) or (rows, channels); y is ignored."""
         for name in ("n_segments", "n_states"):
             wanted = getattr(self, name)
             if wanted is not None and not (
@@ -133,15 +133,14 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return self
 
     def predict(self, X: Any) -> Ints:  # noqa: N803
-        """Return the states of another recording: those of its segments in what was fitted.
+        """Segment another recording and assign its segments to the fitted states.
 
-        Each of its segments is in the state whose rows are nearest on average, see
-        `kineme.transfer`.
+        Each segment takes the state whose rows are nearest on average, see `kineme.transfer`.
 
         Parameters
         ----------
         X : (rows,) or (rows, channels) array_like
-            Of the same channels.
+            Rows of the same channels.
 
         Returns
         -------
@@ -151,10 +150,10 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
 
         check_is_fitted(self)
         signals, frames = self._read(X, reset=False)
-        found = self._segment(signals).level(self.level)
-        borders = zip(found.start_frame.tolist(), found.stop_frame.tolist(), strict=True)
+        segments = self._segment(signals).level(self.level)
+        borders = zip(segments.start_frame.tolist(), segments.stop_frame.tolist(), strict=True)
         states = assign_to_labels(self._signals, self._states, signals, [*borders])
-        return np.repeat(states, found.stop_frame - found.start_frame)[frames]
+        return np.repeat(states, segments.stop_frame - segments.start_frame)[frames]
 
     def _read(self, X: Any, *, reset: bool) -> tuple[Signals, Ints]:  # noqa: N803
         """Return the rows as signals, and the frame of each row."""
@@ -171,12 +170,12 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
             named = X[channels] if channels else signals.values
             validate_data(self, named, **options)
             return signals, timing.frames_of_rows(len(X))
-        # one channel may come as a vector, of numbers alone
-        row = np.asarray(X) if isinstance(X, list | tuple) else X
-        of_one = reset or self.n_features_in_ == 1
-        if getattr(row, "ndim", 2) == 1 and row.dtype.kind in "iufb" and of_one:
-            row = row.reshape(-1, 1)
-        values = validate_data(self, row, **options)
+        # A single channel may be a vector of numbers.
+        rows = np.asarray(X) if isinstance(X, list | tuple) else X
+        one_channel = reset or self.n_features_in_ == 1
+        if getattr(rows, "ndim", 2) == 1 and rows.dtype.kind in "iufb" and one_channel:
+            rows = rows.reshape(-1, 1)
+        values = validate_data(self, rows, **options)
         signals, timing = read_samples(values, fps=self.fps, assumed_fps=assumed)
         return signals, timing.frames_of_rows(len(values))
 
@@ -192,7 +191,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return segment_with_options(signals, options, details=details)[0]
 
     def _choose(self, result: Segmentation) -> Segmentation:
-        """Return the level of the hierarchy with as many segments or states as are wanted."""
+        """Return the level of detail with the wanted number of segments or states, or nearest."""
         wanted = self.n_segments or self.n_states
         if wanted is None:
             return result
@@ -201,12 +200,12 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
             raise ParameterError(f"{name} has one level: leave out n_segments and n_states")
         tables = [table.select(table.level == self.level) for table in result.hierarchy.tables]
         counts = [len(t) if self.n_segments else len(np.unique(t.cluster)) for t in tables]
-        # the coarsest of the nearest
-        at = int(np.abs(np.array(counts) - wanted).argmin())
-        if counts[at] != wanted:
-            unit = "segment" if self.n_segments else "state"
-            warn(f"no level has {format_count(int(wanted), unit)}: the nearest has {counts[at]}")
-        return result.at_detail(result.hierarchy.details[at])
+        # `argmin` takes the first of equal ones, which is the coarsest.
+        nearest = int(np.abs(np.array(counts) - wanted).argmin())
+        if counts[nearest] != wanted:
+            unit = format_count(int(wanted), "segment" if self.n_segments else "state")
+            warn(f"no level has {unit}: the nearest has {counts[nearest]}")
+        return result.at_detail(result.hierarchy.details[nearest])
 
     def __sklearn_tags__(self) -> Any:
         tags = super().__sklearn_tags__()
@@ -214,20 +213,20 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return tags
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
-        """Return the parameters and the constants that were changed."""
+        """Return the parameters and the changed constants."""
         return {**super().get_params(deep=deep), **self._constants}
 
     def set_params(self, **params: Any) -> Self:
-        """Change parameters or constants of the preset; ``fit`` says which values it cannot take.
+        """Change parameters or constants of the preset; ``fit`` checks their values.
 
         Raises
         ------
         ParameterError
-            The preset has no constant of a name.
+            The preset has no constant of this name.
         """
         options = set(self._get_param_names())
         constants = {name: value for name, value in params.items() if name not in options}
-        allowed = _constants_of(params.get("preset", self.preset)) if constants else {}
+        allowed = _get_constants(params.get("preset", self.preset)) if constants else {}
         for name in constants:
             if allowed and name not in allowed and name not in self._constants:
                 raise ParameterError(
@@ -239,8 +238,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         return self
 
 
-def _constants_of(preset: str | Preset) -> Mapping[str, Any]:
-    """Return the constants of a preset by name; none of what is no preset, which ``fit`` says."""
+def _get_constants(preset: str | Preset) -> Mapping[str, Any]:
+    """Return the constants of a preset by name; empty if invalid, which ``fit`` reports."""
     try:
         return resolve_preset(preset, signals=True).parameters()
     except ParameterError:
@@ -248,7 +247,7 @@ def _constants_of(preset: str | Preset) -> Mapping[str, Any]:
 
 
 def _fill_states(result: Segmentation, level: Level, signals: Signals) -> Ints:
-    """Return the state of each frame: clusters, transitions as one more, gaps as before them."""
+    """Return the state of each frame: its cluster; see `Segmenter.labels_`."""
     states = result.per_frame("cluster", level=level).astype(np.int64)
     states[states < 0] = states.max() + 1
     for start, stop in signals.gaps:

@@ -1,15 +1,16 @@
-"""What a method sees of a recording: features at its working rate, between the gaps.
+"""Compute the features that a method analyses: at its working rate, for each span between gaps.
 
-A motion is seen by the poses of head, hands and feet in the body's own frame, else by rotations
-of joints or distances of points; channels by their values over their standard deviations.
-Distances of channels are divided by √(window · channels), so that a radius R means the same
-whatever the number of channels: the generalised radius r = R √(window · channels) of Krüger et
-al. 2017. The published methods' lengths, metres of a body, become standard deviations (see their
-presets). The method ``kineme`` takes its unit from the recording itself: the distance at which
-its samples recur, of which noise and irregularity are part.
+Features of a motion are the positions of head, hands and feet in the body's own frame, or else
+rotations of joints or distances between points. Features of channels are their values divided by
+their standard deviations.
 
-Places of a body's points among the channels say where somebody stands and which way they face,
-and only then how. So they are replaced by how far points are from each other.
+Distances of channels are divided by √(window · channels), so that a radius R does not depend on
+the number of channels: the generalised radius r = R √(window · channels) of Krüger et al. 2017.
+Lengths of the published methods are converted from metres to standard deviations (see their
+presets). The method ``kineme`` estimates its unit from the recording.
+
+Coordinates of a body's points depend mostly on where somebody stands and which way they face. So
+channels with such coordinates are replaced by distances between the points.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ from kineme._util.arrays import Floats
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
     EndEffectors,
-    body_size,
     compute_distance_features,
     end_effectors,
+    measure_body_size,
     mirror_features,
     pose_features,
     round_offsets,
@@ -36,7 +37,7 @@ from kineme.features.channels import resample_channels, standardize_channels
 from kineme.features.distances import SIZE, have_bones
 from kineme.features.effectors import Names, suggest_remedy
 from kineme.features.emg import emg_envelope
-from kineme.features.rotations import joint_quaternions, log_maps
+from kineme.features.rotations import compute_joint_quaternions, compute_log_maps
 from kineme.methods.base import Mirror, Preset
 from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import group_axes, is_body
@@ -45,14 +46,14 @@ from kineme.recordings.operations import resample, split_at_gaps
 
 @dataclass(frozen=True)
 class RecordedSpan:
-    """A span of a recording without a gap.
+    """A span of a recording without gaps.
 
     Attributes
     ----------
     start, stop : int
-        Its frames of the recording.
+        Frames of the recording.
     n_samples : int
-        How many samples it has at the working rate.
+        Number of samples at the working rate.
     """
 
     start: int
@@ -67,14 +68,14 @@ class Prepared:
     Attributes
     ----------
     features : sequence of (samples, dims) arrays
-        One of each span without a gap.
+        One array for each span without gaps.
     spans : sequence of RecordedSpan
     notes : sequence of str
-        What is to be known of them.
+        How the features were made, for the result's notes.
     mirror : callable, optional
-        Exchanges left and right in the features, where they have these.
+        Swaps left and right in the features; None if they have no sides.
     joints : bool
-        Whether channels are places of joints, and the preset wants to be told.
+        Whether the features are distances between joints, made from channels.
     """
 
     features: Sequence[Floats]
@@ -92,15 +93,15 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
     motion : Motion
     preset : Preset
     effectors : joints, optional
-        To take for head, hands and feet where names do not tell. Where these are not found
-        either, the distances between points are looked at instead of a body.
+        Joints to use as head, hands and feet if their names are not recognised. If no body is
+        ends, features are distances between points.
 
     Raises
     ------
     MotionError
-        The joints named are not those of a body, or there is a single point.
+        The named joints are not those of a body, or there is only one point.
     ParameterError
-        Mirroring where nothing tells left from right.
+        The preset mirrors, but left and right are unknown.
     """
     spans = split_at_gaps(motion)
     motions = [resample(span, preset.working_fps) for _, span in spans]
@@ -114,19 +115,19 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
             return Prepared([_compute_rotations(span, preset) for span in motions], recorded, [])
         except MotionError as error:
             notes.append(f"{error}: seen by the positions of head, hands and feet")
-    # The body does not change its size: the longest span tells it best.
+    # The size of a body is constant: measure it in the longest span.
     longest = max((span for _, span in spans), key=lambda span: span.n_frames)
     try:
-        found = end_effectors(motion, names=effectors)
-        size = body_size(longest, found) if preset.unit == "body sizes" else 1.0
-        poses = [pose_features(span, effectors=found) for span in motions]
-        notes.append(f"end effectors: {found.describe(motion.skeleton)}")
+        ends = end_effectors(motion, names=effectors)
+        size = measure_body_size(longest, ends) if preset.unit == "body sizes" else 1.0
+        poses = [pose_features(span, effectors=ends) for span in motions]
+        notes.append(f"end effectors: {ends.describe(motion.skeleton)}")
     except MotionError as error:
         if effectors is not None:
             raise
         size = SIZE
-        poses, note = _measure_distances(motions, preset, error)
-        notes += note
+        poses, distance_notes = _measure_distances(motions, preset, error)
+        notes += distance_notes
     return Prepared(
         [_stack_poses(pose, preset, size) for pose in poses], recorded, notes, mirror_features
     )
@@ -135,36 +136,36 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
 def compute_motion_features(
     motion: Motion, preset: Preset, *, effectors: EndEffectors | None = None
 ) -> Floats:
-    """Features (frames, dims) of a motion at the preset's working rate.
+    """Compute the features (frames, dims) of a motion at the preset's working rate.
 
-    In metres for the published methods; for ``kineme`` in body sizes, over the
-    root of the number of stacked poses, so that distances do not depend on
-    either.
+    They are in metres for the published methods. For ``kineme`` they are in body sizes,
+    divided by the root of the number of stacked poses, so that distances do not depend
+    on the body or on the stacking.
     """
     effectors = effectors or end_effectors(motion)
-    size = body_size(motion, effectors) if preset.unit == "body sizes" else 1.0
+    size = measure_body_size(motion, effectors) if preset.unit == "body sizes" else 1.0
     pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
     return _stack_poses(pose, preset, size)
 
 
 def _compute_rotations(motion: Motion, preset: Preset) -> Floats:
-    turned = joint_quaternions(motion)
+    quaternions = compute_joint_quaternions(motion)
     if preset.view == "rotation vectors":
-        return log_maps(turned)
-    return turned.reshape(motion.n_frames, -1)
+        return compute_log_maps(quaternions)
+    return quaternions.reshape(motion.n_frames, -1)
 
 
 def _measure_distances(
     motions: list[Motion], preset: Preset, error: MotionError
 ) -> tuple[list[Floats], list[str]]:
-    """Return the distances between the points of each span, and notes that say so and why."""
+    """Return the distances between points for each span, and notes that explain this choice."""
     reason = error.reason if isinstance(error, EndEffectorError) else str(error)
     if getattr(preset, "mirror", False):
         raise ParameterError(
             f"{reason}, so nothing tells left from right: name five joints with --effectors, "
             f"or leave out mirroring"
         ) from error
-    # All spans together, so that they have the same axes.
+    # All spans together, so that they share the same principal axes.
     features, points = compute_distance_features(
         np.concatenate([span.positions for span in motions])
     )
@@ -174,7 +175,7 @@ def _measure_distances(
         + suggest_remedy(motions[0].skeleton)
     )
     notes = [note, f"points: {', '.join(names[point] for point in points)}"]
-    # Ends of the spans but the last, as `np.split` takes them.
+    # `np.split` takes the ends of all spans but the last.
     ends = np.cumsum([span.n_frames for span in motions])[:-1]
     return np.split(features, ends), notes
 
@@ -182,13 +183,13 @@ def _measure_distances(
 def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
     stacked = stack(pose, round_offsets(preset.offsets, preset.working_fps))
     if preset.unit == "body sizes":
-        # Root of the offsets: stacking several poses does not make distances larger.
+        # Root of the number of poses: stacking does not make distances larger.
         stacked /= size * np.sqrt(len(preset.offsets))
     return stacked
 
 
-# Names of channels in a note.
-NAMED = 8
+MAX_NAMED_CHANNELS = 8
+"""Largest number of channels that a note names."""
 
 
 def prepare_signals(
@@ -205,65 +206,68 @@ def prepare_signals(
     ----------
     signals : Signals
     preset : Preset
-        For signals, see `kineme.methods.resolve_preset`.
+        A preset for signals, see `kineme.methods.resolve_preset`.
     emg : bool
-        Take the envelopes of muscle signals first.
+        Compute the envelopes of muscle signals first.
     standardize : bool
         Divide each channel by its standard deviation.
     unit : float, optional
-        What one unit of the preset's lengths is in these channels; by default the preset
-        finds out.
+        Length in these channels that is one unit of the preset's lengths; by default the
+        preset estimates it.
     """
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     rows, spans = [], []
     for start, stop in signals.spans():
-        row = resample_channels(
+        part = resample_channels(
             values[start:stop], signals.fps, preset.working_fps, smoothing=preset.smoothing
         )
-        rows.append(row)
-        spans.append(RecordedSpan(start, stop, len(row)))
+        rows.append(part)
+        spans.append(RecordedSpan(start, stop, len(part)))
     notes = _describe_channels(signals, values, emg=emg, standardize=standardize)
-    descriptive = standardize and not emg  # what channels are may be told by their names and values
-    points = find_joints(signals) if preset.accepts_joints and descriptive else None
+    # Names and values of channels are meaningful only if they are neither embeddings nor EMG.
+    is_descriptive = standardize and not emg
+    points = find_joints(signals) if preset.accepts_joints and is_descriptive else None
     if points is not None:
         rows = replace_by_distances(rows, points, preset.working_fps)
         notes.append(f"{len(points)} points with bones: seen by how far they are from each other")
     features = _stack_channels(rows, preset, standardize=standardize)
     if unit is None:
         unit = preset.signal_unit(features)
-    named = "standard deviations" if standardize else "units of the channels"
+    unit_name = "standard deviations" if standardize else "units of the channels"
     if unit != 1:
         features = features / unit
-        notes.append(f"lengths are in units of {unit:.3g} {named}")
+        notes.append(f"lengths are in units of {unit:.3g} {unit_name}")
     elif preset.unit != "any":
-        notes.append(f"lengths are in {named}")
-    # Ends of the spans but the last, as `np.split` takes them.
+        notes.append(f"lengths are in {unit_name}")
+    # `np.split` takes the ends of all spans but the last.
     ends = np.cumsum([span.n_samples for span in spans])[:-1]
-    split = np.split(features, ends)
-    return Prepared(split, spans, notes, joints=points is not None)
+    parts = np.split(features, ends)
+    return Prepared(parts, spans, notes, joints=points is not None)
 
 
 def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:
-    """Features of all spans; their distances are root mean squares over window and channels."""
+    """Stack and scale the channels of all spans; distances become root mean squares."""
     ends = np.cumsum([len(row) for row in rows])[:-1]
     joined = np.concatenate(rows)
     scaled = standardize_channels(joined) if standardize else joined
     offsets = round_offsets(preset.offsets, preset.working_fps)
-    # Stacked within each span: frames of two spans are no neighbours.
+    # Stack within each span: frames of different spans are not neighbours.
     stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
-    # Root mean square over window and channels.
+    # Dividing by the root of the columns turns a distance into a root mean square.
     return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
 
 
 def _describe_channels(
     signals: Signals, values: Floats, *, emg: bool, standardize: bool
 ) -> list[str]:
-    shown = ", ".join(signals.names[:NAMED]) + (", …" if signals.n_channels > NAMED else "")
+    shown = ", ".join(signals.names[:MAX_NAMED_CHANNELS])
+    if signals.n_channels > MAX_NAMED_CHANNELS:
+        shown += ", …"
     scaled = "each divided by its standard deviation" if standardize else "as they are"
     notes = [f"channels: {shown}, {scaled}"]
-    steady = values.min(axis=0) == values.max(axis=0)
-    if steady.any() and standardize:
-        names = [name for name, still in zip(signals.names, steady, strict=True) if still]
+    is_constant = values.min(axis=0) == values.max(axis=0)
+    if is_constant.any() and standardize:
+        names = [name for name, still in zip(signals.names, is_constant, strict=True) if still]
         notes.append(f"never change and carry no weight: {', '.join(names)}")
     if emg:
         notes.append("muscle signals: rectified and low-passed")
@@ -273,13 +277,13 @@ def _describe_channels(
 Indices = NDArray[np.intp]
 
 AXES = "xyz"
-STEADY = 0.15
-"""Seconds: places are smoothed by a normal curve that deviates by this. Joints that a camera
-guesses shake as much as hands move."""
+SMOOTHING = 0.15
+"""Standard deviation of the Gaussian filter of joint positions, s. Joints estimated from video
+jitter as much as hands move."""
 
 
 def find_joints(signals: Signals) -> Indices | None:
-    """Return the channels that are x, y and z of a body's points, by their names and by its bones.
+    """Find the channels that are x, y and z of a body's points, by their names and bone lengths.
 
     Parameters
     ----------
@@ -288,7 +292,7 @@ def find_joints(signals: Signals) -> Indices | None:
     Returns
     -------
     (points, 3) array or None
-        None where there is no body.
+        None if there is no body.
     """
     points = [
         [signals.names.index(axes[axis]) for axis in AXES]
@@ -298,31 +302,30 @@ def find_joints(signals: Signals) -> Indices | None:
     if not points:
         return None
     values = np.concatenate([signals.values[slice(*span)] for span in signals.spans()])
-    # Frames, points, axes.
+    # Indexed by (points, 3): values become (frames, points, axes).
     return np.array(points) if have_bones(values[:, points]) else None
 
 
 def replace_by_distances(rows: Sequence[Floats], points: Indices, fps: float) -> list[Floats]:
-    """What distances between the points tell in place of their coordinates, and other channels.
+    """Replace the coordinates of points by features of the distances between them.
 
     Parameters
     ----------
     rows : sequence of (samples, channels) array
-        One of each span of the recording.
+        One array for each span of the recording.
     points : (points, 3) array
-        The channels that are their coordinates.
+        Channels that are coordinates.
     fps : float
         Samples per second.
     """
     from scipy.ndimage import gaussian_filter1d
 
-    places = [
-        # The columns of all points in a row; back to points and axes below.
-        gaussian_filter1d(row[:, points.ravel()], STEADY * fps, axis=0, mode="nearest")
+    positions = [
+        gaussian_filter1d(row[:, points.ravel()], SMOOTHING * fps, axis=0, mode="nearest")
         for row in rows
     ]
-    posture, _ = compute_distance_features(np.concatenate(places).reshape(-1, *points.shape))
-    # Channels that are no coordinates stay as they are.
+    posture, _ = compute_distance_features(np.concatenate(positions).reshape(-1, *points.shape))
+    # Other channels are kept unchanged.
     others = np.delete(np.concatenate(rows), points.ravel(), axis=1)
     ends = np.cumsum([len(row) for row in rows])[:-1]
     return np.split(np.hstack([posture, others]), ends)

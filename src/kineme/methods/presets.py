@@ -1,7 +1,7 @@
-"""Presets there are: ours, and those that other packages register.
+"""Registry of presets: built-in ones, and those that other packages register.
 
-``kineme`` is the default, and stands for ``sensors``, the same method with other
-constants, where it is given signals; ``series`` is that at the pace of the signals;
+``kineme`` is the default. For signals it is replaced by ``sensors``: the same method with
+other constants. ``series`` adapts ``sensors`` to the pace of the signals.
 ``voegele2014`` and ``krueger2017`` are the published methods.
 """
 
@@ -20,7 +20,7 @@ from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, Regio
 
 DEFAULT = KINEME.name
 FOR_SIGNALS = {KINEME.name: SENSORS.name}
-"""What a name stands for where it is given with signals."""
+"""Presets that replace others if the recording consists of signals, by name."""
 
 PUBLISHED: Mapping[str, RegionGrowingPreset] = MappingProxyType(
     {preset.name: preset for preset in (VOEGELE2014, KRUEGER2017)}
@@ -38,37 +38,36 @@ PRESETS: Registry[Preset] = Registry(
         "region_growing.preset:KRUEGER2017",
     ),
 )
-"""Default first."""
+"""Presets by name; the default is the first."""
 
 
 def register(preset: Preset, *, replace: bool = False) -> None:
-    """Make a preset known by its name: to `kineme.segment`, the command line and the studio.
+    """Register a preset under its name for `kineme.segment`, the command line and the studio.
 
     Parameters
     ----------
     preset : Preset
-        What is added.
     replace : bool
-        Whether it takes the place of a preset of the same name.
+        Whether it may replace a preset of the same name.
 
     Raises
     ------
     ParameterError
-        There is a preset of this name, or it is none.
+        A preset of this name exists, or the argument is not a Preset.
     """
     PRESETS.register(preset, replace=replace)
 
 
 def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: Any) -> Preset:
-    """Return a preset by name or as it is, with some constants changed.
+    """Return the preset, or the one with this name, with some constants changed.
 
     Parameters
     ----------
     preset : str or Preset
-        By name it may be another for signals: ``sensors`` for ``kineme``.
+        For signals, the name ``kineme`` selects ``sensors``.
     signals : bool
-        Whether it is for channels: its lengths become standard deviations of them, and so
-        those in `overrides` are taken.
+        Whether it is for signals. Then its lengths, and those in `overrides`, are in standard
+        deviations of channels.
     **overrides
         Constants to change.
 
@@ -79,7 +78,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
     Raises
     ------
     ParameterError
-        No preset has that name, or an override does not fit.
+        No preset has this name, or an override is not allowed.
 
     Examples
     --------

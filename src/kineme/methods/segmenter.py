@@ -1,7 +1,7 @@
-"""From a recording to its segments, in one call: features, a method, and back to its frames.
+"""Segment a recording in one call: compute features, run a method, convert back to frames.
 
-Methods count samples of their working rate, results frames of the recording;
-they meet here.
+Methods count samples at their working rate; results count frames of the recording.
+This module converts between the two.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.samples import as_signals
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import segment_table
+from kineme.segments.table import make_segment_table
 
 FEW_CHANNELS = 20
-"""So many channels are no sign of a transposed table, however short it is."""
+"""Number of channels up to which a short table is not suspected to be transposed."""
 
 
 def segment(
@@ -50,43 +50,42 @@ def segment(
     progress: Progress | None = None,
     **constants: Any,
 ) -> Segmentation:
-    """Activities, transitions and primitives of a recording, as one table.
+    """Segment a recording into activities, transitions and primitives.
 
-    Frames and seconds are those of the recording given, whatever the rate at
-    which the preset looks at it. A gap of the recording is a transition; what
-    lies around it is analysed together.
+    Frames and seconds are those of the recording, at any working rate of the preset.
+    A gap of the recording becomes a transition; the spans around it are analysed together.
 
     Parameters
     ----------
     recording : Motion or Signals, or rows of numbers
-        At least one frame. What is too short or never repeats is one segment. Arrays, data frames
-        and objects of xarray are taken as `kineme.as_signals` takes them.
+        At least one frame. A recording that is too short or never repeats becomes one segment.
+        Arrays, data frames and xarray objects are converted with `kineme.as_signals`.
     fps : float, optional
-        Of rows of numbers, how many are a second.
+        Rows per second, if the recording is rows of numbers.
     times : (rows,) array_like, optional
-        Of rows of numbers, when each was taken.
+        Time of each row, if the recording is rows of numbers.
     preset : str or Preset
         ``kineme``, or another of `kineme.PRESETS`.
     effectors : joints, optional
-        Of a motion, to take for head, hands and feet where names do not tell. Where these are
-        not found either, the distances between points are looked at instead of a body.
+        Joints of a motion to use as head, hands and feet if their names are not recognised. If
+        no body is found, features are distances between points.
     detail : float
-        Above 1 for more, shorter segments, below for fewer, longer ones. The result keeps the
+        Above 1 for more, shorter segments, below 1 for fewer, longer ones. The result keeps the
         other details: see `Segmentation.at_detail`.
     emg : bool
-        Of signals: take the envelopes of muscle signals, see `kineme.features.emg_envelope`.
+        Compute the envelopes of muscle signals first, see `kineme.features.emg_envelope`.
     features : (rows, dims) array, optional
-        To look at in place of the recording's own, such as an embedding of each frame. They
-        are stacked and taken to the working rate as channels are, and averaged over time only
-        if `smoothing` says so.
+        Features to use in place of the recording's own, for example an embedding of each frame.
+        They are resampled and stacked as channels are, and averaged over time only if
+        `smoothing` is given.
     feature_fps : float, optional
-        Rows of `features` per second; that of the recording by default.
+        Rows of `features` per second; by default the rate of the recording.
     unit : float, optional
-        The length in signals or features that counts as one unit of the preset's lengths; by
-        default the preset finds it in the recording.
+        Length in signals or features that counts as one unit of the preset's lengths; by
+        default the preset estimates it from the recording.
     standardize : bool, optional
-        Whether each channel is divided by its standard deviation: those of signals are by
-        default, features are not.
+        Whether each channel is divided by its standard deviation; by default signals are and
+        features are not.
     progress : callable, optional
         Called with the name of each stage before it runs.
     **constants
@@ -99,10 +98,10 @@ def segment(
     Raises
     ------
     MotionError
-        The joints named are not those of a body, or there is a single point.
+        The named joints are not those of a body, or there is only one point.
     ParameterError
-        No such preset or constant, a value it cannot take, no recording, or mirroring where
-        nothing tells left from right.
+        The preset or constant does not exist, a value is not allowed, the first argument is not
+        a recording, or the preset mirrors but left and right are unknown.
 
     Examples
     --------
@@ -111,10 +110,10 @@ def segment(
     >>> kineme.segment(motion).repetitions()
     {0: 9, 1: 4, ...}
     """
-    known = isinstance(recording, Motion | Signals)
-    if known and (fps is not None or times is not None):
+    is_recording = isinstance(recording, Motion | Signals)
+    if is_recording and (fps is not None or times is not None):
         raise ParameterError("fps and times are of rows of numbers: a recording has its own")
-    if not known and not isinstance(recording, str | PathLike):
+    if not is_recording and not isinstance(recording, str | PathLike):
         recording = as_signals(recording, fps=fps, times=times)
     options = SegmentOptions(
         preset=preset,
@@ -133,7 +132,7 @@ def segment(
 def segment_and_found(
     recording: Motion | Signals, *, progress: Progress | None = None, **options: Any
 ) -> tuple[Segmentation, Found]:
-    """Return the segments, and what the method found on the way to them (for pictures).
+    """Return the segments, and the results of all stages of the method (for plots).
 
     Parameters
     ----------
@@ -142,7 +141,7 @@ def segment_and_found(
     progress : callable, optional
         Called with the name of each stage before it runs.
     **options
-        As `segment` takes them, constants of the preset among them.
+        As in `segment`, including constants of the preset.
 
     Returns
     -------
@@ -167,18 +166,17 @@ def segment_with_options(
     progress: Progress | None = None,
     details: tuple[float, ...] | None = None,
 ) -> tuple[Segmentation, Found]:
-    """Return the same for options that are together already.
+    """Return the same as `segment_and_found`, for options in one object.
 
     Parameters
     ----------
     recording : Motion or Signals
         At least one frame.
     options : SegmentOptions
-        How it is segmented.
     progress : callable, optional
         Called with the name of each stage before it runs.
     details : tuple of float, optional
-        Of the hierarchy, if others than the method offers.
+        Details of the hierarchy; by default those that the method offers.
 
     Returns
     -------
@@ -193,16 +191,19 @@ def segment_with_options(
         )
     if progress is not None:
         progress("features")
-    given = options.features
-    seen = recording if given is None else wrap_features(recording, given, options.feature_fps)
-    chosen = options.resolved(signals=isinstance(seen, Signals))
-    rate = seen.fps
-    if isinstance(seen, Signals):
-        seen = replace(seen, fps=chosen.rate_of(seen.values, seen.fps))
-    pace = seen.fps / rate  # seconds that count as one
-    chosen = chosen.at_most(seen.fps)
-    if isinstance(seen, Signals):
-        n_frames, n_channels = seen.values.shape
+    features = options.features
+    # The recording itself, or the given features as channels.
+    source = (
+        recording if features is None else wrap_features(recording, features, options.feature_fps)
+    )
+    preset = options.resolved(signals=isinstance(source, Signals))
+    rate = source.fps
+    if isinstance(source, Signals):
+        source = replace(source, fps=preset.rate_of(source.values, source.fps))
+    pace = source.fps / rate  # seconds of the recording that the preset treats as one second
+    preset = preset.at_most(source.fps)
+    if isinstance(source, Signals):
+        n_frames, n_channels = source.values.shape
         if n_channels > max(n_frames, FEW_CHANNELS):
             warnings.warn(
                 f"there are more channels ({n_channels}) than samples ({n_frames}); if the table "
@@ -210,25 +211,28 @@ def segment_with_options(
                 KinemeWarning,
                 stacklevel=2,
             )
-        scaled = given is None if options.standardize is None else options.standardize
-        view = prepare_signals(seen, chosen, emg=options.emg, standardize=scaled, unit=options.unit)
-    elif chosen.unit == "standard deviations":
+        standardize = features is None if options.standardize is None else options.standardize
+        prepared = prepare_signals(
+            source, preset, emg=options.emg, standardize=standardize, unit=options.unit
+        )
+    elif preset.unit == "standard deviations":
         raise ParameterError(
-            f"{chosen.name} is in standard deviations, for signals: a motion takes one in metres "
+            f"{preset.name} is in standard deviations, for signals: a motion takes one in metres "
             f"or body sizes"
         )
     else:
-        view = prepare_motion(seen, chosen, options.effectors)
-    if given is not None:
-        view = rescale_spans(view, recording, rate)
+        prepared = prepare_motion(source, preset, options.effectors)
+    if features is not None:
+        prepared = rescale_spans(prepared, recording, rate)
     if pace != 1:
-        view = replace(view, notes=[*view.notes, f"{pace:.4g} s count as a second"])
+        prepared = replace(prepared, notes=[*prepared.notes, f"{pace:.4g} s count as a second"])
     timings = {"features": time.perf_counter() - start}
-    facts = {"joints": True} if view.joints else {}
-    found = chosen.analyze(
-        np.concatenate(view.features), mirror=view.mirror, progress=progress, **facts
+    # Only presets that accept joints have this keyword.
+    keywords = {"joints": True} if prepared.joints else {}
+    found = preset.analyze(
+        np.concatenate(prepared.features), mirror=prepared.mirror, progress=progress, **keywords
     )
-    segmentation = _make_segmentation(recording, chosen, view, found, timings, pace, details)
+    segmentation = _make_segmentation(recording, preset, prepared, found, timings, pace, details)
     if options.detail != DEFAULT_DETAIL:
         segmentation = segmentation.at_detail(options.detail)
     return segmentation, found
@@ -242,16 +246,16 @@ def analyze(
     progress: Progress | None = None,
     **constants: Any,
 ) -> Found:
-    """Return what each stage of a method finds in a sequence of features.
+    """Run a method on a sequence of features and return the results of its stages.
 
     Parameters
     ----------
     features : (samples, dims) array
-        At the working rate, in the unit that the preset's lengths are in.
+        At the working rate, in the unit of the preset's lengths.
     preset : str or Preset
     mirror : callable, optional
-        Exchanges left and right in such features, for presets that mirror;
-        `kineme.mirror_features` for those of motions.
+        Swaps left and right in these features, for presets that mirror;
+        `kineme.mirror_features` for features of motions.
     progress : callable, optional
         Called with the name of each stage before it runs.
     **constants
@@ -260,13 +264,13 @@ def analyze(
     Returns
     -------
     Found
-        Its class tells the method.
+        Its class depends on the method.
 
     Raises
     ------
     ParameterError
-        No such preset, features of another shape, empty or not finite, or a preset that
-        mirrors what has no left and right.
+        The preset does not exist; the features have another shape, are empty or not finite; or
+        the preset mirrors but no `mirror` is given.
 
     Examples
     --------
@@ -283,22 +287,22 @@ def analyze(
 def _make_segmentation(
     recording: Motion | Signals,
     preset: Preset,
-    view: Prepared,
+    prepared: Prepared,
     found: Found,
     timings: dict[str, float],
     pace: float,
     details: tuple[float, ...] | None,
 ) -> Segmentation:
-    """Return what was found, in frames of the recording, with where it came from."""
+    """Return the result of a method in frames of the recording, with its provenance."""
     n_frames, fps = recording.n_frames, recording.fps
 
-    def placed(columns: Columns) -> Columns:
-        near = AT_GAP * preset.working_fps
-        frames = fps * pace / preset.working_fps
-        return convert_to_frames(columns, view.spans, n_frames, frames, near=near)
+    def to_frames(columns: Columns) -> Columns:
+        near = GAP_TOLERANCE * preset.working_fps
+        ratio = fps * pace / preset.working_fps
+        return convert_to_frames(columns, prepared.spans, n_frames, ratio, near=near)
 
-    samples = found.columns()
-    columns = placed(samples)
+    sample_columns = found.columns()
+    columns = to_frames(sample_columns)
     seconds = {**timings, **found.timings}
     source = recording.provenance
     provenance: dict[str, Any] = {
@@ -307,23 +311,23 @@ def _make_segmentation(
         "method": preset.method,
         "parameters": {"unit": preset.unit, **preset.parameters()},
         "input": source.input,
-        "notes": [*map(str, source.notes), *view.notes, *found.doubts(columns, fps)],
+        "notes": [*map(str, source.notes), *prepared.notes, *found.doubts(columns, fps)],
     }
-    if gaps := find_gaps(view.spans, n_frames):
+    if gaps := find_gaps(prepared.spans, n_frames):
         provenance["gaps"] = [list(gap) for gap in gaps]
     if source.clock is not None:
         provenance["clock"] = source.clock.to_json()
-    table, hierarchy = segment_table(columns, fps), None
+    table, hierarchy = make_segment_table(columns, fps), None
     if isinstance(found, Leveled):
         with time_stages(seconds, None)("levels"):
             tables = {DEFAULT_DETAIL: table}
-            for detail, level in found.levels(samples, details).items():
-                tables[detail] = segment_table(placed(level), fps)
+            for detail, level in found.levels(sample_columns, details).items():
+                tables[detail] = make_segment_table(to_frames(level), fps)
             hierarchy = Hierarchy.of(tables)
     if source.rows is not None:
         finest = table if hierarchy is None else hierarchy.tables[-1]
         borders = np.unique(np.append(finest.start_frame, [0, n_frames]))
-        # the first row that is nearer to a border's frame, or a later one, than to the one before
+        # First row whose time rounds to the border's frame or a later one.
         rows = np.searchsorted(source.rows, (borders - 0.5) / fps)
         provenance["rows"] = {"frames": borders.tolist(), "rows": rows.tolist()}
     return Segmentation(table, int(n_frames), float(fps), provenance, seconds, hierarchy)
@@ -331,14 +335,14 @@ def _make_segmentation(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SegmentOptions:
-    """How a recording is segmented: the keywords of `kineme.segment`, which says what each means.
+    """Options of segmentation: the keywords of `kineme.segment`, where each is documented.
 
-    Constants of the preset stand in ``constants`` by their names.
+    ``constants`` holds constants of the preset by name.
 
     Raises
     ------
     ParameterError
-        A value that an option does not take. Constants are checked once the preset is known.
+        An option has an invalid value. Constants are checked when the preset is known.
 
     Examples
     --------
@@ -357,9 +361,10 @@ class SegmentOptions:
     standardize: bool | None = None
 
     def __post_init__(self) -> None:
-        given: Any = self.constants
-        if not (isinstance(given, Mapping) and all(isinstance(name, str) for name in given)):
-            raise ParameterError(f"constants must be values by their names, not {given!r:.60}")
+        constants: Any = self.constants
+        is_mapping = isinstance(constants, Mapping)
+        if not (is_mapping and all(isinstance(name, str) for name in constants)):
+            raise ParameterError(f"constants must be values by their names, not {constants!r:.60}")
         check_detail(self.detail)
         check_flag(self.emg, "emg")
         if self.standardize is not None:
@@ -370,7 +375,7 @@ class SegmentOptions:
 
     @classmethod
     def of(cls, **keywords: Any) -> SegmentOptions:
-        """Options as `kineme.segment` takes them: what is none of the others is a constant.
+        """Return the options for keywords of `kineme.segment`: unknown ones are constants.
 
         Examples
         --------
@@ -379,18 +384,18 @@ class SegmentOptions:
         """
         options = {each.name for each in fields(cls)} - {"constants"}
         constants = {name: value for name, value in keywords.items() if name not in options}
-        given = {name: value for name, value in keywords.items() if name in options}
-        return cls(constants=constants, **given)
+        others = {name: value for name, value in keywords.items() if name in options}
+        return cls(constants=constants, **others)
 
     def resolved(self, *, signals: bool = False) -> Preset:
         """Return the preset with its constants, for a motion or for signals.
 
-        Features of another making are averaged over time only where `smoothing` says so.
+        Given features are averaged over time only if `smoothing` is given.
 
         Raises
         ------
         ParameterError
-            There is no such preset or constant, or it cannot take the value.
+            The preset or constant does not exist, or its value is not allowed.
         """
         constants = dict(self.constants)
         if self.features is not None:
@@ -399,7 +404,7 @@ class SegmentOptions:
 
 
 def wrap_features(recording: Motion | Signals, features: ArrayLike, fps: float | None) -> Signals:
-    """Features from outside as channels, with the gaps of the recording at their rate."""
+    """Wrap given features as channels, with the gaps of the recording at their rate."""
     rows = as_features(features)
     rate = recording.fps if fps is None else fps
     expected = recording.n_frames * rate / recording.fps
@@ -408,33 +413,36 @@ def wrap_features(recording: Motion | Signals, features: ArrayLike, fps: float |
             f"features have {len(rows)} rows, the recording lasts {recording.duration:.2f} s: "
             f"{expected:.0f} rows at {rate:g} a second; give feature_fps"
         )
-    share = rate / recording.fps
+    per_frame = rate / recording.fps  # rows per frame
+    # Widen gaps to whole rows, so that no row overlaps a gap.
     gaps = [
         (start, stop)
         for start, stop in (
-            (int(a * share), min(int(np.ceil(b * share)), len(rows))) for a, b in recording.gaps
+            (int(a * per_frame), min(int(np.ceil(b * per_frame)), len(rows)))
+            for a, b in recording.gaps
         )
         if start < stop
     ]
     return Signals(rows, rate, gaps=gaps)
 
 
-def rescale_spans(view: Prepared, recording: Motion | Signals, fps: float) -> Prepared:
-    """Return the view with its spans, so far in rows at `fps`, in frames of the recording."""
+def rescale_spans(prepared: Prepared, recording: Motion | Signals, fps: float) -> Prepared:
+    """Convert the spans from rows at `fps` to frames of the recording."""
     per_row, n = recording.fps / fps, recording.n_frames
     spans = [
         replace(span, start=round(span.start * per_row), stop=min(round(span.stop * per_row), n))
-        for span in view.spans
+        for span in prepared.spans
     ]
+    # Rounding must not leave frames after the last span, unless they are a gap.
     if not recording.gaps or recording.gaps[-1][1] < n:
         spans[-1] = replace(spans[-1], stop=n)
-    return replace(view, spans=spans)
+    return replace(prepared, spans=spans)
 
 
 Spans = Sequence[tuple[int, int]]
 
-AT_GAP = 0.2
-"""Seconds from a gap within which a border is at the gap: as much as is no gap yet."""
+GAP_TOLERANCE = 0.2
+"""Seconds: borders this close to a gap are moved to it. Shorter gaps of a file are filled."""
 
 
 def convert_to_frames(
@@ -445,28 +453,29 @@ def convert_to_frames(
     *,
     near: float = 0.0,
 ) -> Columns:
-    """Return the columns in frames, cut at the ends of the spans, gaps filled with transitions.
+    """Convert columns from samples to frames; cut at gaps, and fill these with transitions.
 
-    Rows that vanish at the rate of the recording are left out.
+    Rows shorter than one frame are dropped.
 
     Parameters
     ----------
     columns : dict of str to array
-        Of a segment table, ``start_frame`` and ``stop_frame`` in samples.
+        Columns of a segment table, ``start_frame`` and ``stop_frame`` in samples.
     spans : sequence of RecordedSpan
         In time order.
     n_frames : int
-        Of the recording.
+        Length of the recording.
     ratio : float
-        Frames in one sample.
+        Frames per sample.
     near : float
-        Borders so many samples from a gap at most are moved to the gap.
+        Borders at most this many samples from a gap are moved to the gap.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []
     stops: list[NDArray[np.int64]] = []
     first = 0
     for k, span in enumerate(spans):
+        # Samples [first, last) of the concatenated features belong to this span.
         last = first + span.n_samples
         begin = np.maximum(columns["start_frame"], first)
         end = np.minimum(columns["stop_frame"], last)
@@ -478,39 +487,40 @@ def convert_to_frames(
                 borders[inner & (borders <= first + near)] = first
         inside = np.flatnonzero(begin < end)
         begin, end = begin[inside], end[inside]
-        at = span.start + np.rint((begin - first) * ratio).astype(np.int64)
-        to = span.start + np.rint((end - first) * ratio).astype(np.int64)
+        start_frames = span.start + np.rint((begin - first) * ratio).astype(np.int64)
+        stop_frames = span.start + np.rint((end - first) * ratio).astype(np.int64)
         rows.append(inside)
-        starts.append(at)
-        stops.append(np.where(end == last, span.stop, to))
+        starts.append(start_frames)
+        # The last segment ends with the span, whatever the rounding.
+        stops.append(np.where(end == last, span.stop, stop_frames))
         first = last
     row, start, stop = map(np.concatenate, (rows, starts, stops))
     # At low frame rates two borders may fall on the same frame.
-    full = start < stop
-    cut = {name: column[row[full]] for name, column in columns.items()}
-    cut |= {"start_frame": start[full], "stop_frame": stop[full]}
-    if "border_confidence" in cut:  # what goes on after a gap does not start there
+    is_long = start < stop
+    cut = {name: column[row[is_long]] for name, column in columns.items()}
+    cut |= {"start_frame": start[is_long], "stop_frame": stop[is_long]}
+    if "border_confidence" in cut:  # the confidence is not that of a border at a gap
         at_gap = np.isin(cut["start_frame"], [span.start for span in spans])
         cut["border_confidence"] = np.where(at_gap, np.nan, cut["border_confidence"])
     return _insert_gaps(cut, find_gaps(spans, n_frames))
 
 
 def find_gaps(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
-    """Return what lies between the spans of the recording: frames [start, stop)."""
+    """Return the frames [start, stop) of the recording between the spans."""
     starts = [0, *(span.stop for span in spans)]
     stops = [*(span.start for span in spans), n_frames]
     return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
 
 def _insert_gaps(columns: Columns, gaps: Spans) -> Columns:
-    """Return columns with a transition in no cluster for each gap, on each level that they have."""
+    """Append a transition for each gap to each level of the columns."""
     if not gaps:
         return columns
     present = sorted({"activity", *columns["level"].tolist()})
     rows = [(level, start, stop) for level in present for start, stop in gaps]
     levels, starts, stops = zip(*rows, strict=True)
     n = len(rows)
-    more: Columns = {
+    gap_columns: Columns = {
         "level": np.array(levels),
         "kind": np.full(n, "transition"),
         "start_frame": np.array(starts, np.int64),
@@ -519,5 +529,6 @@ def _insert_gaps(columns: Columns, gaps: Spans) -> Columns:
     }
     unknown = np.full(n, np.nan)
     return {
-        name: np.concatenate([column, more.get(name, unknown)]) for name, column in columns.items()
+        name: np.concatenate([column, gap_columns.get(name, unknown)])
+        for name, column in columns.items()
     }

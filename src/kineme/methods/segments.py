@@ -1,4 +1,4 @@
-"""From borders to columns of a segment table; clusters numbered by appearance."""
+"""Build the columns of a segment table from borders; number clusters by appearance."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ def make_columns(
     confidence: tuple[Floats, Floats],
     border_confidence: tuple[Floats, Floats] | None = None,
 ) -> Columns:
-    """Columns of both levels.
+    """Return the columns of both levels.
 
     Parameters
     ----------
     activities, primitives : (segments + 1,) array
-        Borders of each level, from 0 to the end; those of activities are among those of
+        Borders of each level, from 0 to the end. Borders of activities are also borders of
         primitives.
     is_activity : (activities,) array of bool
-        Whether it is an activity, or else a transition.
+        False for transitions.
     is_primitive : (primitives,) array of bool, optional
-        Whether it is a primitive, or else a transition; by default all in activities are.
+        False for transitions; by default all in activities are primitives.
     clusters, confidence : pair of arrays
-        Of the activities, and of the primitives.
+        For activities, and for primitives.
     border_confidence : pair of arrays, optional
-        The probability that their starts are right, where the method has one.
+        Probability that the start of each is right, for activities and for primitives.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def make_columns(
 
 
 def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
-    """Return the same labels counted from 0 in order of appearance; -1 stays.
+    """Renumber labels from 0 in order of appearance; -1 stays.
 
     Examples
     --------
@@ -68,5 +68,6 @@ def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
     in_cluster = labels >= 0
     _, first, inverse = np.unique(labels[in_cluster], return_index=True, return_inverse=True)
     numbered = np.full(len(labels), -1, np.int64)
+    # `argsort` twice gives ranks: the rank of a label's first position is its new number.
     numbered[in_cluster] = np.argsort(np.argsort(first))[inverse]
     return numbered

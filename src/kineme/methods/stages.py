@@ -1,4 +1,4 @@
-"""Stages of an analysis: announced as they begin, timed as they end."""
+"""Announce and time the stages of an analysis."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Progress = Callable[[str], None]
 def time_stages(
     timings: dict[str, float], progress: Progress | None
 ) -> Callable[[str], AbstractContextManager[None]]:
-    """``with stage("name"):`` tells ``progress`` and adds the seconds to ``timings``."""
+    """Return a context manager ``stage(name)`` that calls ``progress`` and records seconds."""
 
     @contextmanager
     def stage(name: str) -> Iterator[None]:

@@ -10,7 +10,7 @@ from kineme._util.arrays import Floats
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.plot.timeline import make_axes
-from kineme.segments.colors import PALETTE, cluster_color
+from kineme.segments.colors import PALETTE, get_cluster_color
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,7 +62,7 @@ def plot_curves(
     many = len(set(clusters.values())) == len(clusters)
     for place, group in enumerate(cycles.groups):
         curves = cycles.layout(channel, group, ends=ends)
-        color = cluster_color(clusters[group] if many else place)
+        color = get_cluster_color(clusters[group] if many else place)
         _add_mean(axes, curves, color, f"{group} (n = {len(curves)})")
     _label_axes(axes, cycles, channel, channel)
     return axes

@@ -16,13 +16,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from kineme._util.files import atomic_write
-from kineme.segments.colors import cluster_color
+from kineme.segments.colors import get_cluster_color
 from kineme.synthesis.graph import MotionGraph
 
 
 def plot_graph(graph: MotionGraph, path: Path) -> None:
     """Write the picture as PNG, PDF or SVG, by suffix."""
-    colors = [cluster_color(node.cluster) for node in graph.nodes]
+    colors = [get_cluster_color(node.cluster) for node in graph.nodes]
     figure = Figure(figsize=(12, 6), layout="constrained")
     FigureCanvasAgg(figure)
     ring, matrix = figure.subplots(1, 2)

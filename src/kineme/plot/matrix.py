@@ -31,8 +31,8 @@ from kineme.features.effectors import Names
 from kineme.features.similarity import compare_frames
 from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
-from kineme.segments.colors import NO_CLUSTER, cluster_color, label_colors
-from kineme.segments.html import segment_color
+from kineme.segments.colors import NO_CLUSTER, choose_label_colors, get_cluster_color
+from kineme.segments.html import get_segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
@@ -220,8 +220,8 @@ def _make_cross_lines(at: float, within: Segment) -> list[list[tuple[float, floa
 def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
     seconds = segmentation.n_frames / segmentation.fps
     rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
-    labels = label_colors(segmentation)
-    colors = [segment_color(row, labels) for row in rows]
+    labels = choose_label_colors(segmentation)
+    colors = [get_segment_color(row, labels) for row in rows]
     below = _make_boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
     left = _make_boxes(-1.4 * width, -0.4 * width, rows.start_s, rows.stop_s)
     gap = 0.6 if len(rows) < MAX_GAPS else 0.0
@@ -245,7 +245,7 @@ def _make_legend(segmentation: Segmentation) -> list[Patch]:
     # The largest clusters, shown by number.
     shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
     handles = [
-        Patch(color=cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
+        Patch(color=get_cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
         for cluster in shown
     ]
     if (segmentation.primitives.cluster < 0).any():

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from kineme._util.files import atomic_write
 from kineme.plot.strips import plot_strip
 from kineme.recordings import Motion, Signals
-from kineme.segments.colors import cluster_color
+from kineme.segments.colors import get_cluster_color
 
 WIDE, TALL = 7.0, 1.4
 """Inches of a strip."""
@@ -41,7 +41,7 @@ def write_sheet(strips: Sequence[Strip], path: str | PathLike[str]) -> None:
     for axes in grid:
         axes.set_axis_off()
     for axes, strip in zip(grid, shown, strict=False):
-        plot_strip(strip.recording, color=cluster_color(strip.cluster), ax=axes)
+        plot_strip(strip.recording, color=get_cluster_color(strip.cluster), ax=axes)
         axes.set_title(strip.title, loc="left", fontsize=8)
     if len(strips) > MOST:
         figure.suptitle(f"the first {MOST} of {len(strips)}", fontsize=8)

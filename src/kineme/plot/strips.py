@@ -18,7 +18,7 @@ from kineme.errors import ParameterError
 from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.segments.colors import cluster_color
+from kineme.segments.colors import get_cluster_color
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,7 +80,7 @@ def plot_strip(
     if not (is_number(poses) and poses == int(poses) and poses >= 1):
         raise ParameterError(f"poses must be a whole number above 0, not {poses!r:.60}")
     first, last = _find_frames(recording, start_s, stop_s)
-    drawn = cluster_color(0) if color is None else color
+    drawn = get_cluster_color(0) if color is None else color
     axes = make_axes(6.0, 1.4) if ax is None else ax
     if isinstance(recording, Motion):
         at = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)

@@ -15,8 +15,8 @@ from scipy.optimize import linear_sum_assignment
 from kineme._util.checks import as_texts, check_type, is_one_of
 from kineme._util.files import as_display_name
 from kineme.errors import ParameterError
-from kineme.segments.colors import label_colors
-from kineme.segments.html import segment_color
+from kineme.segments.colors import choose_label_colors
+from kineme.segments.html import get_segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 
@@ -121,11 +121,11 @@ def compare(
             raise ParameterError(f"{name} has no segments of level {level!r}")
     first = rows[shown[0]]
     tables = [_renumber(table, match_clusters(first, table)) for table in rows.values()]
-    labels = label_colors(segment for table in tables for segment in table)
+    labels = choose_label_colors(segment for table in tables for segment in table)
     return draw_timeline(
         rows,
         max(result.n_frames / result.fps for result in results),
-        colors=[[segment_color(segment, labels) for segment in table] for table in tables],
+        colors=[[get_segment_color(segment, labels) for segment in table] for table in tables],
         ax=ax,
     )
 
@@ -140,8 +140,10 @@ def draw_timeline(
     """Draw rows of segments below each other, each with its name at the left."""
     axes = make_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
     if colors is None:
-        labels = label_colors(segment for table in rows.values() for segment in table)
-        colors = [[segment_color(segment, labels) for segment in table] for table in rows.values()]
+        labels = choose_label_colors(segment for table in rows.values() for segment in table)
+        colors = [
+            [get_segment_color(segment, labels) for segment in table] for table in rows.values()
+        ]
     for number, (table, shades) in enumerate(zip(rows.values(), colors, strict=True)):
         axes.broken_barh(
             list(zip(table.start_s, table.duration_s, strict=True)),

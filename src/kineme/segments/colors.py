@@ -43,7 +43,7 @@ class Row(Protocol):
 _MIXES = ((0.0, 0), (0.5, 255), (0.4, 0))  # share and grey value mixed in, round by round
 
 
-def label_colors(rows: Iterable[Row]) -> dict[str, str]:
+def choose_label_colors(rows: Iterable[Row]) -> dict[str, str]:
     """``#RRGGBB`` of each label, the same as in the pages.
 
     That of the cluster that has the label most; else one made from the text itself.
@@ -51,7 +51,7 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
     most: dict[str, Counter[int]] = {}
     used = set()
     for row in rows:
-        used.add(cluster_color(row.cluster))
+        used.add(get_cluster_color(row.cluster))
         if row.label:
             seconds = most.setdefault(row.label, Counter())
             if row.cluster >= 0:
@@ -60,7 +60,7 @@ def label_colors(rows: Iterable[Row]) -> dict[str, str]:
     for label in sorted(most, key=lambda text: text.encode("utf-16-be", "surrogatepass")):
         clusters = most[label].most_common(1)
         colors[label] = (
-            cluster_color(clusters[0][0]) if clusters else _choose_free_color(label, used)
+            get_cluster_color(clusters[0][0]) if clusters else _choose_free_color(label, used)
         )
         used.add(colors[label])
     return colors
@@ -73,11 +73,11 @@ def _choose_free_color(text: str, used: set[str]) -> str:
     for low, high in zip(units[::2], units[1::2], strict=True):
         hashed = ((hashed ^ (low | high << 8)) * 16777619) % 2**32
     number = len(PALETTE) * len(_MIXES)
-    choices = [cluster_color((hashed + i) % number) for i in range(number)]
+    choices = [get_cluster_color((hashed + i) % number) for i in range(number)]
     return next((color for color in choices if color not in used), choices[0])
 
 
-def cluster_color(cluster: int) -> str:
+def get_cluster_color(cluster: int) -> str:
     """``#RRGGBB`` of a cluster; grey for -1, which is none."""
     if cluster < 0:
         return NO_CLUSTER

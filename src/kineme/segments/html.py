@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme.segments import colors
-from kineme.segments.colors import cluster_color, label_colors
+from kineme.segments.colors import choose_label_colors, get_cluster_color
 
 TRANSITION = "#F0F0F0"
 NO_LABELS: Mapping[str, str] = {}
@@ -51,22 +51,22 @@ class Rows(Protocol):
     def __iter__(self) -> Iterator[Row]: ...
 
 
-def segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
+def get_segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
     """``#RRGGBB`` of a segment's bar: of its cluster, else of its label."""
     if segment.cluster < 0 and segment.label in labels:
         return labels[segment.label]
     if segment.cluster < 0 and segment.kind == "transition":
         return TRANSITION
-    return cluster_color(segment.cluster)
+    return get_cluster_color(segment.cluster)
 
 
 def draw_timeline(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
     """Return rows of segments as an ``<svg>``: never more bars in a row than it has pixels."""
     height = HEIGHT * len(rows)
-    labels = label_colors(segment for table in rows for segment in table)
+    labels = choose_label_colors(segment for table in rows for segment in table)
     bars = [
         f'<rect x="{left}" y="{number * HEIGHT + 1}" width="{right - left}" '
-        f'height="{HEIGHT - 2}" fill="{segment_color(segment, labels)}">'
+        f'height="{HEIGHT - 2}" fill="{get_segment_color(segment, labels)}">'
         f"<title>{_describe(segment)}</title></rect>"
         for number, table in enumerate(rows)
         for segment, left, right in _find_pixels(table, start_s, stop_s)
@@ -99,7 +99,7 @@ def _make_rows(table: Rows) -> str:
 
 
 def _make_cells(segment: Row) -> str:
-    square = f'<span style="color:{segment_color(segment)}">■</span>'
+    square = f'<span style="color:{get_segment_color(segment)}">■</span>'
     cells = (
         segment.kind,
         f"{segment.start_s:.2f}",

@@ -29,7 +29,7 @@ from kineme.segments.table import (
     Level,
     Segment,
     SegmentTable,
-    segment_table,
+    make_segment_table,
 )
 
 if TYPE_CHECKING:
@@ -253,7 +253,7 @@ class Segmentation:
         """
         check_recording(n_frames, fps)
         check_type(columns, Mapping, "from_columns", "give arrays by the names of columns")
-        table = segment_table(columns, float(fps))
+        table = make_segment_table(columns, float(fps))
         provenance = {} if provenance is None else provenance
         timings = {} if timings is None else timings
         return cls(table, int(n_frames), float(fps), provenance, timings, annotation=annotation)

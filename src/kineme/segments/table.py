@@ -316,7 +316,7 @@ class SegmentTable:
         return make_page(repr(self).strip("<>"), levels, self)
 
 
-def segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
+def make_segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     """Return a table from columns in any row order; see `Segmentation.from_columns`."""
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():

@@ -287,7 +287,7 @@ class Api:
 
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
-        from kineme.evaluation.inputs import agreement, differences
+        from kineme.evaluation.inputs import find_differences, score_agreement
         from kineme.labels.collections import labels_for
         from kineme.web.tables import make_segments_message
 
@@ -308,7 +308,7 @@ class Api:
             )
         else:
             raise ParameterError("compare with a preset or with an annotation: name one of them")
-        found = agreement(other, table)  # the other is taken for the truth
+        found = score_agreement(other, table)  # the other is taken for the truth
         return Comparison(
             name=title,
             segmentation=make_segments_message(other),
@@ -317,7 +317,7 @@ class Api:
                 name: ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
                 for name in found
             },
-            differences=differences(other, table),
+            differences=find_differences(other, table),
         )
 
     def annotators(self, _: Request) -> list[AnnotatorChoice]:

@@ -31,7 +31,7 @@ from kineme.segments.editing.rows import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
 from kineme.transfer.knowledge import FPS, KnowledgeBase, find_working_frames
-from kineme.transfer.matching import Primitives, label_costs, number_movements
+from kineme.transfer.matching import Primitives, compute_label_costs, number_movements
 from kineme.transfer.subsequences import THRESHOLD, search
 
 Row = tuple[int, int, str]
@@ -274,7 +274,7 @@ def _list_costs(
 ) -> tuple[Floats, NDArray[np.str_]]:
     """Costs (primitives, names), and the names; without a match the radius."""
     names, codes = np.unique(knowledge.labels, return_inverse=True)
-    costs = label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
+    costs = compute_label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
     return np.minimum(costs, radius), names
 
 

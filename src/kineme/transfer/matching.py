@@ -62,7 +62,7 @@ class Primitives:
         return len(self.lengths)
 
 
-def label_costs(
+def compute_label_costs(
     unknown: Primitives, examples: Primitives, codes: Ints, n_labels: int, *, radius: float
 ) -> Floats:
     """``costs[u, c]``: of the cheapest match of primitive u with one of label c; inf without.

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.errors import MotionError
-from kineme.features import PARTS, Names, end_effectors, heading
+from kineme.features import PARTS, Names, compute_heading, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.joint_names import PARENTS
 from kineme.web.messages import MotionHead
@@ -176,7 +176,7 @@ def _find_headings(
         return {}, None
     joints = dict(zip(PARTS, found.indices, strict=True))
     try:
-        pelvis, angles = heading(motion, effectors=found)
+        pelvis, angles = compute_heading(motion, effectors=found)
     except MotionError:
         return joints, None
     # Nearest frame of each sample: angles cannot be interpolated across ±180°.

@@ -52,7 +52,9 @@ def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
     columns = np.ascontiguousarray(samples.T)
     ends, scores, _ = kernels.find_local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
     for each, score in zip(ends, scores, strict=True):
-        partners, sums, other_partners, other_sums = kernels.follow(columns, costs, each, 0.8, -2.0)
+        partners, sums, other_partners, other_sums = kernels.trace_path(
+            columns, costs, each, 0.8, -2.0
+        )
         expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)

@@ -30,7 +30,7 @@ def similar(seed: int, count: int, noise: float) -> np.ndarray:
 
 def centered(repetitions: np.ndarray) -> np.ndarray:
     found = repetitions.copy()
-    kernels.center(found)
+    kernels.center_repetitions(found)
     return found
 
 

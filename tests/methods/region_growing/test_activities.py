@@ -15,8 +15,8 @@ from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
     ActivityCuts,
     _find_peaks,
+    find_scan_line_cuts,
     find_square_cuts,
-    scan_line_cuts,
 )
 
 seconds = settings(max_examples=60)
@@ -49,7 +49,7 @@ def test_squares_are_those_of_the_naive_version(graph, min_gap, min_count, min_d
 @given(block_graphs() | sparse_graphs(max_frames=30), GAPS, COUNTS)
 @seconds
 def test_scan_lines_are_those_of_the_naive_version(graph, min_gap, min_count) -> None:
-    cuts = scan_line_cuts(graph, min_gap=min_gap, min_count=min_count)
+    cuts = find_scan_line_cuts(graph, min_gap=min_gap, min_count=min_count)
     expected = naive.scanned_lines(
         as_pairs(graph), len(graph), min_gap=min_gap, min_count=min_count
     )
@@ -93,7 +93,7 @@ def test_blocks_end_and_begin_at_their_borders(form: str) -> None:
     if form == "squares":
         cuts = find_square_cuts(graph, min_gap=10, min_count=128, min_distance=30)
     else:
-        cuts = scan_line_cuts(graph, min_gap=5, min_count=120)
+        cuts = find_scan_line_cuts(graph, min_gap=5, min_count=120)
     # a block's last frame is the last to bring neighbours; its first, seen from the end,
     # the first: both within the band taken off the diagonal
     assert len(cuts.forward) == len(cuts.backward) == 2

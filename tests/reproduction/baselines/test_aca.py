@@ -16,7 +16,7 @@ import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling
 from kineme.evaluation.inputs import read_trials
-from kineme.features.rotations import joint_quaternions, log_maps
+from kineme.features.rotations import compute_joint_quaternions, compute_log_maps
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines._kernels import (
     cheapest_lengths,
@@ -161,14 +161,14 @@ def test_impossible_lengths_are_refused(values, message):
 def test_motions_without_the_joints_are_refused(data_dir):
     motion = kineme.read(data_dir / "formats" / "cmu_131_01_bvh11.bvh")
     with pytest.raises(MotionError, match="no joint 'upperback'"):
-        joint_quaternions(motion)
+        compute_joint_quaternions(motion)
 
 
 def test_log_maps_are_half_the_rotation_vector():
     angle = np.array([0.0, 1e-9, 0.5, np.pi])
     q = np.stack([np.cos(angle / 2), 0 * angle, np.sin(angle / 2), 0 * angle], axis=1)
     expected = np.stack([0 * angle, angle / 2, 0 * angle], axis=1)
-    np.testing.assert_allclose(log_maps(q[:, None]), expected, atol=1e-15)
+    np.testing.assert_allclose(compute_log_maps(q[:, None]), expected, atol=1e-15)
 
 
 def test_accuracy_agrees_with_the_original_program(data_dir: Path):
@@ -176,7 +176,7 @@ def test_accuracy_agrees_with_the_original_program(data_dir: Path):
     folder, trial = data_dir / "cmu86", "86_01"
     reference = json.loads((folder / "reference" / f"aca_haca_{trial}.json").read_text())
     truth = read_trials(folder / "annotations.json", fps=120.0)[trial]
-    features = log_maps(joint_quaternions(kineme.read(folder / f"{trial}.amc")))
+    features = compute_log_maps(compute_joint_quaternions(kineme.read(folder / f"{trial}.amc")))
 
     def accuracy(segments: Segments) -> float:
         labels = segments.clusters.tolist()

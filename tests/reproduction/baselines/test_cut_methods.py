@@ -15,7 +15,7 @@ import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import Comparison, Labelling, border_score
 from kineme.evaluation.inputs import read_trials
-from kineme.features.rotations import joint_quaternions
+from kineme.features.rotations import compute_joint_quaternions
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines.gmm import gmm
 from kineme_reproduction.baselines.segments import Segments
@@ -126,7 +126,7 @@ def test_more_gaussians_than_frames_are_refused():
 def test_pca_methods_find_the_borders_of_a_real_recording(data_dir):
     folder = data_dir / "cmu86"
     truth = read_trials(folder / "annotations.json", fps=120.0)["86_09"]
-    quaternions = joint_quaternions(kineme.read(folder / "86_09.amc"))
+    quaternions = compute_joint_quaternions(kineme.read(folder / "86_09.amc"))
     for method in ("pca", "ppca"):
         segments = cut(method, quaternions.reshape(len(quaternions), -1), 120.0)
         labels = segments.clusters.tolist()

@@ -14,12 +14,12 @@ from kineme.cli.tables import show_table
 from kineme.cli.terminal import escape_controls
 from kineme.errors import ParameterError
 from kineme.evaluation.folder import (
-    Evaluated,
     FolderScores,
     Mapped,
+    RecordingScores,
     check_method,
     evaluate_folder,
-    recordings_below,
+    find_recordings,
 )
 from kineme.evaluation.score import (
     explain_disagreement,
@@ -57,7 +57,7 @@ def run_folder(
         raise typer.BadParameter(str(error)) from error
     with show_progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
-        recordings = recordings_below(folder)
+        recordings = find_recordings(folder)
         found, strays = find_labels_and_strays(recordings, labels)
         result = evaluate_folder(
             found,
@@ -122,7 +122,7 @@ def _show(result: FolderScores) -> None:
     show_table(title, list(columns), groups, note=explain_disagreement(columns))
 
 
-def _format_row(one: Evaluated, names: Sequence[str]) -> list[str]:
+def _row(one: RecordingScores, names: Sequence[str]) -> list[str]:
     return ["failed" if one.error else _format_score(one.scores.get(name)) for name in names]
 
 

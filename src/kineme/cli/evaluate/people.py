@@ -18,7 +18,7 @@ from kineme.evaluation.annotators import (
     name_annotators,
     read_extent,
 )
-from kineme.evaluation.folder import recordings_below
+from kineme.evaluation.folder import find_recordings
 from kineme.evaluation.score import format_score, write_result
 from kineme.labels.collections import Extent, find_labels
 
@@ -34,7 +34,7 @@ def run_people(
     """Print and write how far those agree who labelled the recordings of a folder."""
     with show_progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
-        recordings = recordings_below(folder)
+        recordings = find_recordings(folder)
         names = name_annotators(labels)
         sources = {
             name: find_labels(recordings, path) for name, path in zip(names, labels, strict=True)

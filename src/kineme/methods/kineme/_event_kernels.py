@@ -126,7 +126,7 @@ def find_local_paths(samples, costs, begins, gap, width, leg, scale, worst, leas
     " float64[::1], int64[::1], float64, float64)",
     **OPTIONS,
 )
-def follow(samples, costs, ends, scale, worst):
+def trace_path(samples, costs, ends, scale, worst):
     """Return best path between two pairs: its partner of each sample, and its score up to there.
 
     Both from the first side and from the second.
@@ -175,7 +175,7 @@ def follow(samples, costs, ends, scale, worst):
 
 
 @njit("int64(boolean[::1], int64, int64)", **OPTIONS)
-def set_in(flags, start, stop):
+def count_set_flags(flags, start, stop):
     """How many flags of ``[start, stop)`` are set."""
     count = 0
     for i in range(start, stop):
@@ -240,7 +240,7 @@ def count_recurrences(
         for other in range(count):
             clear = clear and (end <= spans[other, 0] or begin >= spans[other, 1])
         # In whole numbers: at least 4/5 of the samples are free.
-        if clear and 5 * set_in(free, begin, end) >= 4 * (end - begin):
+        if clear and 5 * count_set_flags(free, begin, end) >= 4 * (end - begin):
             # `spans` is compacted in place; `count` never passes k.
             for column in range(4):
                 spans[count, column] = spans[k, column]
@@ -261,7 +261,7 @@ def find_largest(values, count):
 
 
 @njit("void(float64[::1], float64[::1], int64, int64)", **OPTIONS)
-def renew(tops, values, start, stop):
+def update_block_maxima(tops, values, start, stop):
     """Set the largest value of each block that holds some of these places."""
     # All blocks that the places touch; the last one may be incomplete.
     for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
@@ -299,14 +299,14 @@ def choose_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, 
         for k in range(sizes):
             stop = start + lengths[k]
             # Spans with taken samples keep a gain of 0.
-            if stop <= n and set_in(free, start, stop) == lengths[k]:
+            if stop <= n and count_set_flags(free, start, stop) == lengths[k]:
                 totals[start, k] = count_recurrences(
                     start, stop, starts, ptr, partners, sums, row_ptr, row_paths, free, cover,
                     spans, gains,
                 )[0]  # fmt: skip
         best[start] = totals[start, find_largest(totals[start], sizes)]
     tops = np.empty((n + BLOCK - 1) // BLOCK)
-    renew(tops, best, 0, n)
+    update_block_maxima(tops, best, 0, n)
     # The best span: taken if its total is up to date, else computed anew.
     while n > 0:
         block = find_largest(tops, len(tops)) * BLOCK
@@ -334,12 +334,12 @@ def choose_sets(lengths, starts, ptr, partners, sums, row_ptr, row_paths, free, 
                     for k in range(sizes):  # spans that reach into it gain nothing
                         totals[begin, k] *= begin + lengths[k] <= covered
                     best[begin] = totals[begin, find_largest(totals[begin], sizes)]
-                renew(tops, best, max(covered - lengths[sizes - 1] + 1, 0), stop)
+                update_block_maxima(tops, best, max(covered - lengths[sizes - 1] + 1, 0), stop)
             rank += 1
         else:
             totals[start, k], versions[start, k] = total, rank
             best[start] = totals[start, find_largest(totals[start], sizes)]
-            renew(tops, best, start, start + 1)
+            update_block_maxima(tops, best, start, start + 1)
     # The list as arrays, without the entry that gave it its type.
     places = np.empty((len(found) - 1, 2), np.int64)
     scores, ranks = np.empty(len(places)), np.empty(len(places), np.int64)

@@ -18,7 +18,7 @@ ROUGH = 0.02
 
 
 @njit("void(float64[:, :, ::1])", **OPTIONS)
-def center(repetitions):
+def center_repetitions(repetitions):
     """Subtract its mean pose from each repetition, (repetitions, places, dims), in place."""
     count, places, dims = repetitions.shape
     for k in range(count):

@@ -97,7 +97,7 @@ def find_change_points(similarity, penalty):
 
 
 @njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, float64[:, ::1])", **SUMS)
-def mean_distances(features, chosen, borders, start, stop, means):
+def compute_mean_distances(features, chosen, borders, start, stop, means):
     """Mean distance of the chosen samples of each two groups, for some rows.
 
     Group g has ``chosen[borders[g]:borders[g + 1]]``. Columns before the row

@@ -1,18 +1,18 @@
 """Confidence: the probability that a result is right.
 
-Four things may be wrong, and each has its own probability:
+Four kinds of results have a probability:
 
-- the *link* of an activity: its cluster is not that of the same movement elsewhere,
-- a *border* of an activity: there is none close by,
-- its *count*: it has more repetitions, or fewer,
-- a *cut* between two repetitions: there is none close by.
+- the *link* of an activity: it is in the same cluster as equal movements,
+- a *border* of an activity: a true border is close by,
+- the *count* of an activity: it has this number of repetitions,
+- a *cut* between two repetitions: a true cut is close by.
 
-They follow from three statistics s: the length of an activity times its preference of its own
-cluster, in seconds; the sharpness of a border, which says how much more the recording changes there
-than nearby; and the correlation of repetitions. Each probability is
-1 / (1 + exp(-(constant + weight s))). The two numbers of each kind are fitted to recordings with a
-known truth and checked on sources that were left out, by ``benchmarks/truth/confidence.py``. No
-stage of the method reads them.
+The probabilities follow from three statistics s: the length of an activity times its preference
+for its cluster, in seconds; the sharpness of a border, which is the change at the border relative
+to the changes nearby; and the correlation of repetitions. Each probability is
+1 / (1 + exp(-(constant + weight s))). The constants and weights are fitted to recordings with a
+known truth and tested on left-out sources, by ``benchmarks/truth/confidence.py``. No stage of the
+method reads them.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ if TYPE_CHECKING:
 
 Frames = NDArray[np.int64]
 
-LEAST = 0.02
-"""Least preference of a segment for its own cluster."""
-CLEAREST = 0.995
-"""Largest correlation: all beyond it are equal."""
+MIN_PREFERENCE = 0.02
+"""Smallest preference of a segment for its own cluster; smaller ones are raised to it."""
+MAX_CORRELATION = 0.995
+"""Largest correlation; larger ones are reduced to it."""
 SIDE = 2.0
-"""Seconds before and after a border that are compared, and how far from it others are."""
+"""Seconds before and after a border that are compared, and range of the changes nearby."""
 TINY = 1e-9
-"""Least mean change: below it nothing changes."""
-BLUNTEST = 0.05
-"""Least sharpness of a border."""
+"""Smallest mean change; below it sharpness is 1."""
+MIN_SHARPNESS = 0.05
+"""Smallest sharpness of a border; smaller ones are raised to it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,14 +53,14 @@ class Evidence:
     Attributes
     ----------
     preferred : (segments,) array
-        Logarithm of the seconds for which each prefers its own cluster; nan for transitions.
+        Logarithm of length times preference for the own cluster, s; nan for transitions.
     sharpness : (segments,) array
-        Logarithm of `compute_sharpness` of the start of each; nan for the first.
+        Logarithm of the sharpness of the start border (`compute_sharpness`); nan for the first.
     repeated : (segments,) array
-        Mean correlation of any two repetitions, as Fisher's z: 0 of a single one; nan where
-        primitives are no repetitions.
+        Mean correlation of pairs of repetitions, as Fisher's z; 0 for a single repetition, nan
+        if the primitives are not repetitions.
     parents : (primitives,) array
-        The segment that each primitive lies in.
+        Segment that contains each primitive.
     """
 
     preferred: Floats
@@ -71,14 +71,14 @@ class Evidence:
 
 @dataclass(frozen=True, eq=False)
 class Confidence:
-    """Probabilities; nan where there is no cluster, count, border or cut.
+    """Probabilities that results are right; nan without a cluster, count, border or cut.
 
     Attributes
     ----------
     links, counts, borders : (segments,) array
-        That the cluster of each segment, the number of its repetitions, and its start are right.
+        Probability of the cluster of each segment, of its repetition count, and of its start.
     cuts : (primitives,) array
-        That the start of each is right; that of the segment where it is the first in it.
+        Probability of the start of each primitive; for the first one that of the segment.
     """
 
     links: Floats
@@ -93,14 +93,14 @@ def collect_evidence(
     segments: Segments,
     preset: KinemeConstants,
 ) -> Evidence:
-    """Statistics of activities and their repetitions.
+    """Compute the statistics of activities and their repetitions.
 
     Parameters
     ----------
     rows : (frames, dims) array
-        At the working rate.
+        Features at the working rate.
     view : (samples, dims) array
-        What was compared, ``preset.rate`` times a second.
+        The chosen view, at ``preset.rate``.
     segments : Segments
     preset : KinemeConstants
     """
@@ -112,26 +112,27 @@ def collect_evidence(
         first, last = ends[segment], ends[segment + 1]
         edges = segments.primitives[first : last + 1]
         movement = trace_movement(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
-        found = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
-        repeated[segment] = mean_correlation(found[repeats[first:last]])
+        samples = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
+        repeated[segment] = compute_mean_correlation(samples[repeats[first:last]])
 
     map_threads(correlate, np.unique(parents[repeats]).tolist())
+    # Inner borders in samples of the view.
     at = np.rint(segments.borders[1:-1] / (preset.working_fps / preset.rate)).astype(np.int64)
     sharpness = compute_sharpness(view, at, max(1, round(preset.samples(SIDE))))
     return Evidence(
-        np.log(seconds * np.maximum(segments.preference, LEAST)),
-        np.append(np.nan, np.log(np.maximum(sharpness, BLUNTEST))),
+        np.log(seconds * np.maximum(segments.preference, MIN_PREFERENCE)),
+        np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS))),
         repeated,
         parents,
     )
 
 
 def compute_sharpness(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
-    """Return how much more a view changes at some samples than within `side` of these.
+    """Return the change of a view at some samples, relative to the changes within `side` of them.
 
-    The change at a sample is the energy distance of the `side` samples before it to those after it.
-    Sharpness is the change at a border over the mean one of all samples nearby: 1 where nothing
-    changes, or everything.
+    The change at a sample is the energy distance between the `side` samples before it and those
+    after it. Sharpness is this change divided by the mean change of the samples nearby. It is 1
+    if the view changes everywhere or nowhere.
 
     Parameters
     ----------
@@ -146,26 +147,27 @@ def compute_sharpness(view: NDArray[np.float32], at: Frames, side: int) -> Float
     >>> compute_sharpness(steps, np.array([20, 24]), 5).round(2).tolist()
     [3.24, 0.15]
     """
-    found = np.ones(len(at))
+    sharpness = np.ones(len(at))
     for i, border in enumerate(np.clip(at, 1, len(view) - 1).tolist() if len(view) > 1 else ()):
         first = max(border - 2 * side, 0)
         nearby = np.arange(max(border - side, 1), min(border + side + 1, len(view))) - first
         changes = compute_changes(view[first : border + 2 * side], nearby, side)
         average = changes.mean()
         if average > TINY:
-            found[i] = changes[border - first - nearby[0]] / average
-    return found
+            sharpness[i] = changes[border - first - nearby[0]] / average
+    return sharpness
 
 
 def compute_changes(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
-    """Return the energy distance of the `side` samples before some samples to those after."""
-    # Sums of distances in blocks of samples, from those of all blocks that begin at 0.
+    """Return the energy distance between the `side` samples before and after some samples."""
+    # Cumulative sums along both axes give the sum over any block from four values.
     sums = np.zeros((len(view) + 1, len(view) + 1))
     apart = view[:, None].astype(np.float64) - view
     sums[1:, 1:] = np.linalg.norm(apart, axis=2).cumsum(axis=0).cumsum(axis=1)
     starts, stops = np.maximum(at - side, 0), np.minimum(at + side, len(view))
 
     def average(low: Frames, high: Frames, left: Frames, right: Frames) -> Floats:
+        """Return the mean distance of samples [low, high) to samples [left, right)."""
         block = sums[high, right] - sums[low, right] - sums[high, left] + sums[low, left]
         return np.asarray(block / ((high - low) * (right - left)))
 
@@ -173,21 +175,23 @@ def compute_changes(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
     return average(starts, at, at, stops) - within / 2
 
 
-def mean_correlation(repetitions: Floats) -> float:
-    """Of any two repetitions, (count, places, dims), as Fisher's z; 0 of one."""
+def compute_mean_correlation(repetitions: Floats) -> float:
+    """Return the mean correlation of pairs of repetitions (count, places, dims) as Fisher's z."""
     count = len(repetitions)
     if count < 2:
         return 0.0
     rows = (repetitions - repetitions.mean(axis=1, keepdims=True)).reshape(count, -1)
     rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)
+    # |sum of unit vectors|² is count plus the correlations of all ordered pairs.
     pairs = (np.square(rows.sum(axis=0)).sum() - count) / (count * (count - 1))
-    return float(np.arctanh(np.clip(pairs, -CLEAREST, CLEAREST)))
+    return float(np.arctanh(np.clip(pairs, -MAX_CORRELATION, MAX_CORRELATION)))
 
 
 def compute_confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
-    """Probabilities from the statistics and the weights of the preset."""
+    """Compute probabilities from the statistics and the weights of the preset."""
     borders = compute_probability(evidence.sharpness, preset.border_weights)
     cuts = compute_probability(evidence.repeated, preset.cut_weights)[evidence.parents]
+    # The first primitive of a segment starts at the border of the segment.
     first = np.diff(evidence.parents, prepend=-1) > 0
     return Confidence(
         links=compute_probability(evidence.preferred, preset.link_weights),
@@ -198,7 +202,7 @@ def compute_confidence(evidence: Evidence, preset: KinemeConstants) -> Confidenc
 
 
 def compute_probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
-    """Probability by a statistic, a constant, and its weight; nan where the statistic is.
+    """Return the logistic function of (constant, weight) and a statistic; nan stays nan.
 
     Examples
     --------
@@ -206,5 +210,5 @@ def compute_probability(statistic: Floats, weights: tuple[float, float]) -> Floa
     [0.5, 0.88]
     """
     # The logistic function as a hyperbolic tangent, which does not overflow.
-    found: Floats = 0.5 + 0.5 * np.tanh((weights[0] + weights[1] * statistic) / 2)
-    return found
+    probability: Floats = 0.5 + 0.5 * np.tanh((weights[0] + weights[1] * statistic) / 2)
+    return probability

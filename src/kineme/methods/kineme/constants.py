@@ -1,8 +1,8 @@
-"""Constants of the method, stage by stage, with their values for bodies.
+"""Constants of the method, in the order of its stages, with their values for bodies.
 
-Costs are times at the median distance, which is that of two samples within a minute: a second of
-samples that are so far from their cluster costs 1 s. So costs mean the same whatever is measured,
-and for however long. Lengths of events are in body sizes.
+Costs are in seconds, relative to the median distance of two samples within a minute: one second of
+samples at this distance from their cluster costs 1 s. So costs do not depend on the kind or the
+length of the recording. Lengths of events are in body sizes.
 """
 
 from __future__ import annotations
@@ -27,11 +27,12 @@ from kineme.methods.constants import (
 )
 
 WEIGHT = Limits(-100.0, 100.0)
+"""Limits of a weight in a logistic function."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class KinemeConstants(Preset):
-    """Of views, segments, borders, repetitions, events and confidence."""
+    """Constants of views, segments, borders, repetitions, events and confidence."""
 
     method: ClassVar[str] = "kineme"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "any")
@@ -45,7 +46,7 @@ class KinemeConstants(Preset):
     smoothing: float = constant(
         "channels of signals are averaged over this", unit="s", limits=TIME, default=0.0
     )
-    # Views: posture and energy, some times a second.
+    # Views: posture and energy, a few times a second.
     rate: float = constant(
         "samples per second that are compared", unit="Hz", limits=RATE, default=5.0
     )
@@ -112,7 +113,7 @@ class KinemeConstants(Preset):
         "shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1), default=1.4
     )
     max_clusters: int = constant("clusters at most", limits=SOME, fine=True, default=16)
-    # A segment that repeats.
+    # Segments that repeat a movement.
     min_explained: float = constant(
         "share of a repetition that the mean of the others explains, at least", limits=SHARE,
         default=0.5,
@@ -217,7 +218,7 @@ class KinemeConstants(Preset):
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
     )  # fmt: skip
 
-    # Confidence: a constant, and the weight of a statistic.
+    # Confidence: constant term and weight of a statistic in a logistic function.
     link_weights: tuple[float, float] = constant(
         "confidence of a cluster by the seconds for which an activity prefers it", limits=WEIGHT,
         fine=True, default=(1.441, 1.041),
@@ -244,13 +245,13 @@ class KinemeConstants(Preset):
             )
 
     def at_most(self, fps: float) -> Self:
-        """Return the preset for a recording of that rate: energies above it are not there."""
+        """Return the preset with a working rate of at most ``fps``, the recording's rate."""
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
 
     def cluster_price(self, samples: int) -> float:
-        """Cost of a cluster in a recording of so many samples, or in a part of it, in samples.
+        """Return the cost of a cluster in a recording with this number of samples, in samples.
 
-        The longer it is, the more of it differs from the rest by chance.
+        It grows with the length: long recordings differ more within themselves by chance.
 
         Examples
         --------
@@ -262,15 +263,16 @@ class KinemeConstants(Preset):
         return self.samples(self.cluster_cost) * float(minutes**self.cluster_growth)
 
     def samples(self, seconds: float) -> float:
-        """Seconds in samples, at `rate`."""
+        """Convert seconds to samples at `rate`."""
         return seconds * self.rate
 
     def in_scale(self, view: int) -> Self:
         """Return the preset with one view only."""
-        scale = (self.shared[view],), (self.weights[view],), (self.restless_over[view],)
-        return replace(self, shared=scale[0], weights=scale[1], restless_over=scale[2])
+        shared, weight = self.shared[view], self.weights[view]
+        change_window = self.restless_over[view]
+        return replace(self, shared=(shared,), weights=(weight,), restless_over=(change_window,))
 
     @property
     def near(self) -> int:
-        """`compared_within` in samples."""
+        """Return `compared_within` in samples."""
         return max(2, round(self.samples(self.compared_within)))

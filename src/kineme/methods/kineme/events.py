@@ -278,7 +278,7 @@ def split_path(
         latest = int(passed[latest, 2])
     pairs.append(ends[:2])
     legs = [
-        kernels.follow(columns, costs, np.append(start, stop), scale, WORST)
+        kernels.trace_path(columns, costs, np.append(start, stop), scale, WORST)
         for stop, start in pairwise(pairs)
     ]
     forth, forth_sums, back, back_sums = map(_join_legs, zip(*legs[::-1], strict=True))

@@ -1,4 +1,4 @@
-"""What the method finds, stage by stage, and the segment table made from it."""
+"""Results of all stages of the method, and the segment table made from them."""
 
 from __future__ import annotations
 
@@ -24,31 +24,31 @@ if TYPE_CHECKING:
 
 Frames = NDArray[np.int64]
 
-LISTED = 5
-"""Activities that a note lists at most."""
-EACH = 8
-"""Fine segments of levels of detail for each segment of the default level, at most."""
-MOST = 1000
-"""Fine segments of a long recording, at most, if the default level has not more."""
+MAX_LISTED = 5
+"""Largest number of activities listed in a note."""
+FINE_PER_SEGMENT = 8
+"""Largest number of fine segments per segment of the default level, for levels of detail."""
+MAX_FINE = 1000
+"""Largest number of fine segments in total, unless the default level has more."""
 
 
 @dataclass(frozen=True, eq=False)
 class KinemeFound:
-    """What the stages found.
+    """Results of the stages.
 
     Attributes
     ----------
     features : (samples, dims) array
-        The view, ``preset.rate`` times a second.
+        The chosen view, at ``preset.rate``.
     preset : KinemeConstants
     unit : float
         The median distance of two samples.
     segments : Segments
-        Both levels, in frames of the working rate.
+        Both levels, in frames at the working rate.
     evidence : Evidence
-        Statistics for the confidence of all these.
+        Statistics for the confidence of the segments.
     fine : (segments + 1,) array
-        Borders of the finest segments, frames of the working rate.
+        Borders of the finest segments, in frames at the working rate.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -63,16 +63,16 @@ class KinemeFound:
 
     @property
     def borders(self) -> Frames:
-        """Of activities, frames of the working rate, from 0 to the end."""
+        """Return the borders of activities, in frames at the working rate, from 0 to the end."""
         return self.segments.borders
 
     @property
     def primitives(self) -> Frames:
-        """Borders of repetitions and events, those of activities included."""
+        """Return the borders of repetitions, events and activities."""
         return self.segments.primitives
 
     def columns(self) -> Columns:
-        """Activities, primitives, and their confidence."""
+        """Return the segment table: activities, primitives, and their confidence."""
         segments, probabilities = self.segments, self.confidence
         counts = np.where(segments.clusters >= 0, probabilities.counts[segments.parents], np.nan)
         return make_columns(
@@ -87,7 +87,7 @@ class KinemeFound:
 
     @cached_property
     def confidence(self) -> Confidence:
-        """How probable it is that each thing found is right."""
+        """Return the probability that each result is right."""
         return compute_confidence(self.evidence, self.preset)
 
     def levels(
@@ -95,55 +95,52 @@ class KinemeFound:
     ) -> Mapping[float, Columns]:
         """Return the table at coarser and finer details: the tree, pruned at scaled costs.
 
-        Details that are equal to their coarser neighbour are left out.
+        Details that equal the next coarser one are left out.
         """
-        segments, frames = self._fine_segments()
-        at = assign_clusters(
+        segments, frames = self._make_fine_segments()
+        clusters = assign_clusters(
             segments,
             details or DETAILS,
             border_price=self.preset.samples(self.preset.segment_cost),
             cluster_price=self.preset.cluster_price(len(self.features)),
         )
-        return make_tables(columns, frames, at, longest=0.0)
+        return make_tables(columns, frames, clusters, longest=0.0)
 
-    def _fine_segments(self) -> tuple[FineSegments, Frames]:
-        """Segments of a fine level of the tree, cut at the default borders; and these in frames."""
+    def _make_fine_segments(self) -> tuple[FineSegments, Frames]:
+        """Return fine segments of the tree, cut at the default borders, and borders in frames."""
         n, per_sample = len(self.features), self.preset.working_fps / self.preset.rate
         coarse = convert_to_samples(self.borders, self.preset, n)
         nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
         fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
-        found = tree.list_levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
-        most = min(len(found), EACH * len(coarse), max(MOST, len(coarse)))
-        borders = np.unique(np.concatenate([coarse, fine[found[most - 1]]]))
+        levels = tree.list_levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
+        # Level k - 1 of the tree has k segments.
+        count = min(len(levels), FINE_PER_SEGMENT * len(coarse), max(MAX_FINE, len(coarse)))
+        borders = np.unique(np.concatenate([coarse, fine[levels[count - 1]]]))
         frames = np.rint(borders * per_sample).astype(np.int64)
+        # Default borders are known to the frame.
         frames[np.searchsorted(borders, coarse)] = self.borders
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
-        """Return a sentence for each cluster, count or border of low confidence, at most five.
-
-        One more lists the activities that are not periodic.
-        """
-        found = list_doubts(columns, fps)
+        """Return one sentence for each doubtful result, and one for activities without period."""
+        sentences = list_doubts(columns, fps)
         is_activity = columns["level"] == "activity"
         not_periodic = is_activity & np.isin(columns["cluster"], self.segments.not_periodic)
         if not_periodic.any():
-            starts, stops = (
-                columns["start_frame"][not_periodic],
-                columns["stop_frame"][not_periodic],
-            )
-            listed = [
+            starts, stops = (columns[f"{end}_frame"][not_periodic] for end in ("start", "stop"))
+            spans = [
                 f"{start / fps:.2f} to {stop / fps:.2f} s"
                 for start, stop in zip(starts, stops, strict=True)
             ]
-            more = f" and {len(listed) - LISTED} more" if len(listed) > LISTED else ""
+            more = f" and {len(spans) - MAX_LISTED} more" if len(spans) > MAX_LISTED else ""
             primitives = columns["start_frame"][~is_activity & (columns["cluster"] >= 0)]
-            at = np.searchsorted(starts, primitives, side="right") - 1
-            recurs = ((at >= 0) & (primitives < stops[at])).any()
+            # The last of these activities that begins at or before each primitive; -1 for none.
+            before = np.searchsorted(starts, primitives, side="right") - 1
+            recurs = ((before >= 0) & (primitives < stops[before])).any()
             note = (
                 "their primitives are what recurs anywhere" if recurs else "nothing in them recurs"
             )
-            found.append(f"not periodic: {', '.join(listed[:LISTED])}{more}; {note}")
-        return found
+            sentences.append(f"not periodic: {', '.join(spans[:MAX_LISTED])}{more}; {note}")
+        return sentences

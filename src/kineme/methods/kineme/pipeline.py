@@ -1,16 +1,16 @@
-"""Method, stage by stage, from features to segments, repetitions and events.
+"""Run the stages of the method: from features to segments, repetitions and events.
 
-Skeletons and sensors are unknown here: features are any array of frames x dims.
+Features are an array of frames x dims, of bodies or of sensors.
 
-1. *views*: posture and energy of movement, a few times a second, in one or more scales.
-2. *segments*: a tree of each view, and the level of it with the shortest description. A segment is
-   described by how similar its samples are, or by a repetition of it. Of several views the one
-   that agrees most with all is taken. A long recording is segmented in parts, each as if it were
-   alone.
-3. *borders*: to the frame, and transitions, which neither side explains.
-4. *repetitions*: their number in each segment, and where the first begins and the last one ends.
-5. *events*: spans that recur elsewhere, now and then.
-6. *confidence*: statistics from which probabilities are computed. No other stage reads them.
+1. *views*: compute posture and energy of movement a few times a second, in one or more scales.
+2. *segments*: build a tree of segments in each view and choose the level with the shortest
+   description. A segment is described by the similarity of its samples, or by a movement that it
+   repeats. Of several views, choose the one that agrees most with all. Long recordings are
+   segmented in independent parts.
+3. *borders*: refine borders to the frame, and insert transitions that fit neither side.
+4. *repetitions*: count the repetitions of each segment, and find the first and the last one.
+5. *events*: find spans that recur occasionally.
+6. *confidence*: collect the statistics for confidence. No other stage reads them.
 """
 
 from __future__ import annotations
@@ -53,13 +53,13 @@ if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
 SIDE = 2.0
-"""Seconds before and after the end of a part, which differ most where parts meet."""
+"""Seconds before and after a candidate end of a part that are compared to choose it."""
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 
 
 class Part(NamedTuple):
-    """A part of a recording: the number of the view that is taken, that view, and its level."""
+    """Result for a part of a recording: number of the chosen view, the view, and its segments."""
 
     scale: int
     view: Rows
@@ -73,15 +73,15 @@ def analyze(
     joints: bool = False,
     progress: Progress | None = None,
 ) -> KinemeFound:
-    """Segments, clusters, repetitions and events of features.
+    """Find the segments, clusters, repetitions and events of features.
 
     Parameters
     ----------
     features : (frames, dims) array
-        At the working rate; of a body in its sizes.
+        At the working rate; for a body in body sizes.
     preset : KinemeConstants
     joints : bool
-        Whether features are of the positions of joints, and not of sensors.
+        Whether features are computed from positions of joints.
     progress : callable, optional
         Called with the name of each stage before it runs.
 
@@ -92,16 +92,16 @@ def analyze(
     Raises
     ------
     ParameterError
-        Features of another shape, empty, or not finite.
+        The features have another shape, are empty, or not finite.
     """
-    # Parts run side by side, and sums must not depend on threads.
+    # Parts run in parallel, and sums must not depend on the number of threads.
     with _get_thread_limiter().limit(limits=1):
         return _analyze(as_features(features), preset, progress, joints=joints)
 
 
 @cache
 def _get_thread_limiter() -> ThreadpoolController:
-    """Return what limits the threads of matrix products; to find their library takes 7 ms."""
+    """Return a limiter for the threads of matrix products; cached, as it takes 7 ms to create."""
     return ThreadpoolController()
 
 
@@ -115,9 +115,10 @@ def _analyze(
     timings: dict[str, float] = {}
     stage = time_stages(timings, progress)
     n = len(rows)
-    poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)  # a shift costs no digits
-    least = 2 * ceil(preset.working_fps / preset.rate)  # frames, so that each part has a sample
-    ends = choose_part_ends(poses, max(least, preset.frames(preset.part)), preset.frames(SIDE))
+    # Centred before the conversion to float32, so that an offset costs no precision.
+    poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)
+    min_frames = 2 * ceil(preset.working_fps / preset.rate)  # so that each part has a sample
+    ends = choose_part_ends(poses, max(min_frames, preset.frames(preset.part)), preset.frames(SIDE))
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
         views = [compute_views(rows[span], preset, joints=joints) for span in spans]
@@ -127,6 +128,7 @@ def _analyze(
         )
         features = parts[0].view
         if len(parts) > 1:
+            # All parts are compared in the view that most of them chose.
             scale = int(np.bincount([part.scale for part in parts]).argmax())
             features = compute_views(rows, preset.in_scale(scale), joints=joints).views[0]
         unit = compute_median_distance(features, preset.near)
@@ -151,15 +153,15 @@ def _analyze(
 
 
 def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
-    """Return a part as if it were alone. Its view is chosen before it is known what repeats."""
+    """Segment a part on its own. Its view is chosen without regard to repetitions."""
 
-    def clusters(fine: FineLevel) -> Frames:
+    def find_clusters(fine: FineLevel) -> Frames:
         return find_level(fine, preset).per_sample()
 
-    scale, fine = 0, [find_fine_level(view, preset) for view in views.views]
-    if len(fine) > 1:
-        answers = [*map(clusters, fine)]
-        halves = [clusters(find_fine_level(half, preset)) for half in views.halves]
+    scale, fine_levels = 0, [find_fine_level(view, preset) for view in views.views]
+    if len(fine_levels) > 1:
+        answers = [*map(find_clusters, fine_levels)]
+        halves = [find_clusters(find_fine_level(half, preset)) for half in views.halves]
         scale = choose_view(answers, halves, margin=preset.view_margin)
-    level = find_level(fine[scale], preset, Repeating(poses, preset))
+    level = find_level(fine_levels[scale], preset, Repeating(poses, preset))
     return Part(scale, views.views[scale], level.in_frames(span, preset))

@@ -1,4 +1,4 @@
-"""Two presets of the method: for bodies, and for signals."""
+"""Presets ``kineme``, for bodies, and ``sensors``, for signals."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class KinemePreset(KinemeConstants):
-    """Method by its constants."""
+    """Preset of the method."""
 
     def analyze(
         self,
         features: ArrayLike,
         *,
-        mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
+        mirror: Mirror | None = None,  # noqa: ARG002 (left and right differ)
         progress: Progress | None = None,
         joints: bool = False,
     ) -> KinemeFound:
-        """Segments, clusters, repetitions and events; see :mod:`kineme.methods.kineme.pipeline`."""
-        from kineme.methods.kineme.pipeline import analyze  # compiled code
+        """Run the method on features; see :func:`kineme.methods.kineme.pipeline.analyze`."""
+        # Imported here: it loads compiled code.
+        from kineme.methods.kineme.pipeline import analyze
 
         return analyze(features, self, joints=joints, progress=progress)
 
@@ -40,16 +41,16 @@ OF_SENSORS: Mapping[str, Any] = {
     "unit": "any",
     "working_fps": 50.0,
     "view_margin": 0.0,
-    "half_views": True,  # a sensor may be loose, or on another limb than the movement
-    "min_explained": 0.6,  # idle channels weigh as much as those that move
+    "half_views": True,  # a sensor may be loose, or on a limb that does not take part
+    "min_explained": 0.6,  # idle channels have the same weight as those that move
     "chance_count": 8.0,
-    "chance_duration": 32.0,  # sitting down twice is no exercise
+    "chance_duration": 32.0,  # so that sitting down twice is not an exercise
     "centering": 0.4,
     "min_similarity": 1.0,
     "event_scale": 0.0,
-    "transition_cost": 1000.0,  # people who label sensors leave nothing between two activities
+    "transition_cost": 1000.0,  # labels of sensor data have no transitions between activities
 }
-"""Values for signals where they differ: lengths mean nothing, and few channels are doubtful."""
+"""Constants that differ for signals: lengths have no meaning, and a few channels say less."""
 
 SENSORS = KinemePreset(
     name="sensors",

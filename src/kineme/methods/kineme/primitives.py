@@ -241,7 +241,7 @@ def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -
 
     def explain(segment: int) -> None:
         movement, visits, repeated = _find_repeated(rows, segments, segment, preset)
-        kernels.center(repeated)
+        kernels.center_repetitions(repeated)
         found[segment] = kernels.explain_variance(movement.poses, movement.path, visits, repeated)
 
     map_threads(explain, np.flatnonzero(segments.counts > 1).tolist())

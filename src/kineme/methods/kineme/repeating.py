@@ -118,7 +118,7 @@ class Repeating:
         if share <= 0:
             return 0.0
         repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
-        kernels.center(repetitions)
+        kernels.center_repetitions(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
         share *= _ramp_up(explained, preset.min_explained)
         return share and share * share_of_one_movement(repetitions, preset)

@@ -1,9 +1,9 @@
-"""Time series of any kind, segmented at their own pace: the preset ``series``.
+"""Preset ``series``: segment time series of any kind at their own pace.
 
-The constants of the method are seconds of a moving body. Other series have another pace, and often
-no seconds at all. So the preset decides how many samples count as a second. It takes the geometric
-mean of two answers: with the first, the dominant period of the series lasts `PERIOD` seconds; with
-the second, the whole series lasts `LENGTH` seconds.
+The constants of the method are in seconds of a moving body. Other series have another pace, and
+often no times at all. So the preset chooses the number of samples per second: the geometric mean
+of the rate at which the dominant period lasts `PERIOD` seconds, and the rate at which the whole
+series lasts `LENGTH` seconds.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from kineme._util.arrays import Floats
 from kineme.methods.kineme.preset import OF_SENSORS, KinemePreset
 
 PERIOD = 0.4
-"""Seconds that the dominant period is taken to last."""
+"""Assumed duration of the dominant period, s."""
 LENGTH = 30.0
-"""Seconds that the whole series is taken to last."""
-SHORTEST = 10
-"""Samples of the shortest period: what repeats faster is taken for noise."""
-CYCLES = 4
-"""Times that the longest period fits into the series."""
+"""Assumed duration of the whole series, s."""
+MIN_PERIOD = 10
+"""Shortest period in samples: faster repetition counts as noise."""
+MIN_CYCLES = 4
+"""Number of times that the longest period fits into the series."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,14 +31,14 @@ class SeriesPreset(KinemePreset):
     """Segments signals of any kind, at the pace of the signals."""
 
     def rate_of(self, values: Floats, fps: float) -> float:  # noqa: ARG002
-        """Return how many samples (samples, channels) count as a second, whatever their rate."""
-        of_length = max(len(values) / LENGTH, 1.0)
+        """Return the number of samples (samples, channels) that count as a second; ignore fps."""
+        by_length = max(len(values) / LENGTH, 1.0)
         period = estimate_period(values)
-        return sqrt(period / PERIOD * of_length) if period else of_length
+        return sqrt(period / PERIOD * by_length) if period else by_length
 
 
 def estimate_period(values: Floats) -> int | None:
-    """Return the dominant period of a series: the shift at which it is most like itself.
+    """Return the dominant period of a series: the shift with the highest autocorrelation.
 
     Parameters
     ----------
@@ -47,8 +47,7 @@ def estimate_period(values: Floats) -> int | None:
     Returns
     -------
     int or None
-        Samples of the highest local maximum of the autocorrelation, summed over the channels;
-        None where there is none.
+        Samples; the autocorrelation is summed over channels. None without a local maximum.
 
     Examples
     --------
@@ -58,12 +57,13 @@ def estimate_period(values: Floats) -> int | None:
     n = len(values)
     centred = np.nan_to_num(values - np.nanmean(values, axis=0))
     centred /= np.maximum(centred.std(axis=0), 1e-12)
-    # By the Fourier transform of twice the length, where nothing wraps around.
+    # Autocorrelation by Fourier transform, padded to twice the length against wrap-around.
     spectrum = np.abs(np.fft.rfft(centred, 2 * n, axis=0)) ** 2
-    correlation = np.fft.irfft(spectrum.sum(axis=1))[: n // CYCLES]
+    correlation = np.fft.irfft(spectrum.sum(axis=1))[: n // MIN_CYCLES]
+    # Local maxima, without the ends.
     inner = correlation[1:-1]
     peaks = 1 + np.flatnonzero((inner > correlation[:-2]) & (inner >= correlation[2:]))
-    peaks = peaks[peaks >= SHORTEST]
+    peaks = peaks[peaks >= MIN_PERIOD]
     return int(peaks[correlation[peaks].argmax()]) if len(peaks) else None
 
 

@@ -216,18 +216,18 @@ def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Float
     groups = [spread_samples(start, stop, most) for start, stop in pairwise(borders.tolist())]
     lengths = np.diff(borders)
     # A mean distance times the number of pairs estimates the sum over all samples.
-    sums = mean_distances(features, groups) * np.outer(lengths, lengths)
+    sums = compute_mean_distances(features, groups) * np.outer(lengths, lengths)
     return np.asarray(sums / unit, np.float64)
 
 
-def mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
+def compute_mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     """Mean distances of the samples of each two groups, (groups, groups)."""
     ends = np.concatenate([[0], np.cumsum([len(group) for group in groups])])
     chosen = np.concatenate(groups)
     means = np.zeros((len(groups), len(groups)))
 
     def fill(rows: slice) -> None:
-        kernels.mean_distances(features, chosen, ends, rows.start, rows.stop, means)
+        kernels.compute_mean_distances(features, chosen, ends, rows.start, rows.stop, means)
 
     map_threads(fill, make_even_slices(len(groups)))
     # Kernels fill the upper half only.
@@ -490,16 +490,18 @@ def link_parts(
     if sizes.all():  # a part shorter than a sample has nothing to compare: parts stay apart
         groups = [np.flatnonzero(per_sample == cluster) for cluster in range(len(sizes))]
         chosen = [group[spread_samples(0, len(group), OF_CLUSTER)] for group in groups]
-        means = mean_distances(features, chosen) / unit
+        means = compute_mean_distances(features, chosen) / unit
         part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
-        labels = link(means, sizes, part_of, price)[labels]
+        labels = match_clusters_across_parts(means, sizes, part_of, price)[labels]
     labels = number_by_appearance(labels)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
     preference = np.concatenate([part.preference for part in parts])
     return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])
 
 
-def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Samples:
+def match_clusters_across_parts(
+    means: Floats, sizes: Samples, part_of: Samples, price: float
+) -> Samples:
     """Return clusters of all parts, where those of different parts may be one: a number for each.
 
     Two are one if they are nearer to each other than either is to any other cluster of its own
@@ -521,7 +523,8 @@ def link(means: Floats, sizes: Samples, part_of: Samples, price: float) -> Sampl
     --------
     >>> places = np.array([0.0, 1.0, 0.1, 3.0])
     >>> apart = np.abs(places - places[:, None])
-    >>> link(apart, np.full(4, 10), np.array([0, 0, 1, 1]), price=2.0).tolist()
+    >>> part_of = np.array([0, 0, 1, 1])
+    >>> match_clusters_across_parts(apart, np.full(4, 10), part_of, price=2.0).tolist()
     [0, 1, 0, 3]
     """
     means, lengths = means.copy(), sizes.astype(np.float64)

@@ -185,7 +185,7 @@ def mark_coherent_paths(ptr, rows, columns, share):
 
 
 @njit("int64(int32[::1], int32[::1], int64)", **OPTIONS)
-def row_of_column(rows, columns, column):
+def find_row_at_column(rows, columns, column):
     """Return row at which a path passes a column, between two nodes their mean rounded half up."""
     at = max(np.searchsorted(columns, column, side="right") - 1, 0)
     if columns[at] < column and at + 1 < len(rows):
@@ -216,8 +216,8 @@ def find_linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
             # 2014: all rows of the path. 2017: only those between the borders of h.
             row_low, row_high = path_rows[0], path_rows[-1]
             if interpolate:
-                row_low = row_of_column(path_rows, path_columns, first)
-                row_high = row_of_column(path_rows, path_columns, last)
+                row_low = find_row_at_column(path_rows, path_columns, first)
+                row_high = find_row_at_column(path_rows, path_columns, last)
             # Frames of h that the path passes, both ends included, as a share of h.
             of_h = (min(last, high) - max(first, low) + 1) / (last - first + 1)
             of_g = (min(g_last, row_high) - max(g_first, row_low) + 1) / (g_last - g_first + 1)

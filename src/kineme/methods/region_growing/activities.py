@@ -77,7 +77,7 @@ def find_square_cuts(
     return ActivityCuts(forward, backward)
 
 
-def scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> ActivityCuts:
+def find_scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> ActivityCuts:
     """Cuts where a region scanned line by line stops finding neighbours (2017).
 
     Each frame adds its own neighbours inside the region. A region ends after

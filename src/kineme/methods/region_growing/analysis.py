@@ -19,8 +19,8 @@ from kineme.methods.base import Mirror
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import (
     ActivityCuts,
+    find_scan_line_cuts,
     find_square_cuts,
-    scan_line_cuts,
 )
 from kineme.methods.region_growing.clustering import Clustering, cluster_segments
 from kineme.methods.region_growing.found import RegionsFound
@@ -152,7 +152,7 @@ def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) ->
             min_count=preset.growth_count,
             min_distance=preset.frames(preset.growth_distance),
         )
-    return scan_line_cuts(graph, min_gap=gap, min_count=preset.growth_count)
+    return find_scan_line_cuts(graph, min_gap=gap, min_count=preset.growth_count)
 
 
 def _make_borders(cuts: Frames, n: int) -> Frames:
