@@ -284,7 +284,7 @@ class Api:
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import agreement, differences
-        from kineme.labels.collections import labels_for
+        from kineme.labels.collections import read_labels
         from kineme.web.tables import segments_message
 
         opened = self._opened(request)
@@ -295,7 +295,7 @@ class Api:
         elif sent.annotation is not UNSET and sent.preset is UNSET:
             path = self._recordings.annotation(sent.annotation)
             title = path.name
-            other = labels_for(
+            other = read_labels(
                 opened.listed.called,
                 path,
                 n_frames=table.n_frames,

@@ -29,7 +29,7 @@ from kineme.evaluation.score import (
     write_result,
 )
 from kineme.formats.options import ReadOptions
-from kineme.labels.collections import find_labels_and_strays
+from kineme.labels.collections import find_labels_and_unmatched
 
 NAMED = 5
 """Names that a list of files shows before it only counts."""
@@ -58,7 +58,7 @@ def run_folder(
     with progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = recordings_below(folder)
-        found, strays = find_labels_and_strays(recordings, labels)
+        found, strays = find_labels_and_unmatched(recordings, labels)
         result = evaluate_folder(
             found,
             methods,

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import re
 
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import ChannelTable, asked_for, columns_read, to_signals
 from kineme.formats.files import FileContent
@@ -134,7 +134,7 @@ def _channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
         notes.append(note)
     if not file.analog.size:
         raise content.error("holds no analog channels")
-    names = unique(file.analog_labels)
+    names = make_unique(file.analog_labels)
     chosen = columns_read(asked_for(content, names, columns, names), names)
     values = file.analog[:, [names.index(name) for name in chosen]]
     table = ChannelTable(chosen, values, {}, file.analog_rate or None, tuple(notes))
@@ -143,7 +143,7 @@ def _channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
 
 def muscles_of(content: FileContent, file: C3D) -> tuple[list[str], str]:
     """Return the names of the channels that are muscles', and a sentence on what was taken."""
-    names = unique(file.analog_labels)
+    names = make_unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
     described = [*described, *[""] * len(names)]

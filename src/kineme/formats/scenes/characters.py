@@ -15,7 +15,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kineme._util.checks import join_names, unique
+from kineme._util.checks import join_names, make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.persons import chosen_person
 from kineme.recordings import Note
@@ -215,7 +215,7 @@ def _names(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
         space = root.rpartition(":")[0]
         alone = carrier >= 0 and carriers.count(carrier) == 1
         names.append(nodes[carrier].name if alone else space or root)
-    return unique(names)
+    return make_unique(names)
 
 
 def _props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:
