@@ -14,7 +14,7 @@ from _options import few
 from kineme.evaluation.comparison import UNLABELLED
 from kineme.evaluation.folder import find_recordings
 from kineme.labels.collections import find_labels
-from kineme.labels.spans import text_of
+from kineme.labels.spans import format_text
 from kineme.recordings import Signals
 from sets import read_sensors
 
@@ -33,7 +33,7 @@ def classes_of(truth: kineme.Segmentation) -> Ints:
     classes = np.full(truth.n_frames, UNLABELLED, np.int64)
     for row in truth.activities:
         if row.kind != "transition":
-            number = numbers.setdefault(text_of(row), len(numbers))
+            number = numbers.setdefault(format_text(row), len(numbers))
             classes[row.start_frame : row.stop_frame] = number
     return classes
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.datasets.synthetic import SyntheticRecording
-from kineme.datasets.timeline import Row, segments_of
+from kineme.datasets.timeline import Row, make_segmentation
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.operations import move, turn
@@ -163,4 +163,4 @@ def _truth(
             borders = np.linspace(start, stop, parts[i].repetitions + 1).astype(int).tolist()
             for a, b in pairwise(borders):
                 add("primitive", "primitive", a, b, name)
-    return segments_of(rows, int(starts[-1]), fps)
+    return make_segmentation(rows, int(starts[-1]), fps)

@@ -85,7 +85,7 @@ def set_threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
     """Set how many threads compute what follows in this test."""
 
     def change(threads: int) -> None:
-        monkeypatch.setattr(parallel, "_pool", cache(parallel._pool.__wrapped__))
+        monkeypatch.setattr(parallel, "_get_pool", cache(parallel._get_pool.__wrapped__))
         monkeypatch.setattr(parallel, "count_threads", lambda: threads)
 
     return change

@@ -81,7 +81,7 @@ def test_a_place_that_may_not_be_written(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_file_and_folder_are_on_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
-    monkeypatch.setattr(_files, "_synchronise", lambda place: done.append(place.name))
+    monkeypatch.setattr(_files, "_flush_to_disk", lambda place: done.append(place.name))
     with atomic_write(tmp_path / "a.csv") as path:
         path.write_text("whole")
     assert done[1:] == [tmp_path.name]

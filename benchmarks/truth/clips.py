@@ -30,8 +30,8 @@ from _measure import kineme as run_kineme
 from _measure import verdict
 from _options import command_line, few, needed
 from _viewers import count_errors, in_blender, in_three, missing
-from kineme.clips.shaping import loop_qualities, planted_feet
-from kineme.clips.tags import travel_of
+from kineme.clips.shaping import find_planted_feet, measure_loops
+from kineme.clips.tags import measure_travel
 from kineme.recordings.posing import add_root, get_rig
 
 SOURCES = (("samba.fbx", None), ("Xbot.glb", "walk"), ("RobotExpressive.glb", "Walking"),
@@ -183,9 +183,9 @@ def rooted() -> Iterator[bool]:
     rows, found = list(kineme.segment(motion).primitives), []
     for each in (motion, add_root(motion)):
         costs = [
-            quality.cost for quality in loop_qualities(each, rows, planted_feet(each)).values()
+            quality.cost for quality in measure_loops(each, rows, find_planted_feet(each)).values()
         ]
-        travel = travel_of(each)
+        travel = measure_travel(each)
         tags = [travel.tags(row.start_frame, row.stop_frame) for row in rows] if travel else []
         found.append((np.argsort(costs).tolist(), tags))
     yield told("rooted", int(found[0] != found[1]), 0, "tags and ranks changed by a root bone", "")
@@ -199,7 +199,7 @@ def tagged(rigs: Path) -> Iterator[bool]:
         if direction is None:
             continue
         motion = kineme.read(path)
-        travel, table = travel_of(motion), kineme.segment(motion).table
+        travel, table = measure_travel(motion), kineme.segment(motion).table
         spans = [(0, motion.n_frames)]
         spans += [(r.start_frame, r.stop_frame) for r in table if r.kind != "transition"]
         right += [travel is not None and direction in travel.tags(*span) for span in spans]

@@ -32,7 +32,7 @@ from _figures import add_option, record
 from _options import command_line, few, is_quick, needed
 from kineme.cycles import Events, foot_events, stands_from_force
 from kineme.cycles.contacts import SMOOTH_S
-from kineme.cycles.events import OFF, STRIKE, normalize_name
+from kineme.cycles.events import OFF, STRIKE, normalize_event_name
 from kineme.recordings import Signals
 
 Floats = NDArray[np.float64]
@@ -201,7 +201,7 @@ def show_markers() -> bool:
     events = foot_events(motion)
     marked: dict[str, list[float]] = defaultdict(list)
     for at, name in motion.provenance.events:
-        marked[normalize_name(name)].append(at)
+        marked[normalize_event_name(name)].append(at)
     right = sum(len(hits(np.array(times), events.at(name))) for name, times in marked.items())
     true = sum(map(len, marked.values()))
     print(f"treadmill: {right} of {true} within 50 ms, {len(events)} found")

@@ -35,7 +35,7 @@ from _recordings import by_recording, synthetic
 from kineme.cycles import channels_of
 from kineme.cycles.table import Cycles
 from kineme.datasets import Action, synthesize
-from kineme.datasets.figure import ANGLES, figure, joint_rotations
+from kineme.datasets.figure import ANGLES, compute_joint_rotations, make_figure
 from kineme.formats.files import load
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings import Motion
@@ -179,8 +179,8 @@ def angles() -> bool:
         given[f"{side} spread"] = 6 + 3 * np.sin(t)
         given[f"{side} elbow"] = 40 + 25 * np.sin(t - late)
     given["tilt"], given["bend"] = 8 * np.sin(t), 2 + 2 * np.sin(2 * t)
-    skeleton = figure()
-    rotations = joint_rotations(skeleton, given, 30 * t)
+    skeleton = make_figure()
+    rotations = compute_joint_rotations(skeleton, given, 30 * t)
     motion = Motion.from_rotations(skeleton, rotations, 60.0)
     kept = True
     for kind, recording, most in (

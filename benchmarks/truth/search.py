@@ -23,7 +23,7 @@ from _figures import add_option, record
 from _options import command_line, few
 from _sources import PERSON, of_bodies
 from kineme.features.canonical import MATCHING_FPS, matching_features, mirror_features
-from kineme.library.searching import find_spans
+from kineme.library.searching import find_matches
 from kineme.transfer.subsequences import THRESHOLD, Matches
 
 Features = NDArray[np.float32]
@@ -50,7 +50,7 @@ def uiprmd() -> Iterator[Take]:
 def found_either_way(example: Features, features: Features) -> Matches:
     """Spans that are like an example or like its mirror image."""
     examples = [example, mirror_features(example)]
-    return find_spans(features, examples, [], threshold=THRESHOLD, top=None)
+    return find_matches(features, examples, [], threshold=THRESHOLD, top=None)
 
 
 def searched(example: Features, label: str, takes: Sequence[tuple[Take, Features]]) -> Searched:

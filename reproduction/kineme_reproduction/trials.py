@@ -135,9 +135,9 @@ def _annotations(folder: Path) -> Path | None:
 
 
 def _cache() -> Path | None:
-    from kineme.datasets.cmu import cache_folder
+    from kineme.datasets.cmu import find_cache_folder
 
     try:
-        return cache_folder()
+        return find_cache_folder()
     except MissingDependencyError:
         return None

@@ -12,10 +12,10 @@ Every public name is importable from here; each is loaded when first used.
 
 import lazy_loader
 
-from kineme._util.parallel import find_cache
+from kineme._util.parallel import choose_numba_cache
 from kineme._version import __version__
 
-find_cache()
+choose_numba_cache()
 
 __getattr__, _, _names = lazy_loader.attach_stub(__name__, __file__)
 __all__ = ["__version__", *_names]

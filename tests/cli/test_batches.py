@@ -166,7 +166,7 @@ def test_a_result_that_cannot_be_written_is_an_error_whatever_else_was(
     kineme, takes, monkeypatch, option
 ) -> None:
     """On a disk with room for one of two files."""
-    whole, room = _files._synchronise, [None, None]  # of a file, and of its name in the folder
+    whole, room = _files._flush_to_disk, [None, None]  # of a file, and of its name in the folder
 
     def full(place: Path) -> None:
         if not room:
@@ -179,7 +179,7 @@ def test_a_result_that_cannot_be_written_is_an_error_whatever_else_was(
     for name in ("one", "other"):
         package.write(motion, home / f"{name}.bvh")
     (home / "take.bvh").unlink()
-    monkeypatch.setattr(_files, "_synchronise", full)
+    monkeypatch.setattr(_files, "_flush_to_disk", full)
     done = kineme("segment", "takes/a", "-q", *option)
     assert done.returncode == 1, done.stderr
     assert len(list(Path("out").iterdir())) == 1

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.loops import Carry, loop
+from kineme.clips.loops import Carry, make_loop
 from kineme.clips.split import split, write_clips
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats.channels.writing import write_signals
@@ -80,7 +80,7 @@ def test_a_glb_holds_all_clips_as_animations(tmp_path, motion, truth) -> None:
     for index, row in enumerate(truth.activities[:3]):  # a transition is no loop
         expected = cut(motion, row.start_frame, row.stop_frame)
         if row.kind != "transition":
-            expected, _ = loop(expected)
+            expected, _ = make_loop(expected)
         clip = kineme.read(paths[index], take=manifest.animation[index])
         assert clip.fps == motion.fps
         assert np.abs(clip.positions - expected.positions).max() < 1e-5
@@ -112,7 +112,7 @@ def test_clips_in_any_format_that_motions_are_written_in(tmp_path, motion, truth
 def test_loops_play_without_a_jump(motion, truth) -> None:
     for clip in clips(motion, truth):
         bare = Motion(clip.skeleton, clip.positions, clip.fps)
-        for looped, carry in (loop(clip), loop(bare)):
+        for looped, carry in (make_loop(clip), make_loop(bare)):
             assert looped.n_frames == clip.n_frames
             assert step_at_the_seam(looped, carry) <= largest_step(looped)
 
@@ -121,7 +121,7 @@ def test_loops_of_real_primitives_play_without_a_jump(data_dir: Path) -> None:
     walk = kineme.read(data_dir / "cmu86" / "86_01.amc")
     jumps = []
     for clip in clips(walk, kineme.segment(walk)):
-        looped, carry = loop(clip)
+        looped, carry = make_loop(clip)
         assert step_at_the_seam(looped, carry) <= largest_step(looped)
         jumps.append(step_at_the_seam(clip, carry) / largest_step(clip))
     assert max(jumps) > 5  # what the blending is for
@@ -129,7 +129,7 @@ def test_loops_of_real_primitives_play_without_a_jump(data_dir: Path) -> None:
 
 def test_a_loop_keeps_bones_and_says_what_was_done(motion, truth) -> None:
     clip = clips(motion, truth)[0]
-    looped, _ = loop(clip)
+    looped, _ = make_loop(clip)
     assert looped.provenance.notes[-1] == "ends blended into a loop"
 
     def lengths(motion: Motion) -> np.ndarray:
@@ -145,7 +145,7 @@ def test_a_perfect_cycle_stays_as_it_is() -> None:
     arm = np.stack([np.cos(angle), 1 + 0 * angle, np.sin(angle)], axis=-1)
     body = np.stack([arm, 0 * arm, 0 * arm + [0.3, 0, 0.1]], axis=1)
     skeleton = kineme.Skeleton(("a", "b", "c"), (-1, -1, -1), np.zeros((3, 3)))
-    looped, carry = loop(Motion(skeleton, body, 100))
+    looped, carry = make_loop(Motion(skeleton, body, 100))
     assert np.abs(looped.positions - body).max() < 2e-3
     assert abs(carry.turn) < 1e-3
 
@@ -154,7 +154,7 @@ def test_a_perfect_cycle_stays_as_it_is() -> None:
 def test_a_turned_and_moved_recording_loops_alike(motion, angle, x, z) -> None:
     clip = cut(motion, 354, 524)
     there = move(turn(clip, angle), [x, 0, z])
-    (here, carry), (looped, far) = loop(clip), loop(there)
+    (here, carry), (looped, far) = make_loop(clip), make_loop(there)
     assert np.abs(move(turn(here, angle), [x, 0, z]).positions - looped.positions).max() < 1e-8
     assert far.turn == pytest.approx(carry.turn, abs=1e-9)
 
@@ -172,7 +172,7 @@ def test_the_manifest_tells_how_a_loop_goes_on(tmp_path, motion, truth) -> None:
 
 @pytest.mark.parametrize("n", [1, 2, 3])
 def test_the_shortest_clips_loop(motion, n) -> None:
-    looped, carry = loop(cut(motion, 100, 100 + n))
+    looped, carry = make_loop(cut(motion, 100, 100 + n))
     assert looped.n_frames == n
     assert np.isfinite(carry.apply(looped.positions)).all()
 

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.names import file_name, safe_name, unlike
+from kineme.clips.names import make_clip_name, make_file_name, make_unique_name
 from kineme.clips.split import write_clips
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
@@ -29,7 +29,7 @@ runs = st.lists(st.tuples(texts, st.lists(texts, max_size=4)), max_size=4)
 
 @given(st.text(max_size=40), st.integers(0, 99999), st.text(max_size=40))
 def test_names_survive_import_and_tell_the_number(stem: str, number: int, label: str) -> None:
-    name = safe_name(stem, number, label)
+    name = make_clip_name(stem, number, label)
     jsonschema.validate(name, NAME)
     assert f"_{number:04d}_" in name
 
@@ -38,10 +38,10 @@ def test_names_survive_import_and_tell_the_number(stem: str, number: int, label:
 def test_no_two_names_of_a_run_are_the_same_whatever_the_case(run) -> None:
     names, clips, together = list[str](), list[str](), list[str]()
     for stem, labels in run:
-        together.append(unlike(stem, len(names), set(together)).casefold())
+        together.append(make_unique_name(stem, len(names), set(together)).casefold())
         for label in labels:
-            clips.append(file_name(stem, len(names), label).casefold())
-            names.append(safe_name(stem, len(names), label).lower())
+            clips.append(make_file_name(stem, len(names), label).casefold())
+            names.append(make_clip_name(stem, len(names), label).lower())
     for each in (names, clips, together):
         assert len(set(each)) == len(each)
 

@@ -14,9 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.loops import Carry, carry_of, loop
-from kineme.clips.quality import distances, loop_quality, usual_steps
-from kineme.clips.root_motion import remove_root_motion, root_motion, straighten
+from kineme.clips.loops import Carry, find_carry, make_loop
+from kineme.clips.quality import measure_distances, measure_loop, measure_usual_steps
+from kineme.clips.root_motion import measure_root_motion, remove_root_motion, straighten
 from kineme.clips.split import split
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
@@ -47,7 +47,7 @@ def rounds(motion: Motion, carry: Carry, n: int) -> np.ndarray:
 def test_speed_and_acceleration_meet_at_the_seam(motion, truth) -> None:
     for clip in repetitions(motion, truth):
         bare = Motion(clip.skeleton, clip.positions, clip.fps)
-        for closed, carry in (loop(clip), loop(bare)):
+        for closed, carry in (make_loop(clip), make_loop(bare)):
             twice, n = rounds(closed, carry, 2), closed.n_frames
             changes = np.linalg.norm(np.diff(twice, 2, axis=0), axis=-1).mean(axis=1)
             assert changes[n - 2 : n].max() <= 1.05 * changes[: n - 2].max()
@@ -61,8 +61,10 @@ def test_a_cycle_that_is_one_costs_next_to_nothing_and_a_cut_in_the_wrong_place_
 
     def cost(stop: int) -> float:
         clip = Motion(kineme.Skeleton(("a", "b"), (-1, -1), np.zeros((2, 3))), body[:stop], 60)
-        closed, carry = loop(clip)
-        found = loop_quality(clip.positions, closed.positions, carry, 60, usual=usual_steps(body))
+        closed, carry = make_loop(clip)
+        found = measure_loop(
+            clip.positions, closed.positions, carry, 60, usual=measure_usual_steps(body)
+        )
         assert np.isnan(found.slide_m_s)
         assert found.step < 1.5
         return found.pose_m + found.speed_m_s
@@ -73,8 +75,8 @@ def test_a_cycle_that_is_one_costs_next_to_nothing_and_a_cut_in_the_wrong_place_
 
 def test_the_one_that_is_unlike_the_others_is_told() -> None:
     poses = np.zeros((30, 2, 3))
-    assert np.isnan(distances([poses])).all()
-    found = distances([poses, poses[:20], poses + 0.1, poses])
+    assert np.isnan(measure_distances([poses])).all()
+    found = measure_distances([poses, poses[:20], poses + 0.1, poses])
     assert found[2] > 0.1
     assert found[:2] == [0.0, 0.0]
 
@@ -84,8 +86,8 @@ def test_planted_feet_that_are_dragged_slide(motion) -> None:
     dragged = still + np.linspace(0, 0.6, 60)[:, None, None] * [1.0, 0.0, 0.0]
     feet = [((0, 1), np.ones(60, bool))]
     for positions, slide in ((still, 0.0), (dragged, 0.6)):
-        carry = carry_of(Motion(motion.skeleton, positions, 60))
-        found = loop_quality(positions, positions, carry, 60, usual=(0.01, 0.01), feet=feet)
+        carry = find_carry(Motion(motion.skeleton, positions, 60))
+        found = measure_loop(positions, positions, carry, 60, usual=(0.01, 0.01), feet=feet)
         assert found.slide_m_s == pytest.approx(slide, abs=0.02)
 
 
@@ -93,7 +95,7 @@ def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_b
     motion, truth
 ) -> None:
     for clip in repetitions(motion, truth):
-        closed, carry = loop(clip)
+        closed, carry = make_loop(clip)
         still, root = remove_root_motion(closed, carry)
         n, fps = closed.n_frames, closed.fps
         step = np.linalg.norm(still.positions[0] - still.positions[-1], axis=-1).max()
@@ -122,7 +124,10 @@ def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_b
 def test_a_straightened_loop_goes_on_as_it_begins(motion, turn, x, z) -> None:
     clip = cut(motion, 354, 414)
     straight, carry = straighten(clip, Carry(turn, x, z))
-    before, after = root_motion(clip, Carry(turn, x, z)), root_motion(straight, carry)
+    before, after = (
+        measure_root_motion(clip, Carry(turn, x, z)),
+        measure_root_motion(straight, carry),
+    )
     assert carry.turn == 0
     assert after.speed == pytest.approx(before.speed, abs=1e-6)
     assert np.abs(straight.positions[0] - clip.positions[0]).max() < 1e-9

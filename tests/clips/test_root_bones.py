@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.clips.loops import carry_of
-from kineme.clips.root_motion import remove_root_motion, root_motion
-from kineme.clips.shaping import loop_qualities, planted_feet
+from kineme.clips.loops import find_carry
+from kineme.clips.root_motion import measure_root_motion, remove_root_motion
+from kineme.clips.shaping import find_planted_feet, measure_loops
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.features import measure_body_size
 from kineme.recordings import Motion, Skeleton
@@ -69,11 +69,13 @@ def test_size_and_segments_are_the_same(motion, rooted) -> None:
 def test_clips_in_place_and_their_motion_are_the_same(motion, rooted) -> None:
     for row in kineme.read_segments(bundled_truth()).primitives:
         clip, other = (cut(each, row.start_frame, row.stop_frame) for each in (motion, rooted))
-        carry, with_bone = carry_of(clip), carry_of(other)
+        carry, with_bone = find_carry(clip), find_carry(other)
         assert (carry.turn, carry.x, carry.z) == pytest.approx(
             (with_bone.turn, with_bone.x, with_bone.z), abs=1e-9
         )
-        assert root_motion(clip, carry).speed == pytest.approx(root_motion(other, carry).speed)
+        assert measure_root_motion(clip, carry).speed == pytest.approx(
+            measure_root_motion(other, carry).speed
+        )
         still, still_rooted = (remove_root_motion(each, carry)[0] for each in (clip, other))
         body = still_rooted.positions[:, rooted.skeleton.body]
         np.testing.assert_allclose(body, still.positions, atol=1e-9)
@@ -81,7 +83,7 @@ def test_clips_in_place_and_their_motion_are_the_same(motion, rooted) -> None:
 
 def test_loops_rank_the_same(motion, rooted) -> None:
     rows = list(kineme.segment(motion).primitives)
-    found, other = (loop_qualities(each, rows, planted_feet(each)) for each in (motion, rooted))
+    found, other = (measure_loops(each, rows, find_planted_feet(each)) for each in (motion, rooted))
     assert found.keys() == other.keys()
     for index, quality in found.items():
         assert quality.cost == pytest.approx(other[index].cost, rel=1e-6)

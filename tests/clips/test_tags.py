@@ -10,7 +10,7 @@ import pytest
 
 import kineme
 from kineme.clips.split import split
-from kineme.clips.tags import travel_of
+from kineme.clips.tags import measure_travel
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut, turn
 from kineme.recordings.posing import add_root
@@ -19,7 +19,7 @@ SIDES = {"left": "right", "right": "left", "turn left": "turn right", "turn righ
 
 
 def tags(motion: Motion) -> tuple[str, ...]:
-    travel = travel_of(motion)
+    travel = measure_travel(motion)
     return () if travel is None else travel.tags(0, motion.n_frames)
 
 

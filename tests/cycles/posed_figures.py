@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.datasets.figure import ANGLES, figure, joint_rotations
+from kineme.datasets.figure import ANGLES, compute_joint_rotations, make_figure
 from kineme.recordings import Motion
 
 
@@ -15,6 +15,6 @@ def posed(fps: float = 60.0, **angles: NDArray[np.float64]) -> Motion:
     given = {name.replace("_", " "): values for name, values in angles.items()}
     full = {name: np.resize(given.get(name, np.zeros(1)), n) for name in ANGLES}
     heading = np.resize(given.get("heading", np.zeros(1)), n)
-    skeleton = figure()
-    rotations = joint_rotations(skeleton, full, heading)
+    skeleton = make_figure()
+    rotations = compute_joint_rotations(skeleton, full, heading)
     return Motion.from_rotations(skeleton, rotations, fps, np.tile([0.0, 1.0, 0.0], (n, 1)))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.cycles import channels_of
 from kineme.cycles.align import ALIGNMENTS, align_curves
-from kineme.cycles.measure import measure_again
+from kineme.cycles.measure import measure_other_channels
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 
@@ -76,7 +76,7 @@ def test_cycles_of_a_recording_come_in_step(walks: SyntheticRecording) -> None:
         found = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], align=alignment)
         spread[alignment] = found.layout("knee_r", "walk").std(axis=0).mean()
         assert found.provenance["align"] == alignment
-        again = measure_again(found, channels_of(walks.motion, ["knee_r"]))
+        again = measure_other_channels(found, channels_of(walks.motion, ["knee_r"]))
         np.testing.assert_array_equal(again.curves, found.curves)
     assert spread["warp"] < spread["linear"]
     with pytest.raises(ParameterError, match="align must be one of linear, landmarks, warp"):

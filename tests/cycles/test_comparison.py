@@ -22,7 +22,7 @@ from kineme.cycles import (
     foot_events,
     gait,
 )
-from kineme.cycles.channels import find_contacts
+from kineme.cycles.channels import make_contact_channels
 from kineme.cycles.comparison import MEASURES, pair_sides
 from kineme.datasets import Action, synthesize
 from kineme.datasets.synthetic import SyntheticRecording
@@ -81,7 +81,7 @@ def test_sensors_at_feet_tell_the_share_of_stance() -> None:
     rates[:, 1] = np.tile(np.r_[np.zeros(40), -6 * np.hanning(12), 5 * np.hanning(36),
                                 -5 * np.hanning(12)], 5)  # fmt: skip
     signals = Signals(rates, 100.0, ["lf_gyr_x", "lf_gyr_y", "lf_gyr_z"])
-    assert [channel.name for channel in find_contacts(signals)] == ["stance_l"]
+    assert [channel.name for channel in make_contact_channels(signals)] == ["stance_l"]
     assert 45 < channels_of(signals, ["stance_l"])[0].values()[150:350].mean() < 65
     assert [channel.name for channel in channels_of(signals)] == list(signals.names)
 

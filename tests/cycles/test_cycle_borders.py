@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kineme.cycles.borders import run_of, shift_to_common_phase
+from kineme.cycles.borders import make_run, shift_to_common_phase
 
 RATE = 100.0
 OFFSETS = st.lists(st.floats(-0.02, 0.02), min_size=6, max_size=6)
@@ -25,17 +25,17 @@ def swing(periods: list[float], noise: float = 0.0) -> tuple[np.ndarray, np.ndar
 @given(OFFSETS)
 def test_wherever_the_grid_had_them_borders_come_to_the_same_places(offsets: list[float]) -> None:
     features, true = swing([1.0, 1.1, 0.95, 1.0, 1.05, 0.9, 1.0, 1.0])
-    (run,) = shift_to_common_phase([run_of(0, true[1:7] + offsets)], [features], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, true[1:7] + offsets)], [features], [RATE])
     apart = run.borders[1:-1] - true[2:6]
     assert np.ptp(apart) < 0.015  # at one phase, whichever that is
-    (exact,) = shift_to_common_phase([run_of(0, true[1:7])], [features], [RATE])
+    (exact,) = shift_to_common_phase([make_run(0, true[1:7])], [features], [RATE])
     assert np.allclose(run.borders[1:-1], exact.borders[1:-1], atol=0.01)
 
 
 def test_durations_are_right_within_a_fraction_of_a_frame_of_the_grid() -> None:
     features, true = swing([1.0, 1.1, 0.95, 1.0, 1.05, 0.9, 1.0, 1.0], noise=0.02)
     cut = np.round(true[1:8] * 30 + 0.3) / 30
-    (run,) = shift_to_common_phase([run_of(0, cut)], [features], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, cut)], [features], [RATE])
     wrong = np.diff(run.borders)[1:-1] - np.diff(true[1:8])[1:-1]
     assert np.abs(wrong).max() < 0.015
     assert 0 < np.nanmedian(run.uncertainty) < 0.03
@@ -45,7 +45,7 @@ def test_channels_that_only_shake_do_not_move_borders() -> None:
     features, true = swing(np.random.default_rng(5).uniform(0.9, 1.1, 30).tolist(), noise=0.02)
     shaking = 1.5 * np.random.default_rng(3).normal(size=(len(features), 20))
     cut = np.round(true[1:-1] * 30 + 0.3) / 30
-    (run,) = shift_to_common_phase([run_of(0, cut)], [np.hstack([features, shaking])], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, cut)], [np.hstack([features, shaking])], [RATE])
     assert (np.diff(run.borders)[1:-1] - np.diff(true[1:-1])[1:-1]).std() < 0.02
 
 
@@ -53,16 +53,16 @@ def test_an_end_in_another_movement_is_where_a_usual_repetition_has_it() -> None
     features, true = swing([1.0, 1.01, 0.99, 1.0, 1.01, 0.99, 1.0, 1.0])
     other = np.random.default_rng(1).normal(size=(60, 3))
     features[int(true[6] * RATE) + 40 : int(true[6] * RATE) + 100] = other
-    (run,) = shift_to_common_phase([run_of(0, true[1:8])], [features], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, true[1:8])], [features], [RATE])
     assert np.diff(run.borders)[-1] == pytest.approx(1.0, abs=0.05)
-    alone = shift_to_common_phase([run_of(0, true[1:4])], [features], [RATE])[0]
+    alone = shift_to_common_phase([make_run(0, true[1:4])], [features], [RATE])[0]
     assert np.isfinite(alone.borders).all()
 
 
 @pytest.mark.parametrize("late", [0.25, 0.5, -0.3])
 def test_runs_of_one_cluster_begin_at_one_phase(late: float) -> None:
     features, true = swing([1.0] * 8)
-    long, short = run_of(0, true[1:7]), run_of(1, true[1:5] + late)
+    long, short = make_run(0, true[1:7]), make_run(1, true[1:5] + late)
     first, second = shift_to_common_phase([long, short], [features, features], [RATE, RATE])
     assert np.allclose(first.borders, long.borders, atol=0.01)
     assert second.turned == pytest.approx(-late, abs=0.03) or abs(abs(late) - 0.5) < 0.01
@@ -72,7 +72,7 @@ def test_runs_of_one_cluster_begin_at_one_phase(late: float) -> None:
 
 def test_the_longest_of_two_phases_stays() -> None:
     features, true = swing([1.0] * 12)
-    runs = [run_of(0, true[1:4] + 0.25), run_of(0, true[4:11])]
+    runs = [make_run(0, true[1:4] + 0.25), make_run(0, true[4:11])]
     first, second = shift_to_common_phase(runs, [features], [RATE])
     assert abs(first.turned) > 0.2
     assert second.turned == 0
@@ -81,7 +81,7 @@ def test_the_longest_of_two_phases_stays() -> None:
 def test_movements_that_are_not_similar_keep_their_borders() -> None:
     features, true = swing([1.0] * 8)
     other = np.random.default_rng(1).normal(size=features.shape)
-    runs = [run_of(0, true[1:7]), run_of(1, true[1:7] + 0.4)]
+    runs = [make_run(0, true[1:7]), make_run(1, true[1:7] + 0.4)]
     assert [run.turned for run in shift_to_common_phase(runs, [features, other], [RATE, RATE])] == [
         0,
         0,
@@ -91,20 +91,20 @@ def test_movements_that_are_not_similar_keep_their_borders() -> None:
 def test_borders_lie_where_the_movement_turns_back_or_in_the_middle_of_its_rest() -> None:
     t = np.arange(0, 8, 1 / RATE)
     swings = np.cos(2 * np.pi * t)[:, None]  # turns at whole and half seconds
-    (run,) = shift_to_common_phase([run_of(0, np.arange(1.0, 7) + 0.1)], [swings], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, np.arange(1.0, 7) + 0.1)], [swings], [RATE])
     assert np.allclose(run.borders, np.arange(1, 7), atol=0.01)
     rests = np.where(t % 1 < 0.4, 0, np.sin(np.pi * (t % 1 - 0.4) / 0.6) ** 2)[:, None]
-    (run,) = shift_to_common_phase([run_of(0, np.arange(1.0, 7) + 0.05)], [rests], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, np.arange(1.0, 7) + 0.05)], [rests], [RATE])
     assert np.allclose(run.borders, np.arange(1, 7) + 0.2, atol=0.04)
 
 
 def test_one_repetition_stays_as_it_is() -> None:
     features, _ = swing([1.0] * 4)
-    (run,) = shift_to_common_phase([run_of(0, np.array([1.0, 2.0]))], [features], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, np.array([1.0, 2.0]))], [features], [RATE])
     assert run.borders.tolist() == [1, 2]
     assert np.isnan(run.uncertainty).all()
 
 
 def test_where_nothing_moves_nothing_is_certain() -> None:
-    (run,) = shift_to_common_phase([run_of(0, np.arange(1.0, 6))], [np.zeros((800, 2))], [RATE])
+    (run,) = shift_to_common_phase([make_run(0, np.arange(1.0, 6))], [np.zeros((800, 2))], [RATE])
     assert np.isnan(run.uncertainty).all()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from kineme.datasets import Action, synthesize
-from kineme.datasets.figure import figure
+from kineme.datasets.figure import make_figure
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import end_effectors, measure_body_size
 from kineme.recordings import Motion, Skeleton
@@ -46,7 +46,7 @@ PLAIN = ("LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand")
 
 def renamed(names: dict[str, str]) -> Skeleton:
     """The figure with some joints renamed, the others given names that say nothing."""
-    plain = figure()
+    plain = make_figure()
     new = tuple(names.get(name, f"node{i}") for i, name in enumerate(plain.names))
     return Skeleton(new, plain.parents, plain.offsets, plain.end_sites)
 
@@ -57,7 +57,7 @@ def test_usual_names_are_found(scheme: str) -> None:
     names = text.split("|")[1:] if scheme == "biped" else text.split()
     skeleton = renamed(dict(zip(PLAIN, names, strict=True)))
     found = end_effectors(skeleton)
-    plain = figure()
+    plain = make_figure()
     crown = plain.joint("Head_end")
     assert found.how == ("by name",) * 5
     assert found.indices == (
@@ -105,7 +105,7 @@ def test_turned_about_the_shape_tells_the_same_left() -> None:
 
 
 def test_names_given_come_first() -> None:
-    skeleton = figure()
+    skeleton = make_figure()
     found = end_effectors(skeleton, names={"left_wrist": "LeftHand_end", "head": "Head"})
     assert skeleton.names[found.left_wrist] == "LeftHand_end"
     assert skeleton.names[found.head] == "Head"
@@ -114,7 +114,7 @@ def test_names_given_come_first() -> None:
 
 
 def test_the_description_names_joint_and_way() -> None:
-    skeleton = figure()
+    skeleton = make_figure()
     text = end_effectors(skeleton).describe(skeleton)
     assert text.startswith("left ankle = LeftFoot (by name), ")
 
@@ -130,7 +130,7 @@ def test_a_missing_one_is_named_with_the_joints_there_are() -> None:
 
 
 def test_feet_without_toes_do_not_make_up_a_left() -> None:
-    plain = figure()
+    plain = make_figure()
     keep = [i for i, name in enumerate(plain.names) if "Toe" not in name]
     stump = Skeleton(
         tuple(f"node{i}" for i in keep),
@@ -153,7 +153,7 @@ def test_feet_without_toes_do_not_make_up_a_left() -> None:
 )
 def test_wrong_names_are_refused(names: object, message: str) -> None:
     with pytest.raises(EndEffectorError, match=re.escape(message)):
-        end_effectors(figure(), names=names)  # type: ignore[arg-type]
+        end_effectors(make_figure(), names=names)  # type: ignore[arg-type]
 
 
 def performed(name: str, size: float = 1.75) -> Motion:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import kineme
 from growth import LINEAR, times_longer
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.skeletons.asf import read_asf
 
@@ -24,15 +24,15 @@ def test_names_made_unique_are_those_of_the_plain_way(names: list[str]) -> None:
     for name in names:
         tries = (name if i == 1 else f"{name}_{i}" for i in count(1))
         given_.append(next(new for new in tries if new and new not in given_))
-    assert unique(names) == given_
+    assert make_unique(names) == given_
 
 
 def test_many_names() -> None:
     def alike(n: int) -> None:
-        assert len(set(unique(["a"] * n))) == n
+        assert len(set(make_unique(["a"] * n))) == n
 
     def numbered(n: int) -> None:
-        assert unique(map(str, range(n)))[-1] == f"{n - 1}"
+        assert make_unique(map(str, range(n)))[-1] == f"{n - 1}"
 
     assert times_longer(alike, 3 * N) < LINEAR
     assert times_longer(numbered, 3 * N) < LINEAR

@@ -12,7 +12,7 @@ from kineme.datasets import bundled_recording
 from kineme.errors import ParameterError, WriteError
 from kineme.interop.rerun_recording import write_rerun
 from kineme.labels import read_segments
-from kineme.labels.spans import text_of
+from kineme.labels.spans import format_text
 from kineme.recordings.operations import cut
 
 pytest.importorskip("rerun", reason="not installed: pip install 'kineme[rerun]'")
@@ -53,7 +53,7 @@ def test_skeleton_and_lanes_come_back(tmp_path) -> None:
         assert lane["frame"] == rows.start_frame.tolist()
         states = lane["StateChange:state"]
         assert len({state for (state,) in states}) == len(rows)
-        assert lane["StateConfiguration:labels"] == [list(map(text_of, rows))]
+        assert lane["StateConfiguration:labels"] == [list(map(format_text, rows))]
     assert "known by construction" in columns(path, "/provenance")["TextDocument:text"][0][0]
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import naive
 from kineme.library import Example, Library, searching
-from kineme.library._kernels import find_least_squares
+from kineme.library._kernels import find_smallest_distances
 from kineme.library.storage import index as storage
 from kineme.library.windows import (
     FINER,
@@ -45,9 +45,9 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
     example = features[4 * step : 4 * step + LENGTHS[1]]
     windows, parts = describe_windows(features, LENGTHS[1]), describe_at_speeds(example)
     least = np.empty(len(windows), np.int32)
-    find_least_squares(windows, parts, np.int32(FINER), least)
+    find_smallest_distances(windows, parts, np.int32(FINER), least)
     assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)
     assert least.argmin() == 4
     windows[:], parts[:] = -127, 127 * FINER  # the farthest there is
-    find_least_squares(windows, parts, np.int32(FINER), least)
+    find_smallest_distances(windows, parts, np.int32(FINER), least)
     assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)

@@ -193,14 +193,14 @@ def join_names(names: Sequence[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
 
 
-def unique(names: Iterable[str], *, allow_empty: bool = False) -> list[str]:
+def make_unique(names: Iterable[str], *, allow_empty: bool = False) -> list[str]:
     """Return the names, those that repeat an earlier one with a number behind them.
 
     An empty name gets a number, too, unless it is allowed.
 
     Examples
     --------
-    >>> unique(["hip", "knee", "hip", ""])
+    >>> make_unique(["hip", "knee", "hip", ""])
     ['hip', 'knee', 'hip_2', '_2']
     """
     distinct: dict[str, None] = {}
@@ -335,7 +335,9 @@ class Registry(Mapping[str, T]):
                 return
             self._loading = True
             try:
-                builtins = [new for path in self._builtins for new in _objects_at(path, self._home)]
+                builtins = [
+                    new for path in self._builtins for new in _load_objects(path, self._home)
+                ]
                 # Each is put in front, so the reversed order comes out right.
                 for new in reversed(builtins) if self._newest_first else builtins:
                     self._add(new)
@@ -351,7 +353,7 @@ class Registry(Mapping[str, T]):
 
         for point in sorted(entry_points(group=self._group), key=lambda point: point.name):
             try:
-                for new in _all_of(point.load()):
+                for new in _as_sequence(point.load()):
                     if self._objects.get(getattr(new, "name", "")) is not new:  # else by itself
                         self._add(new)
             except Exception as error:  # noqa: BLE001 (whatever a stranger's module raises)
@@ -363,13 +365,13 @@ class Registry(Mapping[str, T]):
                 )
 
 
-def _objects_at(path: str, home: str) -> Iterable[Any]:
+def _load_objects(path: str, home: str) -> Iterable[Any]:
     """Return the objects that ``module:NAME`` names."""
     module, _, name = path.partition(":")
-    return _all_of(getattr(import_module(f".{module}", home), name))
+    return _as_sequence(getattr(import_module(f".{module}", home), name))
 
 
-def _all_of(found: Any) -> Iterable[Any]:
+def _as_sequence(found: Any) -> Iterable[Any]:
     return found if isinstance(found, tuple | list) else (found,)
 
 

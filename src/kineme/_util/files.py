@@ -60,11 +60,11 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     WriteError
         The folder is missing, the file cannot be written, or is a link to elsewhere.
     """
-    final, draft = _find_places(path)
+    final, draft = _find_paths(path)
     with _write_draft(draft, final, path):
         yield draft
         # On the disk before it takes the name: a crash leaves the old file or the new one.
-        _synchronise(draft)
+        _flush_to_disk(draft)
         draft.replace(final)
 
 
@@ -82,7 +82,7 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     """
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         raise WriteError(target, "is there already: name a new folder, or empty this one")
-    _sweep(target.parent)
+    _remove_abandoned_drafts(target.parent)
     draft = target.with_name(f".kineme-{secrets.token_hex(6)}")
     try:
         draft.mkdir()
@@ -105,10 +105,10 @@ def _write_draft(draft: Path, final: Path, path: AnyPath) -> Iterator[None]:
     """
     descriptor = None
     try:
-        descriptor = _hold(draft)
+        descriptor = _open_locked(draft)
         yield
         # Flush the folder too: it stores the new name.
-        _synchronise(final.parent)
+        _flush_to_disk(final.parent)
     except FileError as error:
         raise _rename_error(error, draft, final) from error
     except OSError as error:
@@ -315,7 +315,7 @@ def shorten_error(error: Exception) -> str:
     return " ".join(str(error).split())[:120]
 
 
-def _find_places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
+def _find_paths(path: str | os.PathLike[str]) -> tuple[Path, Path]:
     """Where the file goes in the end, and where it is written."""
     target = Path(path)
     refuse_link(target)
@@ -328,21 +328,21 @@ def _find_places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
         final = Path(os.path.realpath(target.parent)) / target.name
     except OSError as error:  # a folder closed to us
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
-    _sweep(final.parent)
+    _remove_abandoned_drafts(final.parent)
     return final, final.with_name(f".kineme-{secrets.token_hex(6)}{final.suffix}")
 
 
-def _hold(draft: Path) -> int | None:
+def _open_locked(draft: Path) -> int | None:
     """Make the draft, unless it is a folder, and lock it as long as it is written."""
     if sys.platform == "win32":
         return None
     descriptor = _open_draft(draft)
-    hold(descriptor)
+    lock_shared(descriptor)
     return descriptor
 
 
-def hold(file: int) -> None:
-    """Lock an open file as one that is being written, until it is closed; see `is_held`."""
+def lock_shared(file: int) -> None:
+    """Lock an open file as one that is being written, until it is closed; see `is_locked`."""
     if sys.platform != "win32":
         with suppress(OSError):  # file systems without locks
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -353,7 +353,7 @@ def _open_draft(draft: Path) -> int:
     return os.open(draft, how | getattr(os, "O_CLOEXEC", 0), 0o666)
 
 
-def is_held(draft: Path) -> bool:
+def is_locked(draft: Path) -> bool:
     """Return whether a writer still has a draft open."""
     if sys.platform == "win32":
         return False
@@ -368,7 +368,7 @@ def is_held(draft: Path) -> bool:
     return False
 
 
-def _sweep(folder: Path) -> None:
+def _remove_abandoned_drafts(folder: Path) -> None:
     """Remove drafts of killed writers, once per folder and process."""
     if folder in _swept:
         return
@@ -378,7 +378,7 @@ def _sweep(folder: Path) -> None:
         for draft in drafts:
             with suppress(OSError):
                 old = time.time() - draft.stat().st_mtime > ABANDONED_S
-                if not old or is_held(draft):
+                if not old or is_locked(draft):
                     continue
                 if draft.is_dir():
                     shutil.rmtree(draft)
@@ -386,7 +386,7 @@ def _sweep(folder: Path) -> None:
                     draft.unlink()
 
 
-def _synchronise(place: Path) -> None:
+def _flush_to_disk(place: Path) -> None:
     """Have a file, or the names in a folder, on the disk."""
     if sys.platform == "win32" and place.is_dir():  # where folders cannot be opened
         return

@@ -67,7 +67,7 @@ def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
     except ValueError as error:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
-    if fault := fault_of(found):
+    if fault := find_fault(found):
         raise ReadError(path, fault)
     if shape is Any:
         return found
@@ -84,12 +84,12 @@ def convert_json(found: Any, shape: type[Shape]) -> Shape:
     try:
         return msgspec.convert(found, shape, str_keys=True)  # as JSON has them
     except msgspec.ValidationError as error:
-        raise ValueError(sentence(str(error))) from error
+        raise ValueError(format_problem(str(error))) from error
     except ValueError as error:  # half of a pair of surrogates for a name
         raise ValueError("a name is no text") from error
 
 
-def sentence(problem: str, everything: str = "the whole of it") -> str:
+def format_problem(problem: str, everything: str = "the whole of it") -> str:
     """Return what msgspec says of a shape, with the place first and no signs of its own."""
     what, _, place = problem.partition(" - at ")
     where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or everything
@@ -148,7 +148,7 @@ def _as_tuples(value: Any) -> Any:
     return tuple(map(_as_tuples, value)) if isinstance(value, list) else value
 
 
-def fault_of(found: Any) -> str:
+def find_fault(found: Any) -> str:
     """Return what of JSON no reader takes, in words; empty where it is sound."""
     level: list[Any] = [[found]]
     # Level by level instead of by recursion, which deep content would exhaust.

@@ -6,7 +6,7 @@ longer.
 
 numba keeps compiled functions beside the sources, else in the user's cache folder. It refuses to
 load a function that it can keep in neither, as in a container whose packages belong to another
-user. A folder among the temporary ones will do then (`find_cache`).
+user. A folder among the temporary ones will do then (`choose_numba_cache`).
 """
 
 from __future__ import annotations
@@ -88,12 +88,12 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
     # A thread of the pool must not wait for other threads of the pool.
     if count_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
         return [one(item) for item in items]
-    pool = _pool()
+    pool = _get_pool()
     try:
         return list(pool.map(one, items))
     except KeyboardInterrupt:
         # A thread that was just being started would wait for work, and the program for it.
-        _pool.cache_clear()
+        _get_pool.cache_clear()
         pool.shutdown(wait=False, cancel_futures=True)
         raise
 
@@ -117,7 +117,7 @@ def count_threads() -> int:
 
 
 @cache
-def _pool() -> ThreadPoolExecutor:
+def _get_pool() -> ThreadPoolExecutor:
     from concurrent.futures import ThreadPoolExecutor
 
     def begin() -> None:
@@ -127,7 +127,7 @@ def _pool() -> ThreadPoolExecutor:
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_pool.cache_clear)  # threads do not survive a fork
+    os.register_at_fork(after_in_child=_get_pool.cache_clear)  # threads do not survive a fork
 
 
 def make_process_pool(processes: int, imports: Sequence[str] = ()) -> ProcessPoolExecutor:
@@ -137,7 +137,10 @@ def make_process_pool(processes: int, imports: Sequence[str] = ()) -> ProcessPoo
     # All processes together use as many threads as there are cores.
     share = max(1, count_threads() // processes)
     return ProcessPoolExecutor(
-        processes, mp_context=make_process_context(imports), initializer=_prepare, initargs=(share,)
+        processes,
+        mp_context=make_process_context(imports),
+        initializer=_prepare_worker,
+        initargs=(share,),
     )
 
 
@@ -179,7 +182,7 @@ def defer_interrupt() -> Iterator[None]:
         signal.raise_signal(signal.SIGINT)
 
 
-def _prepare(threads: int) -> None:
+def _prepare_worker(threads: int) -> None:
     """Make a worker one of several, which ends when the process that started it is gone."""
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
@@ -225,7 +228,7 @@ def announce_compilation(say: Callable[[str], None]) -> Iterator[None]:
         yield
 
 
-def find_cache() -> None:
+def choose_numba_cache() -> None:
     """Name a folder for compiled functions where numba would find none."""
     beside = Path(__file__).parent / "__pycache__"
     beside = beside if beside.is_dir() else beside.parent  # in which it is made

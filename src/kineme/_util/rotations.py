@@ -19,9 +19,9 @@ IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 def multiply(a: Floats, b: Floats) -> Floats:
     """Rotation ``b`` followed by ``a``: the Hamilton product."""
-    aw, ax, ay, az = components(a)
-    bw, bx, by, bz = components(b)
-    return join(
+    aw, ax, ay, az = split_components(a)
+    bw, bx, by, bz = split_components(b)
+    return join_components(
         aw * bw - ax * bx - ay * by - az * bz,
         aw * bx + ax * bw + ay * bz - az * by,
         aw * by - ax * bz + ay * bw + az * bx,
@@ -38,12 +38,12 @@ def conjugate(q: Floats) -> Floats:
 def rotate(q: Floats, v: Floats) -> Floats:
     """Vectors ``v`` turned by ``q``: v + 2 u x (u x v + w v), with q = (w, u)."""
     # Twice the cross product of the vector part with v, as in the docstring.
-    w, x, y, z = components(q)
-    vx, vy, vz = components(v)
+    w, x, y, z = split_components(q)
+    vx, vy, vz = split_components(v)
     tx = 2 * (y * vz - z * vy)
     ty = 2 * (z * vx - x * vz)
     tz = 2 * (x * vy - y * vx)
-    return join(
+    return join_components(
         vx + w * tx + y * tz - z * ty,
         vy + w * ty + z * tx - x * tz,
         vz + w * tz + x * ty - y * tx,
@@ -86,7 +86,7 @@ def to_euler_zyx(q: Floats) -> Floats:
     Each angle is taken from what the ones before it leave over. So the product is exact at y = 90
     degrees, too, where z and x are not unique.
     """
-    w, x, y, z = components(q)
+    w, x, y, z = split_components(q)
     cz_cy, sz_cy = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     about_z = np.arctan2(sz_cy, cz_cy)
     # What is left once the turn about z is taken off has only cos y and sin y in these places.
@@ -96,17 +96,17 @@ def to_euler_zyx(q: Floats) -> Floats:
         sin * 2 * (x * z + w * y) - cos * 2 * (y * z - w * x),
         cos * (1 - 2 * (x * x + z * z)) - sin * 2 * (x * y - w * z),
     )
-    return join(about_z, about_y, about_x)
+    return join_components(about_z, about_y, about_x)
 
 
 def rotate_about_y(angle: ArrayLike) -> Floats:
     """Rotations about the vertical, by angles in radians."""
     half = np.asarray(angle, np.float64) / 2
     still = np.zeros_like(half)
-    return join(np.cos(half), still, np.sin(half), still)
+    return join_components(np.cos(half), still, np.sin(half), still)
 
 
-def logarithm(q: Floats) -> Floats:
+def to_rotation_vectors(q: Floats) -> Floats:
     """Rotations as vectors: axis times radians, along the shorter arc."""
     # As q and -q are one rotation: w >= 0 is the shorter arc.
     q = np.where(q[..., :1] < 0, -q, q)
@@ -118,8 +118,8 @@ def logarithm(q: Floats) -> Floats:
     return vectors
 
 
-def exponential(vectors: Floats) -> Floats:
-    """Return the inverse of `logarithm`."""
+def from_rotation_vectors(vectors: Floats) -> Floats:
+    """Return the inverse of `to_rotation_vectors`."""
     half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
     # `sinc(half / pi)` is sin(half) / half, which is 1 at the identity: no division by 0.
     return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)
@@ -127,7 +127,9 @@ def exponential(vectors: Floats) -> Floats:
 
 def slerp(a: Floats, b: Floats, share: Floats) -> Floats:
     """So large a share of the way from rotations ``a`` to ``b``, along the shorter arc."""
-    return multiply(a, exponential(share * logarithm(multiply(conjugate(a), b))))
+    return multiply(
+        a, from_rotation_vectors(share * to_rotation_vectors(multiply(conjugate(a), b)))
+    )
 
 
 def normalize(q: Floats) -> Floats:
@@ -136,14 +138,14 @@ def normalize(q: Floats) -> Floats:
     return np.where(norm > 0, q / np.where(norm > 0, norm, 1.0), IDENTITY)
 
 
-def matrices(rotations: Floats) -> Floats:
+def to_matrices(rotations: Floats) -> Floats:
     """Unit quaternions (..., 4) as matrices (..., 3, 3)."""
     # The rotated unit vectors are the columns.
     axes = [rotate(rotations, axis) for axis in np.eye(3)]
     return np.stack(axes, axis=-1)
 
 
-def quaternions(axes: Floats) -> Floats:
+def from_matrices(axes: Floats) -> Floats:
     """Rotation matrices (frames, 3, 3) as unit quaternions: the largest component first.
 
     Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1, 1978.
@@ -170,13 +172,13 @@ def quaternions(axes: Floats) -> Floats:
     return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)
 
 
-def components(array: Floats) -> tuple[Floats, ...]:
+def split_components(array: Floats) -> tuple[Floats, ...]:
     """Return the slices of the last axis."""
     return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
-def join(*parts: Floats) -> Floats:
-    """Return the inverse of `components`, contiguous per component."""
+def join_components(*parts: Floats) -> Floats:
+    """Return the inverse of `split_components`, contiguous per component."""
     # Stored with components first, so that each is contiguous; then seen with components last.
     # For a few rotations this takes half the time of `np.stack` and `np.moveaxis`.
     joined = np.empty((len(parts), *np.broadcast(*parts).shape), np.result_type(*parts))

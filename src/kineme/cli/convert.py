@@ -140,9 +140,9 @@ def convert(
 
 def _note_missing_primitives(segments: Segmentation, place: Path, name: str | None) -> None:
     """Say on standard error what a file of one level does not hold."""
-    from kineme.labels.registry import format_to_write
+    from kineme.labels.registry import find_write_format
 
-    label_format, primitives = format_to_write(place, name), segments.primitives
+    label_format, primitives = find_write_format(place, name), segments.primitives
     if len(primitives) and label_format.holds == "level":
         typer.echo(
             f"note: {place} holds the activities alone, without the "

@@ -255,9 +255,9 @@ def _choose_channels(
     recordings: list[Motion | Signals], names: list[str] | None
 ) -> list[str] | None:
     """Return the channels to measure, and when each foot stands if all recordings tell it."""
-    from kineme.cycles.channels import channels_of, find_contacts
+    from kineme.cycles.channels import channels_of, make_contact_channels
 
-    stances = [[each.name for each in find_contacts(recording)] for recording in recordings]
+    stances = [[each.name for each in make_contact_channels(recording)] for recording in recordings]
     if min(map(len, stances)) < 2:
         return names
     chosen = names or [channel.name for channel in channels_of(recordings[0])]

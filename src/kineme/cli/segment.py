@@ -136,9 +136,9 @@ def load_or_find_segments(
     if table is None:
         with announce_compilation(stage):
             return segment_with_options(recording, options, progress=stage)[0]
-    from kineme.labels.collections import labels_for
+    from kineme.labels.collections import read_labels
 
-    return labels_for(
+    return read_labels(
         Path(recording.provenance.path or ""),
         table,
         n_frames=recording.n_frames,

@@ -119,7 +119,7 @@ def show_table(
 
 def _tabulate_activities(segmentation: Segmentation) -> Table:
     """Activities and transitions with their repetitions counted."""
-    from kineme.cycles.table import count_confidence
+    from kineme.cycles.table import compute_count_confidence
 
     table = make_table(
         "#",
@@ -137,7 +137,7 @@ def _tabulate_activities(segmentation: Segmentation) -> Table:
         repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
         count = _format_repetitions(inside, row.cluster) if row.kind == "activity" else ""
-        probability = count_confidence(
+        probability = compute_count_confidence(
             primitives.confidence[repeated], primitives.border_confidence[repeated]
         )
         cells = count, format_per_cent(probability), format_cluster(row.cluster), row.label

@@ -48,7 +48,7 @@ class Companions:
             name = name_of(clip)
             if self.sheet is not None:
                 title = "   ".join(filter(None, [name, ", ".join(clip.tags)]))
-                self.strips.append((title, _thin(clip.motion), clip.segment.cluster))
+                self.strips.append((title, _thin_frames(clip.motion), clip.segment.cluster))
             ranges.append((name, rows[clip.index], clip.tags))
             yield clip
         if self.matching is not None:
@@ -72,7 +72,7 @@ def check_target(path: Path, suffixes: Sequence[str]) -> None:
         raise WriteError(path, f"there is no folder {path.parent}")
 
 
-def _thin(motion: Motion) -> Motion:
+def _thin_frames(motion: Motion) -> Motion:
     """Return few frames of a motion, evenly apart."""
     at = np.linspace(0, motion.n_frames - 1, min(SHOWN, motion.n_frames)).round().astype(int)
     return replace(motion, positions=motion.positions[at], rotations=None, gaps=())

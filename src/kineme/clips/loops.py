@@ -70,20 +70,20 @@ class Carry:
         return rot.rotate(self.rotation, positions) + self.shift
 
 
-def loop(motion: Motion) -> tuple[Motion, Carry]:
+def make_loop(motion: Motion) -> tuple[Motion, Carry]:
     """Return the motion as a seamless cycle, and what carries one round to the next.
 
     A motion of fewer than two frames stays as it is.
     """
     if motion.n_frames < 2:
         return motion, Carry(0.0, 0.0, 0.0)
-    carry, fps = carry_of(motion), motion.fps
+    carry, fps = find_carry(motion), motion.fps
     note = "ends blended into a loop"
     provenance = motion.provenance.noted(note)
     if motion.rotations is None:
         # Without rotations no joint hangs on another: all of them are carried.
         free = np.ones(motion.positions.shape[1], bool)
-        positions = _closed_places(motion.positions, fps, carry, free)
+        positions = _close_translations(motion.positions, fps, carry, free)
         return replace(motion, positions=positions, provenance=provenance), carry
     skeleton, hips = motion.skeleton, motion.skeleton.carrier
     above = skeleton.parents[hips]
@@ -96,8 +96,8 @@ def loop(motion: Motion) -> tuple[Motion, Carry]:
         around = compute_world_rotations(skeleton, rotations)[:, above]
         rotations[:, hips] = rot.multiply(around, rotations[:, hips])
         translations[:, hips] = motion.positions[:, hips]
-    rotations = _closed_rotations(rotations, fps, carry, free)
-    translations = _closed_places(translations, fps, carry, free)
+    rotations = _close_rotations(rotations, fps, carry, free)
+    translations = _close_translations(translations, fps, carry, free)
     if above >= 0:
         positions = forward_kinematics(skeleton, rotations, translations=translations)
         # Back to the axes of the bone above, as they are after blending.
@@ -126,11 +126,11 @@ def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
     )
 
 
-def carry_of(motion: Motion) -> Carry:
+def find_carry(motion: Motion) -> Carry:
     """Return what brings the pose half a frame before the first closest to that after the last."""
     if motion.n_frames < 2:
         return Carry(0.0, 0.0, 0.0)
-    before, after = seam_sides(motion.positions[:, motion.skeleton.body], motion.fps)
+    before, after = compute_seam_sides(motion.positions[:, motion.skeleton.body], motion.fps)
     # The values at the seam; speed and acceleration are not needed here.
     first, last = after[0], before[0]
     # Means of both poses on the floor.
@@ -144,7 +144,7 @@ def carry_of(motion: Motion) -> Carry:
     return Carry(turn, to_x, float(w + x * sin(turn) - z * cos(turn)))
 
 
-def seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
+def compute_seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
     """Value, speed and acceleration (3, ...) before and after the seam, per frame.
 
     ``values`` (frames, ...) are two frames at least.
@@ -167,50 +167,56 @@ def _extrapolate_seam(values: Floats, first: float) -> Floats:
     return found
 
 
-def _closed_rotations(
+def _close_rotations(
     rotations: Floats, fps: float, carry: Carry, roots: NDArray[np.bool_]
 ) -> Floats:
     """Each rotation turned by what is added to it, in its own frame."""
     first, last = rotations[0], rotations[-1]
     # Logarithms relative to the nearest frame: small rotations, which add up like vectors.
-    before, _ = seam_sides(rot.logarithm(rot.multiply(rot.conjugate(last), rotations)), fps)
-    _, after = seam_sides(rot.logarithm(rot.multiply(rot.conjugate(first), rotations)), fps)
+    before, _ = compute_seam_sides(
+        rot.to_rotation_vectors(rot.multiply(rot.conjugate(last), rotations)), fps
+    )
+    _, after = compute_seam_sides(
+        rot.to_rotation_vectors(rot.multiply(rot.conjugate(first), rotations)), fps
+    )
     ahead = np.array(first)
     # The first frame as it is one round later.
     ahead[roots] = rot.multiply(carry.rotation, ahead[roots])
     # Rotations on both sides of the seam.
-    left = rot.multiply(last, rot.exponential(before[0]))
-    right = rot.multiply(ahead, rot.exponential(after[0]))
+    left = rot.multiply(last, rot.from_rotation_vectors(before[0]))
+    right = rot.multiply(ahead, rot.from_rotation_vectors(after[0]))
     gaps = after - before
     # The step of pose along the shorter arc; the steps of speed are differences of vectors.
-    gaps[0] = rot.logarithm(rot.multiply(rot.conjugate(left), right))
+    gaps[0] = rot.to_rotation_vectors(rot.multiply(rot.conjugate(left), right))
     # (frames, 3) times (3, joints, 3): what is added to each joint in each frame.
-    added = np.tensordot(_shares(len(rotations), fps), gaps, axes=1)
-    return rot.normalize(rot.multiply(rotations, rot.exponential(added)))
+    added = np.tensordot(_compute_shares(len(rotations), fps), gaps, axes=1)
+    return rot.normalize(rot.multiply(rotations, rot.from_rotation_vectors(added)))
 
 
-def _closed_places(places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]) -> Floats:
+def _close_translations(
+    places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]
+) -> Floats:
     """Return the same for places.
 
     Those that are ``free`` are carried on, the others hang on a parent.
 
     What is added to the free ones turns with the carry, so that it fits at both ends.
     """
-    before, after = seam_sides(places, fps)
+    before, after = compute_seam_sides(places, fps)
     # Value, speed and acceleration are turned, and only the value is shifted as well.
     after[:, free] = rot.rotate(carry.rotation, after[:, free])
     after[0, free] += carry.shift
-    shares = _shares(len(places), fps)
+    shares = _compute_shares(len(places), fps)
     added = np.tensordot(shares, after - before, axes=1)
     turns = np.zeros((len(places), 1, 3))
     # Steps are in the axes of the last frame; earlier frames have turned less by their share.
     turns[:, 0, 1] = carry.turn * (shares[:, 0] - 0.5)
-    added[:, free] = rot.rotate(rot.exponential(turns), added[:, free])
+    added[:, free] = rot.rotate(rot.from_rotation_vectors(turns), added[:, free])
     closed: Floats = places + added
     return closed
 
 
-def _shares(n: int, fps: float) -> Floats:
+def _compute_shares(n: int, fps: float) -> Floats:
     """(frames, 3): how much each frame takes of a step of pose, of speed and of acceleration.
 
     With t frames from the seam, negative before it, and k = (1 - |t| / width)^3: the share of the

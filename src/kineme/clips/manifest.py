@@ -58,7 +58,7 @@ class Clip:
     tags: tuple[str, ...] = ()
 
 
-def manifests_beside(file: Path) -> tuple[Path, Path]:
+def name_manifests(file: Path) -> tuple[Path, Path]:
     """Return the places of both lists of clips that are in one file."""
     stem = file.with_suffix("").name
     return file.with_name(f"{stem}.{MANIFEST}"), file.with_name(f"{stem}.{MANIFEST_JSON}")
@@ -76,7 +76,7 @@ def write_manifests(
     """Leave both lists; clusters are those of all recordings ``together``, or of each alone."""
     _write_csv(clips, table, loops=loops, animations=animations)
     # Stable: clips of equal order stay in the order of time.
-    loops_first = sorted(clips, key=lambda clip: _order(clip, together=together))
+    loops_first = sorted(clips, key=lambda clip: _make_sort_key(clip, together=together))
     head = f'{{\n"schema": "{SCHEMA}",\n"kineme": "{__version__}",\n"clips": ['
     body = ",".join(f"\n{_as_text(clip)}" for clip in loops_first)
     list_of_all.write_text(f"{head}{body}\n]\n}}\n", encoding="utf-8", newline="\n")
@@ -91,7 +91,7 @@ def _as_text(clip: Clip) -> str:
     return "{\n" + ",\n".join(lines) + "\n}"
 
 
-def _order(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, int]:
+def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, int]:
     """Loops of a cluster together, the best first; then the others as they are."""
     if clip.rank is None:
         return True, "", 0, "", 0
@@ -126,9 +126,9 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "loop": carry is not None,
         "round_s": None if carry is None else round_s,
         "rank": clip.rank,
-        "quality": None if clip.quality is None else _quality(clip.quality),
-        "carry": None if carry is None else dict(zip(CARRY, _cells(carry), strict=True)),
-        "root": None if clip.root is None else _root(clip.root),
+        "quality": None if clip.quality is None else _format_quality(clip.quality),
+        "carry": None if carry is None else dict(zip(CARRY, _format_carry(carry), strict=True)),
+        "root": None if clip.root is None else _format_root(clip.root),
         "planted": None if clip.planted is None else dict(clip.planted),
         "poses": clip.poses,
         "changes": clip.changes,
@@ -137,11 +137,11 @@ def _as_json(clip: Clip) -> dict[str, Any]:
     return {name: _round_numbers(value) for name, value in content.items()}
 
 
-def _quality(quality: LoopQuality) -> dict[str, float]:
+def _format_quality(quality: LoopQuality) -> dict[str, float]:
     return {"cost": quality.cost, **asdict(quality)}
 
 
-def _root(root: RootMotion) -> dict[str, float]:
+def _format_root(root: RootMotion) -> dict[str, float]:
     return {
         "speed_m_s": root.speed,
         "x_m_s": root.x,
@@ -162,7 +162,7 @@ def _round_numbers(value: Any) -> Any:
     return int(value) if isinstance(value, np.integer) else value
 
 
-def _cells(carry: Carry) -> tuple[float, float, float]:
+def _format_carry(carry: Carry) -> tuple[float, float, float]:
     return degrees(carry.turn), carry.x, carry.z
 
 
@@ -178,7 +178,7 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
             cells.append(", ".join(clip.tags))
             if loops:
                 cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
-                cells += ["", "", ""] if clip.carry is None else _cells(clip.carry)
+                cells += ["", "", ""] if clip.carry is None else _format_carry(clip.carry)
             if animations:
                 cells.append(clip.animation or "")
             table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in cells])

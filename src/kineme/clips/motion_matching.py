@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.files import atomic_write
-from kineme.clips.shaping import planted_feet
+from kineme.clips.shaping import find_planted_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import compute_heading, end_effectors
 from kineme.recordings import Motion
@@ -83,7 +83,7 @@ class Database:
                 f"motion_matching needs rotations of one skeleton, {motion.provenance.path} has "
                 f"{lacks}"
             )
-        described = _describe(resample(motion, RATE), bones)
+        described = _describe_motion(resample(motion, RATE), bones)
         ratio, n = RATE / motion.fps, len(described["features"])
         at = self.ranges[-1][3] if self.ranges else 0
         for name, row, tags in ranges:
@@ -111,7 +111,7 @@ class Database:
                     shape = found[key].shape[:2]
                     file.write(struct.pack(f"<{len(shape)}I", *shape) + found[key].tobytes())
                 return
-            offset, scale = _normalization(found["features"])
+            offset, scale = _compute_normalization(found["features"])
             names_of = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
             found |= {
                 "features_offset": offset,
@@ -132,7 +132,7 @@ LAYOUT = (
 """Arrays of a ``.bin``, little-endian, in this order."""
 
 
-def _describe(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
+def _describe_motion(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
     """Return features, poses and contacts of each frame, float32 but for the contacts."""
     try:
         ends = end_effectors(motion)
@@ -150,26 +150,28 @@ def _describe(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
         rotations[:, joint] = rot.multiply(back, rotations[:, joint])
     places = np.concatenate([place[:, None], places[:, bones]], axis=1)
     rotations = np.concatenate([turn[:, None], rotations[:, bones]], axis=1)
-    feet = planted_feet(motion)
+    feet = find_planted_feet(motion)
     contacts = [feet[side][1] if side in feet else np.zeros(len(turn), bool) for side in
                 ("left", "right")]  # fmt: skip
     arrays = {
-        "features": _features(motion, (ends.left_ankle, ends.right_ankle), pelvis, place, turn),
+        "features": _compute_features(
+            motion, (ends.left_ankle, ends.right_ankle), pelvis, place, turn
+        ),
         "bone_positions": places,
-        "bone_velocities": _velocities(places),
+        "bone_velocities": _compute_velocities(places),
         "bone_rotations": rotations,
-        "bone_angular_velocities": _angular_velocities(rotations),
+        "bone_angular_velocities": _compute_angular_velocities(rotations),
     }
     found: dict[str, NDArray[Any]] = {key: part.astype("<f4") for key, part in arrays.items()}
     return found | {"contact_states": np.stack(contacts, axis=1).astype(np.uint8)}
 
 
-def _features(
+def _compute_features(
     motion: Motion, feet: tuple[int, int], pelvis: int, place: Floats, turn: Floats
 ) -> Floats:
     """Return the features (frames, 27), in the order of `GROUPS`."""
     back, n = rot.conjugate(turn), motion.n_frames
-    velocities = _velocities(motion.positions)
+    velocities = _compute_velocities(motion.positions)
     parts = [rot.rotate(back, motion.positions[:, foot] - place) for foot in feet]
     parts += [rot.rotate(back, velocities[:, joint]) for joint in (*feet, pelvis)]
     then = [np.minimum(np.arange(n) + ahead, n - 1) for ahead in AHEAD]
@@ -179,7 +181,7 @@ def _features(
     return np.concatenate(parts, axis=1)
 
 
-def _normalization(features: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+def _compute_normalization(features: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Return means, and the mean deviation of each group over its weight, (27,) each."""
     deviations, scale, at = features.std(axis=0), np.empty(features.shape[1], np.float32), 0
     for _, size, weight in GROUPS:
@@ -198,16 +200,18 @@ def _smooth(values: Floats, window: int) -> Floats:
     return smoothed
 
 
-def _velocities(places: Floats) -> Floats:
+def _compute_velocities(places: Floats) -> Floats:
     """Return central differences per second."""
     return np.gradient(places, axis=0) * RATE if len(places) > 1 else np.zeros_like(places)
 
 
-def _angular_velocities(rotations: Floats) -> Floats:
+def _compute_angular_velocities(rotations: Floats) -> Floats:
     """Return rotation vectors per second, in the axes of the parent, (frames, bones, 3)."""
     if len(rotations) < 2:
         return np.zeros((*rotations.shape[:2], 3))
-    steps = rot.logarithm(rot.multiply(rotations[1:], rot.conjugate(rotations[:-1]))) * RATE
+    steps = (
+        rot.to_rotation_vectors(rot.multiply(rotations[1:], rot.conjugate(rotations[:-1]))) * RATE
+    )
     # The mean of the steps before and after a frame; at the ends the only one.
     before, after = np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
     mean: Floats = (before + after) / 2

@@ -34,20 +34,20 @@ FIELDS = ("name", "take", "label", "n", "cluster", "level", "direction", "loop")
 """What stands in braces in a template; ``n`` and ``cluster`` are numbers, the others texts."""
 
 
-def safe_name(stem: str, number: int, text: str) -> str:
+def make_clip_name(stem: str, number: int, text: str) -> str:
     """Return the name of a clip: its recording, its number and its label, in letters that survive.
 
     Examples
     --------
-    >>> safe_name("Take 1.final", 3, "Äpfel pflücken")
+    >>> make_clip_name("Take 1.final", 3, "Äpfel pflücken")
     'Take_1_final_0003_Apfel_pflucken'
-    >>> safe_name("86_01", 12, "walk 2024")
+    >>> make_clip_name("86_01", 12, "walk 2024")
     'clip_86_01_0012_walk_n2024'
     """
     middle = f"_{number:04d}_"
     # A label without letters that survive leaves nothing.
-    label = _protect_numbers(_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
-    first = _ascii(stem)
+    label = _protect_numbers(_to_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
+    first = _to_ascii(stem)
     if not first[:1].isalpha():
         first = f"clip_{first}".rstrip("_")
     # The recording's name is cut, since number and label tell clips apart.
@@ -55,28 +55,30 @@ def safe_name(stem: str, number: int, text: str) -> str:
     return f"{first}{middle}{label}"
 
 
-def file_name(stem: str, number: int, text: str) -> str:
+def make_file_name(stem: str, number: int, text: str) -> str:
     """Return the same for a file, without its suffix; letters of all scripts stay.
 
     Examples
     --------
-    >>> file_name("Take 1", 3, "Äpfel/Birnen")
+    >>> make_file_name("Take 1", 3, "Äpfel/Birnen")
     'Take_1_0003_Äpfel_Birnen'
     """
-    return f"{plain(stem)}_{number:04d}_{plain(_protect_numbers(_plain_letters(text)))}"
+    return f"{clean_name(stem)}_{number:04d}_{clean_name(_protect_numbers(_replace_special(text)))}"
 
 
-def unlike(stem: str, first: int, others: Container[str]) -> str:
+def make_unique_name(stem: str, first: int, others: Container[str]) -> str:
     """Return the name of a file of all clips of a recording, the first of which has that number.
 
     A number follows where it would be one of the ``others``, which are in small letters.
 
     Examples
     --------
-    >>> unlike("Take 1", 12, {"take_1"})
+    >>> make_unique_name("Take 1", 12, {"take_1"})
     'Take_1_0012'
     """
-    names = chain([plain(stem)], (f"{plain(stem)}_{number:04d}" for number in count(first)))
+    names = chain(
+        [clean_name(stem)], (f"{clean_name(stem)}_{number:04d}" for number in count(first))
+    )
     # File systems may ignore case, so names are compared without it.
     return next(name for name in names if name.casefold() not in others)
 
@@ -107,21 +109,21 @@ def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str
     """
     filled = template.format_map(fields)
     # A field that is empty leaves no gap, such as that of loops.
-    file = re.sub(r"_{2,}", "_", _plain_letters(filled, "@")).strip("_")
-    name = _ascii(filled)
+    file = re.sub(r"_{2,}", "_", _replace_special(filled, "@")).strip("_")
+    name = _to_ascii(filled)
     if not name[:1].isalpha():
         name = f"clip_{name}".rstrip("_")
-    return name[:LONGEST].rstrip("_"), plain(file, "@") or "clip"
+    return name[:LONGEST].rstrip("_"), clean_name(file, "@") or "clip"
 
 
-def plain(text: str, more: str = "") -> str:
+def clean_name(text: str, more: str = "") -> str:
     """Letters, digits, ``_``, ``-`` and ``more``; short enough for any file system."""
     # Cut to bytes; half a letter at the end is dropped when decoding.
-    kept = _plain_letters(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
+    kept = _replace_special(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
     return kept.decode(errors="ignore")
 
 
-def _plain_letters(text: str, more: str = "") -> str:
+def _replace_special(text: str, more: str = "") -> str:
     kept = f"-_{more}"
     return "".join(letter if letter.isalnum() or letter in kept else "_" for letter in text)
 
@@ -131,7 +133,7 @@ def _protect_numbers(text: str) -> str:
     return re.sub(r"(?<![^_])([0-9]{4,})(?![^_])", r"n\1", text)
 
 
-def _ascii(text: str) -> str:
+def _to_ascii(text: str) -> str:
     """ASCII letters and digits, accents taken off, and single ``_`` for all else."""
     # Decomposed letters: accents become marks of their own, which are left out. ß has no such form.
     parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))

@@ -95,7 +95,7 @@ class Chosen:
     name: str | None
 
 
-def choose(options: ClipOptions) -> Chosen:
+def resolve_options(options: ClipOptions) -> Chosen:
     """Return the options, completed by those of the target; ParameterError for a bad one."""
     unknown = options.keys() - ClipOptions.__annotations__.keys()
     if unknown:
@@ -120,12 +120,12 @@ def choose(options: ClipOptions) -> Chosen:
         if path is not None:
             check_path(path, "split")
     suffix = target.format if options.get("format") is None else options.get("format")
-    found = _format(suffix)
+    found = _find_format(suffix)
     several = found is not None and found.write_animations is not None and not target.separate
     return Chosen(shape, suffix, found if several else None, options, name)
 
 
-def _format(suffix: str | None) -> Format | None:
+def _find_format(suffix: str | None) -> Format | None:
     """Return the format of a suffix; ParameterError where no motions are written in it."""
     if suffix is None:
         return None

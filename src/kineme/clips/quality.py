@@ -22,7 +22,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from kineme._util.arrays import Floats, Masks, interpolate_frames
-from kineme.clips.loops import Carry, seam_sides
+from kineme.clips.loops import Carry, compute_seam_sides
 
 USUAL = 95.0
 """Per cent of the steps of a recording that are as large as its usual large ones, at most."""
@@ -77,7 +77,7 @@ class LoopQuality:
         return math.fsum(part for part in parts.values() if not math.isnan(part))
 
 
-def loop_quality(
+def measure_loop(
     before: Floats,
     after: Floats,
     carry: Carry,
@@ -87,25 +87,25 @@ def loop_quality(
     feet: Sequence[tuple[Sequence[int], Masks]] = (),
     unlike: float = math.nan,
 ) -> LoopQuality:
-    """Return quality of a loop, from positions of the clip and of the loop alone, metres with y up.
+    """Return the quality of a loop from positions (frames, joints, 3) in metres with y up.
 
-    ``carry`` takes one round to the next; ``usual`` are the `usual_steps` of the recording;
-    ``feet`` has the points of each foot and when it is planted; ``unlike`` is as `distances` has
-    it.
+    ``before`` is the clip, ``after`` the closed loop; ``carry`` takes one round to the next.
+    ``usual`` comes from `measure_usual_steps`, ``unlike`` from `measure_distances`. ``feet`` holds
+    the joints of each foot and the frames in which it is planted.
     """
-    end, start = seam_sides(before, fps)
+    end, start = compute_seam_sides(before, fps)
     # Speeds and accelerations turn with the carry and are not shifted.
     turned = Carry(carry.turn, 0.0, 0.0)
     carried = np.stack([carry.apply(start[0]), turned.apply(start[1]), turned.apply(start[2])])
-    step, speed_step = _seam_steps(after, carry)
+    step, speed_step = _measure_seam_steps(after, carry)
     # A recording without movement has no usual step.
     large, changed = (max(each, 1e-12) for each in usual)
     return LoopQuality(
-        pose_m=_size(carried[0] - end[0]),
-        speed_m_s=_size(carried[1] - end[1]) * fps,
+        pose_m=_compute_rms(carried[0] - end[0]),
+        speed_m_s=_compute_rms(carried[1] - end[1]) * fps,
         step=step / large,
         speed_step=speed_step / changed,
-        slide_m_s=_slide(after, carry, fps, feet),
+        slide_m_s=_measure_sliding(after, carry, fps, feet),
         turn_deg=math.degrees(carry.turn),
         # Mean over the joints of the change of height.
         rise_m=float((end[0] - start[0])[:, 1].mean()),
@@ -113,17 +113,17 @@ def loop_quality(
     )
 
 
-def usual_steps(positions: Floats) -> tuple[float, float]:
+def measure_usual_steps(positions: Floats) -> tuple[float, float]:
     """Return the 95 % quantiles of a recording's steps from frame to frame, and of their changes.
 
     Root mean squares of the joints, metres.
     """
     steps = np.diff(positions, axis=0)
     changes = np.diff(steps, axis=0)
-    return _quantile(steps), _quantile(changes)
+    return _compute_quantile(steps), _compute_quantile(changes)
 
 
-def distances(shapes: Sequence[Floats]) -> list[float]:
+def measure_distances(shapes: Sequence[Floats]) -> list[float]:
     """How far each of several motions in place is from the median of all, metres; nan for one.
 
     Compared at `PHASES` of the round, in the root mean square of joints (frames, joints, 3).
@@ -134,10 +134,10 @@ def distances(shapes: Sequence[Floats]) -> list[float]:
         [interpolate_frames(each, np.linspace(0, len(each) - 1, PHASES)) for each in shapes]
     )
     typical = np.median(sampled, axis=0)
-    return [_size(each - typical) for each in sampled]
+    return [_compute_rms(each - typical) for each in sampled]
 
 
-def ranks(qualities: Sequence[LoopQuality]) -> list[int]:
+def rank_qualities(qualities: Sequence[LoopQuality]) -> list[int]:
     """Return the place of each candidate, 1 the best."""
     # Stable: of equal costs the earlier candidate is first.
     order = sorted(range(len(qualities)), key=lambda index: qualities[index].cost)
@@ -147,16 +147,16 @@ def ranks(qualities: Sequence[LoopQuality]) -> list[int]:
     return places
 
 
-def _seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
+def _measure_seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
     """Return the step over the seam of a loop, and the larger change of steps beside it."""
     turned = Carry(carry.turn, 0.0, 0.0)
     step = carry.apply(after[0]) - after[-1]
     # The steps before and after the seam, both in the axes of the last frame.
     before, behind = after[-1] - after[-2], turned.apply(after[1] - after[0])
-    return _size(step), max(_size(step - before), _size(behind - step))
+    return _compute_rms(step), max(_compute_rms(step - before), _compute_rms(behind - step))
 
 
-def _slide(
+def _measure_sliding(
     after: Floats, carry: Carry, fps: float, feet: Sequence[tuple[Sequence[int], Masks]]
 ) -> float:
     """Mean speed over the floor of the slowest point of each planted foot, the seam included."""
@@ -172,11 +172,11 @@ def _slide(
     return float(np.mean(speeds)) if speeds else math.nan
 
 
-def _quantile(steps: Floats) -> float:
+def _compute_quantile(steps: Floats) -> float:
     sizes = np.sqrt((steps**2).sum(axis=-1).mean(axis=-1))
     return float(np.percentile(sizes, USUAL)) if len(sizes) else 0.0
 
 
-def _size(differences: Floats) -> float:
+def _compute_rms(differences: Floats) -> float:
     """Return the root mean square of the lengths of differences (..., 3)."""
     return float(np.sqrt((differences**2).sum(axis=-1).mean()))

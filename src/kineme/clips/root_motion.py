@@ -51,23 +51,26 @@ class RootMotion:
         return hypot(self.x, self.z)
 
 
-def root_motion(motion: Motion, carry: Carry) -> RootMotion:
+def measure_root_motion(motion: Motion, carry: Carry) -> RootMotion:
     """Return the even motion of the body with this carry, in the axes of the recording."""
     # Seen from where the hips begin, the carry holds only what the body itself does.
-    shift, seconds = _generator(_move_origin(carry, _start(motion))), motion.n_frames / motion.fps
+    shift, seconds = (
+        _solve_even_shift(_move_origin(carry, _find_start(motion))),
+        motion.n_frames / motion.fps,
+    )
     return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
 
 
 def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
     """Return motion in place, at the origin and facing +z, and what was taken out, in its axes."""
-    start = root_motion(motion, carry)
+    start = measure_root_motion(motion, carry)
     unmoved = _follow_path(motion, carry, np.zeros(3))
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
-    facing, center = _facing(unmoved), np.array([x, 0.0, z])
+    facing, center = _measure_facing(unmoved), np.array([x, 0.0, z])
     # Turn the mean facing to +z about the mean place of the hips, which goes to the origin.
     settled = _turn_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
     # The speed of the point that comes to lie at the origin, not that of the root in frame 0.
-    arm = center - _start(motion)
+    arm = center - _find_start(motion)
     # Velocity of a point off the axis: rotation adds turn times arm, at right angles.
     across, ahead = start.x + start.turn * arm[2], start.z - start.turn * arm[0]
     # The same velocity in the axes of the clip in place.
@@ -85,10 +88,10 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
     All other joints stay where they are. It is the topmost bone above the hips; one is added
     where there is none.
     """
-    _, path, turns = _path(motion, carry)
-    places = _start(motion) + path
+    _, path, turns = _compute_path(motion, carry)
+    places = _find_start(motion) + path
     places[:, 1] = 0.0
-    facing = _facing(_follow_path(motion, carry, np.zeros(3)))
+    facing = _measure_facing(_follow_path(motion, carry, np.zeros(3)))
     if motion.skeleton.parents[motion.skeleton.carrier] < 0:
         motion = add_root(motion)
     skeleton = motion.skeleton
@@ -110,31 +113,31 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
 
 def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
     """Return the motion with its turn taken out, so that the body goes on as it begins."""
-    shift = _generator(_move_origin(carry, _start(motion)))
+    shift = _solve_even_shift(_move_origin(carry, _find_start(motion)))
     straight = _add_note(_follow_path(motion, carry, shift), "turn taken out")
     return straight, Carry(0.0, float(shift[0]), float(shift[2]))
 
 
 def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
     """Without its root motion, but with an even shift instead."""
-    shares, path, turns = _path(motion, carry)
-    start = _start(motion)
+    shares, path, turns = _compute_path(motion, carry)
+    start = _find_start(motion)
     target = start + shares[:, None] * shift
     return _turn_frames(motion, -turns, start + path, target)
 
 
-def _path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]:
+def _compute_path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]:
     """Return the share of a round (frames,), and how far the body went and turned by then.
 
     The shift is (frames, 3), the turn (frames,) radians.
     """
-    about = _move_origin(carry, _start(motion))
-    speed = _generator(about)
+    about = _move_origin(carry, _find_start(motion))
+    speed = _solve_even_shift(about)
     # The frame after the last one would be share 1, so the end is left out.
     shares = np.linspace(0.0, 1.0, motion.n_frames, endpoint=False)
     path: Floats = np.array(
         # Position along the arc: the time times the mean direction so far, times the speed.
-        [share * (_arc(share * about.turn) @ speed) for share in shares.tolist()]
+        [share * (_compute_mean_rotation(share * about.turn) @ speed) for share in shares.tolist()]
     )
     return shares, path, shares * about.turn
 
@@ -159,14 +162,16 @@ def _move_origin(carry: Carry, place: Floats) -> Carry:
     return Carry(carry.turn, float(shift[0]), float(shift[2]))
 
 
-def _generator(carry: Carry) -> Floats:
+def _solve_even_shift(carry: Carry) -> Floats:
     """Return the shift, in the axes of the body, that even motion for one round consists of."""
     # Shift of one round = mean rotation over the round times the even motion.
-    shift: Floats = np.asarray(np.linalg.solve(_arc(carry.turn), carry.shift), np.float64)
+    shift: Floats = np.asarray(
+        np.linalg.solve(_compute_mean_rotation(carry.turn), carry.shift), np.float64
+    )
     return shift
 
 
-def _arc(turn: float) -> Floats:
+def _compute_mean_rotation(turn: float) -> Floats:
     """Return the mean of the rotations from 0 to ``turn`` about the vertical."""
     if abs(turn) < STILL:
         return np.eye(3)
@@ -175,7 +180,7 @@ def _arc(turn: float) -> Floats:
     return np.array([[even, 0.0, odd], [0.0, 1.0, 0.0], [-odd, 0.0, even]])
 
 
-def _facing(motion: Motion) -> float:
+def _measure_facing(motion: Motion) -> float:
     """Where the body looks in the mean, radians from +z; 0 where nothing tells."""
     try:
         _, angles = compute_heading(motion)
@@ -185,7 +190,7 @@ def _facing(motion: Motion) -> float:
     return atan2(float(np.sin(angles).mean()), float(np.cos(angles).mean()))
 
 
-def _start(motion: Motion) -> Floats:
+def _find_start(motion: Motion) -> Floats:
     """Return where on the floor the hips begin."""
     x, _, z = motion.positions[0, motion.skeleton.carrier]
     return np.array([x, 0.0, z])

@@ -12,16 +12,22 @@ import numpy as np
 from kineme._util.arrays import Masks
 from kineme._util.checks import check_flag, is_number, is_one_of
 from kineme.clips import RootMotionMode
-from kineme.clips.loops import Carry, carry_of, loop, repeat_first_frame
-from kineme.clips.quality import LoopQuality, distances, loop_quality, ranks, usual_steps
+from kineme.clips.loops import Carry, find_carry, make_loop, repeat_first_frame
+from kineme.clips.quality import (
+    LoopQuality,
+    measure_distances,
+    measure_loop,
+    measure_usual_steps,
+    rank_qualities,
+)
 from kineme.clips.root_motion import (
     RootMotion,
     extract_root_motion,
+    measure_root_motion,
     remove_root_motion,
-    root_motion,
     straighten,
 )
-from kineme.clips.tags import Tag, Travel, travel_of
+from kineme.clips.tags import Tag, Travel, measure_travel
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.joints import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
@@ -131,12 +137,12 @@ def shape_clips(
 
     Of loops those that were asked for; with ``loops`` these alone, which were ranked before.
     """
-    motion, spans = _at_rate(motion, rows, shape.fps)
-    feet, travel = planted_feet(motion), travel_of(motion)
+    motion, spans = _resample_rows(motion, rows, shape.fps)
+    feet, travel = find_planted_feet(motion), measure_travel(motion)
     if loops is None:
-        qualities = loop_qualities(motion, spans, feet) if shape.loops else {}
+        qualities = measure_loops(motion, spans, feet) if shape.loops else {}
         # Ranks are among all candidates of the cluster, also where only the best are written.
-        places = _places(spans, qualities)
+        places = _rank_candidates(spans, qualities)
     else:
         qualities = {each.index: each.quality for each in loops}
         places = {each.index: each.rank for each in loops}
@@ -145,10 +151,10 @@ def shape_clips(
         wanted = shape.best is None or (rank is not None and rank <= shape.best)
         if wanted and (loops is None or rank is not None):
             made = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
-            yield replace(made, segment=row, tags=_tags(travel, span))
+            yield replace(made, segment=row, tags=_get_tags(travel, span))
 
 
-def _at_rate(
+def _resample_rows(
     motion: Motion, rows: Sequence[Segment], fps: float | None
 ) -> tuple[Motion, Sequence[Segment]]:
     """Return the motion at a rate, and the segments in its frames, each one frame at least.
@@ -165,57 +171,57 @@ def _at_rate(
     return motion, spans
 
 
-def _tags(travel: Travel | None, row: Segment) -> tuple[Tag, ...]:
+def _get_tags(travel: Travel | None, row: Segment) -> tuple[Tag, ...]:
     return () if travel is None else travel.tags(row.start_frame, row.stop_frame)
 
 
-def ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
+def list_ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
     """Return all candidates among the segments, those of a cluster together and the best first."""
-    qualities = loop_qualities(motion, rows, planted_feet(motion))
-    places = _places(rows, qualities)
+    qualities = measure_loops(motion, rows, find_planted_feet(motion))
+    places = _rank_candidates(rows, qualities)
     order = [
         index
-        for members in _candidates(rows).values()
+        for members in _group_candidates(rows).values()
         for index in sorted(members, key=places.__getitem__)
     ]
     found = []
     for index in order:
         clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
-        speed = root_motion(clip, carry_of(clip)).speed
+        speed = measure_root_motion(clip, find_carry(clip)).speed
         found.append(RankedLoop(index, places[index], qualities[index], speed))
     return found
 
 
-def played_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
+def make_preview_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
     """One round of a segment as a loop, its first frame again at the end, and what carries it on.
 
     It is the loop that is written without further changes.
     """
-    closed, carry = loop(cut(motion, row.start_frame, row.stop_frame))
+    closed, carry = make_loop(cut(motion, row.start_frame, row.stop_frame))
     return repeat_first_frame(closed, carry), carry
 
 
-def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
+def measure_loops(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
     """By index of the segment the quality of each loop; transitions have none."""
     body = list(motion.skeleton.body)  # a root bone that stays still would count as closed
     # The usual steps are those of the whole recording, not of the clip.
-    usual, found = usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
-    for members in _candidates(rows).values():
+    usual, found = measure_usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
+    for members in _group_candidates(rows).values():
         shapes = []
         for index in members:
             clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
             # In place, so that candidates with different paths can be compared.
-            shapes.append(remove_root_motion(clip, carry_of(clip))[0].positions[:, body])
-        for index, unlike in zip(members, distances(shapes), strict=True):
+            shapes.append(remove_root_motion(clip, find_carry(clip))[0].positions[:, body])
+        for index, unlike in zip(members, measure_distances(shapes), strict=True):
             row = rows[index]
             clip = cut(motion, row.start_frame, row.stop_frame)
-            closed, carry = loop(clip)
+            closed, carry = make_loop(clip)
             of_clip = [
                 # Joints are counted within the body, and frames within the clip.
                 ([body.index(point) for point in points], mask[row.start_frame : row.stop_frame])
                 for points, mask in feet.values()
             ]
-            found[index] = loop_quality(
+            found[index] = measure_loop(
                 clip.positions[:, body],
                 closed.positions[:, body],
                 carry,
@@ -227,7 +233,7 @@ def loop_qualities(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[
     return found
 
 
-def planted_feet(motion: Motion) -> Feet:
+def find_planted_feet(motion: Motion) -> Feet:
     """When each foot is planted, in frames; nothing where no foot is found."""
     feet: dict[str, tuple[tuple[int, ...], Masks]] = {}
     for side, points in find_feet(motion).items():
@@ -239,7 +245,7 @@ def planted_feet(motion: Motion) -> Feet:
     return feet
 
 
-def _candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
+def _group_candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
     """Indices of what can become a loop, those of a cluster or a label together."""
     groups: defaultdict[Hashable, list[int]] = defaultdict(list)
     for index, row in enumerate(rows):
@@ -249,11 +255,13 @@ def _candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
     return groups
 
 
-def _places(rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]) -> dict[int, int]:
+def _rank_candidates(
+    rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]
+) -> dict[int, int]:
     """By index the rank of a loop in its cluster."""
     places: dict[int, int] = {}
-    for members in _candidates(rows).values() if qualities else ():
-        places |= zip(members, ranks([qualities[index] for index in members]), strict=True)
+    for members in _group_candidates(rows).values() if qualities else ():
+        places |= zip(members, rank_qualities([qualities[index] for index in members]), strict=True)
     return places
 
 
@@ -267,22 +275,22 @@ def _shape_clip(
     rank: int | None,
 ) -> ShapedClip:
     clip = cut(motion, row.start_frame, row.stop_frame)
-    carry = carry_of(clip)
+    carry = find_carry(clip)
     if quality is not None:
         # Loops have a carry of exactly one round after blending.
-        clip, carry = loop(clip)
-    root = root_motion(clip, carry)
+        clip, carry = make_loop(clip)
+    root = measure_root_motion(clip, carry)
     if shape.straight:
         clip, carry = straighten(clip, carry)
         # The path changed, and with it the root motion.
-        root = root_motion(clip, carry)
+        root = measure_root_motion(clip, carry)
     if shape.root_motion == "extract":
         clip = extract_root_motion(clip, carry)
     elif shape.root_motion == "in-place":
         clip, root = remove_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
     # Before the first frame is repeated, so that `last` is the last frame of the round.
-    poses = _poses(clip)
+    poses = _describe_end_poses(clip)
     if shape.close and quality is not None:
         clip = repeat_first_frame(clip, carry)
     return ShapedClip(
@@ -291,14 +299,14 @@ def _shape_clip(
         clip,
         carry if quality is not None else None,
         root,
-        _intervals(feet, row) if feet else None,
+        _list_planted_frames(feet, row) if feet else None,
         quality,
         rank,
         poses,
     )
 
 
-def _intervals(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
+def _list_planted_frames(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
     """Frames of the clip in which each foot is planted."""
     return {
         side: [(a, b) for a, b in find_spans(mask[row.start_frame : row.stop_frame]).tolist()]
@@ -306,7 +314,7 @@ def _intervals(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
     }
 
 
-def _poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
+def _describe_end_poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
     """How the clip begins and ends: head, hands and feet from the pelvis, and its height."""
     try:
         ends = end_effectors(clip)

@@ -43,18 +43,18 @@ from kineme.clips.manifest import (
     MANIFEST,
     MANIFEST_JSON,
     Clip,
-    manifests_beside,
+    name_manifests,
     write_manifests,
 )
-from kineme.clips.names import file_name, fill_template, safe_name, unlike
-from kineme.clips.options import Chosen, ClipOptions, choose
+from kineme.clips.names import fill_template, make_clip_name, make_file_name, make_unique_name
+from kineme.clips.options import Chosen, ClipOptions, resolve_options
 from kineme.clips.shaping import RankedLoop, ShapedClip, shape_clips
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.features import mirror as mirrored
 from kineme.formats import write
 from kineme.formats.channels.writing import make_rows
 from kineme.formats.registry import Format, find_writer
-from kineme.labels.spans import text_of
+from kineme.labels.spans import format_text
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -185,7 +185,7 @@ def write_clips(
     They are gone through once, so that one recording at a time needs memory. The rest is as for
     `split`. Loops are ranked among those of their recording, unless they are ranked ``together``.
     """
-    target, chosen = Path(folder), choose(options)
+    target, chosen = Path(folder), resolve_options(options)
     one_file = find_writer(target.suffix.lower()) if target.suffix else None
     if one_file is not None and one_file.write_animations is not None and not target.is_dir():
         return _write_one_file(clips, target, one_file, chosen)
@@ -204,7 +204,7 @@ def write_clips(
                 continue
             made = _make_clips(run, recording, rows, companions, *ranked)
             if write_all is not None:
-                file = unlike(run.stem, run.first, files)
+                file = make_unique_name(run.stem, run.first, files)
                 files.add(file.casefold())
                 path = draft / f"{file}.{chosen.suffix}"
                 entries += _write_animations(run, made, path, write_all)
@@ -237,7 +237,7 @@ def _write_one_file(
     first = sources[0][0]
     if len({recording.provenance.path for recording, *_ in sources}) > 1:
         raise ParameterError(f"{target.name} holds clips of one recording: give a folder")
-    source, lists = Path(first.provenance.path or ""), manifests_beside(target)
+    source, lists = Path(first.provenance.path or ""), name_manifests(target)
     if source.name and source.exists() and target.exists() and source.samefile(target):
         raise ParameterError(f"{target} would take the place of its recording: give another name")
     if target.exists() and not lists[1].exists():
@@ -321,10 +321,10 @@ class _Run:
         self, index: int, segment: Segment, tags: Sequence[str] = (), *, loop: bool = False
     ) -> tuple[str, str]:
         """Return the name of a clip and that of its file, of a segment among those given."""
-        number, text = self.first + index, text_of(segment)
+        number, text = self.first + index, format_text(segment)
         template = self.chosen.name
         if template is None:
-            return safe_name(self.stem, number, text), file_name(self.stem, number, text)
+            return make_clip_name(self.stem, number, text), make_file_name(self.stem, number, text)
         fields = {
             "name": Path(self.source or "recording").stem,
             "take": self.take,

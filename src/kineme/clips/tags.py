@@ -78,7 +78,7 @@ class Travel:
     def tags(self, start: int, stop: int) -> tuple[Tag, ...]:
         """Return the tags of a clip of these frames, in the order of `TAGS`."""
         turn = self.turn(start, stop)
-        found: set[Tag] = {_direction(*self.velocity(start, stop))}
+        found: set[Tag] = {_choose_direction(*self.velocity(start, stop))}
         if abs(turn) >= TURN:
             found.add("turn left" if turn > 0 else "turn right")
         # Speeds of means over a quarter of a second, so that sway counts less.
@@ -95,14 +95,16 @@ class Travel:
         return max(1, min(round(END_S * self.fps), most))
 
 
-def travel_of(motion: Motion) -> Travel | None:
+def measure_travel(motion: Motion) -> Travel | None:
     """Return how the body of a recording goes; None where it has no hips or a single frame."""
     if motion.n_frames < 2:
         return None
     try:
         ends = end_effectors(motion)
         pelvis, headings = compute_heading(motion, effectors=ends)
-        looks = headings if motion.rotations is None else _looks(motion, motion.rotations, ends)
+        looks = (
+            headings if motion.rotations is None else _measure_looks(motion, motion.rotations, ends)
+        )
     except (EndEffectorError, MotionError):
         return None
     # A gradient, so that every frame has a velocity.
@@ -110,7 +112,7 @@ def travel_of(motion: Motion) -> Travel | None:
     return Travel(velocities, looks, np.unwrap(headings), motion.fps)
 
 
-def _direction(left: float, ahead: float) -> Tag:
+def _choose_direction(left: float, ahead: float) -> Tag:
     """Return the nearest of four directions; in place where the body hardly moves."""
     if hypot(left, ahead) < MOVING:
         return "in place"
@@ -119,7 +121,7 @@ def _direction(left: float, ahead: float) -> Tag:
     return directions[quarter]
 
 
-def _looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
+def _measure_looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
     """Return where the head looks, radians from +z towards +x."""
     skeleton = motion.skeleton
     _, left, right = find_parting(skeleton, ends.left_wrist, ends.right_wrist, "arms")

@@ -96,7 +96,7 @@ class Run:
         return np.asarray(offsets * np.where(offsets < 0, before, after))
 
 
-def run_of(recording: int, borders: Floats) -> Run:
+def make_run(recording: int, borders: Floats) -> Run:
     """Return a run as a method cut it."""
     return Run(recording, borders, np.full(len(borders), np.nan))
 
@@ -127,7 +127,7 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
     runs = _extend_ends(runs)
-    by = _to_landmark(runs, features, rates)
+    by = _measure_landmark_shift(runs, features, rates)
     return [replace(run, borders=run.borders + by * run.period) for run in runs]
 
 
@@ -157,7 +157,7 @@ def _extend_ends(runs: list[Run]) -> list[Run]:
     return drawn
 
 
-def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
+def _measure_landmark_shift(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
     """By how much of a cycle later borders lie at a place that every reading can find again.
 
     Where the mean cycle stands still, that is the middle of its rest. Else it is the nearest place
@@ -166,7 +166,7 @@ def _to_landmark(runs: list[Run], features: list[Floats], rates: list[float]) ->
     # A single repetition has no neighbour that shows where the movement turns.
     repeated = [run for run in runs if len(run.borders) > 2]
     # Weighted by repetitions. The sum need not be divided: only its shape counts.
-    mean = sum(_mean_cycle(run, features, rates) * (len(run.borders) - 1) for run in repeated)
+    mean = sum(_average_cycles(run, features, rates) * (len(run.borders) - 1) for run in repeated)
     centred = np.asarray(mean) - np.mean(mean, axis=0)
     # Central differences round the cycle: its end is followed by its start.
     change = np.roll(centred, -1, axis=0) - np.roll(centred, 1, axis=0)
@@ -194,7 +194,7 @@ def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -
     repeated = [run for run in runs if len(run.borders) > 2]
     if len(repeated) < 2:
         return runs
-    means = {id(run): _mean_cycle(run, features, rates) for run in repeated}
+    means = {id(run): _average_cycles(run, features, rates) for run in repeated}
     longest = max(repeated, key=lambda run: len(run.borders))
     # In cycles, relative to the run with the most repetitions.
     late = {id(run): _measure_lateness(means[id(run)], means[id(longest)]) for run in repeated}
@@ -218,7 +218,7 @@ def _wrap_phase(share: float) -> float:
     return (share + 0.5) % 1 - 0.5
 
 
-def _mean_cycle(run: Run, features: list[Floats], rates: list[float]) -> Floats:
+def _average_cycles(run: Run, features: list[Floats], rates: list[float]) -> Floats:
     """(points, dims): the mean of the repetitions of a run."""
     n = len(run.borders) - 1
     # (repetitions, points): phases of all cycles, evenly spaced.

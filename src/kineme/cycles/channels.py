@@ -143,7 +143,11 @@ def channels_of(
     else:
         every = _make_signal_channels(recording)
     # Contacts follow, unless a channel of this name is there already.
-    every += [each for each in find_contacts(recording) if each.name not in {c.name for c in every}]
+    every += [
+        each
+        for each in make_contact_channels(recording)
+        if each.name not in {c.name for c in every}
+    ]
     for signals in beside:
         every += _make_signal_channels(signals)
     usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
@@ -171,7 +175,7 @@ def _make_signal_channels(signals: Signals) -> list[Channel]:
     ]
 
 
-def find_contacts(recording: Motion | Signals) -> list[Channel]:
+def make_contact_channels(recording: Motion | Signals) -> list[Channel]:
     """When each foot stands, of the feet that are there."""
     return [
         Channel(f"stance_{side[0]}", "%", CONTACT, ", ".join(foot), recording.fps,
@@ -214,7 +218,7 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
     def add_axes(name: str, axes: Iterable[str], unit: str, group: str, joint: int,
                  compute: Compute) -> None:  # fmt: skip
         for place, axis in enumerate(axes):
-            add(f"{name}.{axis}", unit, group, [joint], partial(_column, compute, place))
+            add(f"{name}.{axis}", unit, group, [joint], partial(_get_component, compute, place))
 
     for joint, name in joints:
         if rotations is not None and joint not in motion.skeleton.end_sites:
@@ -230,7 +234,7 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
         add(f"{name}.speed", "m/s", "speed", [joint], compute)
 
 
-def _column(compute: Compute, place: int) -> Floats:
+def _get_component(compute: Compute, place: int) -> Floats:
     """Return one number of each frame, of the several that a function gives."""
     return np.asarray(compute()[..., place]).ravel()
 
@@ -248,7 +252,7 @@ def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:
             # Joints that were not found are -1.
             chain = [joints.get(f"{side}_{part}", -1) for part in parts]
             thigh = joints.get(f"{side}_thigh")
-            compute = partial(_bend, places, chain, less)
+            compute = partial(_measure_bend, places, chain, less)
             if name == "knee" and thigh is not None:
                 hips = [joints[f"{each}_hip"] for each in SIDES]
                 compute = partial(_measure_flexion, places, chain, thigh, hips)
@@ -289,7 +293,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
         add(name, DEGREES, ANGLE, [*hips, *shoulders], compute)
 
 
-def _bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
+def _measure_bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
     return bend(*(places[:, joint] for joint in chain)) + less
 
 

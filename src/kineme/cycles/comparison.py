@@ -26,9 +26,9 @@ from kineme.cycles.table import (
     Cycles,
     as_columns,
     compute_half_width,
+    compute_mean_phase,
     compute_phase_differences,
     is_phase,
-    mean_phase,
 )
 from kineme.errors import ParameterError
 
@@ -115,7 +115,7 @@ def _compare_values(
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
         apart = compute_phase_differences(apart)
-        of_left, of_right = mean_phase(left[both]), mean_phase(right[both])
+        of_left, of_right = compute_mean_phase(left[both]), compute_mean_phase(right[both])
     mean, half = apart.mean(), compute_half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).

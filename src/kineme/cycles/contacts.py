@@ -79,7 +79,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     """
     from scipy.ndimage import gaussian_filter1d
 
-    turning = _find_points(rates, "rates")
+    turning = _check_points(rates, "rates")
     # Remove the constant bias of the sensor.
     turning = turning - np.median(turning, axis=0)
     turning = gaussian_filter1d(turning, SMOOTH_S * fps, axis=0, mode="nearest")
@@ -203,7 +203,7 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     """
     if not points:
         raise ParameterError("a foot needs one point at least: its heel, its toe or its ankle")
-    paths = [_find_points(each, "points") for each in points]
+    paths = [_check_points(each, "points") for each in points]
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
     # (frames, 3): how far the ground has moved since the start.
@@ -279,7 +279,7 @@ def _join_stands(stands: NDArray[np.bool_], fps: float) -> Floats:
     return np.array(lasting, np.float64).reshape(-1, 2) / fps
 
 
-def _find_points(values: ArrayLike, name: str) -> Floats:
+def _check_points(values: ArrayLike, name: str) -> Floats:
     array = as_floats(values, name)
     if array.ndim != 2 or array.shape[1] != 3 or len(array) == 0:
         raise ParameterError(f"{name} must be frames x 3, not of shape {array.shape}")

@@ -85,7 +85,7 @@ class Events:
         name : str
             ``left foot contact`` and ``left_foot_strike`` are one.
         """
-        return np.asarray(self.times[self.names == normalize_name(name)])
+        return np.asarray(self.times[self.names == normalize_event_name(name)])
 
     def columns(self) -> Columns:
         """Return a table: ``time_s``, ``frame`` (between two of them) and ``event``."""
@@ -110,7 +110,9 @@ class Events:
             There are no such events.
         """
         # Names compare elementwise: a mask of the events.
-        chosen = np.ones(len(self), bool) if name is None else self.names == normalize_name(name)
+        chosen = (
+            np.ones(len(self), bool) if name is None else self.names == normalize_event_name(name)
+        )
         frames = np.rint(self.times[chosen] * self.fps).astype(np.int64)
         pairs = zip(frames.tolist(), self.names[chosen].tolist(), strict=True)
         # Of several events in one frame the last one names the segment; cuts must be distinct.
@@ -135,7 +137,7 @@ class Events:
         )
 
 
-def normalize_name(name: str) -> str:
+def normalize_event_name(name: str) -> str:
     """Return a name of an event as `Events` has it: lower case, a strike for a contact."""
     # Spellings of files differ in spaces, underscores and capitals.
     words = re.sub(r"[\s_]+", " ", name).strip().lower()

@@ -122,7 +122,7 @@ def _make_tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:
     }
 
 
-def _write_three(cycles: Cycles, path: Path, ends: bool) -> None:
+def _write_tables(cycles: Cycles, path: Path, ends: bool) -> None:
     for name, columns in _make_tables(cycles, ends).items():
         place = path if name == "cycles" else path.with_suffix(f".{name}{path.suffix}")
         write_table(columns, place)
@@ -190,8 +190,8 @@ def _write_netcdf(cycles: Cycles, path: Path, ends: bool) -> None:  # noqa: ARG0
 
 
 _WRITERS: dict[str, Callable[[Cycles, Path, bool], None]] = {
-    ".csv": _write_three,
-    ".parquet": _write_three,
+    ".csv": _write_tables,
+    ".parquet": _write_tables,
     ".xlsx": _write_excel,
     ".mat": _write_matlab,
     ".nc": _write_netcdf,

@@ -369,6 +369,6 @@ def cardan(rotations: Floats) -> Floats:
     array([[40., 10., -5.]])
     """
     # Rx Rz Ry is Rz Ry Rx with the axes named anew: x for z, z for y, y for x.
-    w, x, y, z = rot.components(rotations)
-    renamed = rot.join(w, y, z, x)
+    w, x, y, z = rot.split_components(rotations)
+    renamed = rot.join_components(w, y, z, x)
     return np.degrees(rot.to_euler_zyx(renamed))

@@ -27,7 +27,7 @@ from kineme.cycles.repetitions import (
     Repetition,
     anchor_repetitions,
     find_repetitions,
-    name_movement,
+    get_movement_key,
 )
 from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
@@ -136,10 +136,12 @@ def cycles(
     columns = _make_columns(found, tables, names, groups)
     provenance = _make_provenance(given, tables, found, columns)
     spans = [(each.recording, each.start, each.stop) for each in found]
-    return drop_left_out(_measure(spans, measured, columns, align, points, provenance), tables)
+    return mark_excluded(
+        _measure_cycles(spans, measured, columns, align, points, provenance), tables
+    )
 
 
-def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
+def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     """Return same without those that people left out, as the annotations of their tables say."""
     # In the order of the rows of `cycles`: by recording, then by time.
     left_out = [
@@ -152,7 +154,7 @@ def drop_left_out(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     return replace(cycles, columns={**cycles.columns, "excluded": reasons})
 
 
-def measure_again(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
+def measure_other_channels(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
     """Return the same cycles of one recording with other channels of it.
 
     As if `kineme.cycles` had measured these, without all that finds the borders.
@@ -163,7 +165,7 @@ def measure_again(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
     times = zip(columns["start_s"].tolist(), columns["stop_s"].tolist(), strict=True)
     spans = [(0, start, stop) for start, stop in times]
     align, points = cycles.provenance.get("align", LINEAR), cycles.curves.shape[2]
-    return _measure(spans, [channels], columns, align, points, cycles.provenance)
+    return _measure_cycles(spans, [channels], columns, align, points, cycles.provenance)
 
 
 def _check_inputs(
@@ -225,7 +227,9 @@ def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
     labels: defaultdict[int | str, Counter[str]] = defaultdict(Counter)
     for row in table.primitives:
         if row.kind == "primitive":
-            labels[name_movement(row)][row.label or str(table.activities.label[row.activity])] += 1
+            labels[get_movement_key(row)][
+                row.label or str(table.activities.label[row.activity])
+            ] += 1
     # The most frequent label of a movement names all of its repetitions.
     return {
         what: counts.most_common(1)[0][0]
@@ -260,7 +264,7 @@ def _make_columns(
         "number": np.array(numbers, int),
         "cluster": column(int, lambda each: each.segment.cluster),
         "label": column(str, lambda each: each.segment.label),
-        "group": column(str, lambda each: groups[each.recording][name_movement(each.segment)]),
+        "group": column(str, lambda each: groups[each.recording][get_movement_key(each.segment)]),
         "place": column(str, lambda each: each.place),
         "start_frame": start * fps,
         "stop_frame": stop * fps,
@@ -280,7 +284,7 @@ def _make_columns(
     }
 
 
-def _measure(
+def _measure_cycles(
     spans: Sequence[tuple[int, float, float]],
     measured: Sequence[Sequence[Channel]],
     columns: Columns,

@@ -19,10 +19,10 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
-from kineme.cycles.borders import Run, find_vertex, run_of, shift_to_common_phase
+from kineme.cycles.borders import Run, find_vertex, make_run, shift_to_common_phase
 from kineme.cycles.channels import channels_of
-from kineme.cycles.events import OFF, STRIKE, foot_events, normalize_name
-from kineme.cycles.table import CYCLE, INCOMPLETE, mean_phase
+from kineme.cycles.events import OFF, STRIKE, foot_events, normalize_event_name
+from kineme.cycles.table import CYCLE, INCOMPLETE, compute_mean_phase
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import compute_distance_features, pose_features
 from kineme.labels.c3d_events import SAME_S
@@ -98,8 +98,8 @@ def find_repetitions(
         dims, comparable = fine[number].values.shape[1], fine[number].comparable
         for segments in _list_runs(table):
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
-            run = run_of(number, np.array(frames) / table.fps)
-            what = name_movement(segments[0])
+            run = make_run(number, np.array(frames) / table.fps)
+            what = get_movement_key(segments[0])
             # A run without cluster or label is alone; features that do not compare stay in their
             # recording.
             alone = id(run) if what == "" else -1 if comparable else number
@@ -115,7 +115,7 @@ def find_repetitions(
     return sorted(found, key=lambda each: (each.recording, each.segment.start_frame))
 
 
-def name_movement(segment: Segment) -> int | str:
+def get_movement_key(segment: Segment) -> int | str:
     """What repetitions of one movement have in common: the cluster, else the label, if any."""
     return segment.cluster if segment.cluster >= 0 else segment.label
 
@@ -180,8 +180,8 @@ def _list_runs(table: Segmentation) -> list[list[Segment]]:
         last = runs[-1][-1] if runs else None
         if (
             last is not None
-            and name_movement(row) != ""
-            and (name_movement(last), last.activity) == (name_movement(row), row.activity)
+            and get_movement_key(row) != ""
+            and (get_movement_key(last), last.activity) == (get_movement_key(row), row.activity)
             and last.stop_frame == row.start_frame
         ):
             runs[-1].append(row)
@@ -280,7 +280,7 @@ def anchor_repetitions(
     extreme = _EXTREME.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(found):
-        what = name_movement(each.segment)
+        what = get_movement_key(each.segment)
         members.setdefault(groups[each.recording].get(what, what), []).append(i)
     starts = np.full(len(found), np.nan)
     if extreme is not None:
@@ -289,11 +289,11 @@ def anchor_repetitions(
         # Negative for a minimum, so that the largest value is searched in both cases.
         signed = [(sign * values, fps) for values, fps in curves]
         for rows in members.values():
-            starts[rows] = _find_largest([found[i] for i in rows], signed)
+            starts[rows] = _find_maxima([found[i] for i in rows], signed)
     else:
         times = [_find_event_times(each, anchor, beside) for each in recordings]
         for rows in members.values():
-            starts[rows] = _find_nearest([found[i] for i in rows], times)
+            starts[rows] = _find_nearest_events([found[i] for i in rows], times)
     anchored = []
     for i, each in enumerate(found):
         # Repetitions are in the order of time, so the next one of the run is the next in the list.
@@ -322,7 +322,7 @@ def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signa
     return channels[0].values(), channels[0].fps
 
 
-def _find_largest(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
+def _find_maxima(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
     """When a channel is largest in each repetition, about the phase at which it usually is."""
     # Without 100 %, which is 0 % of the next cycle.
     share = np.linspace(0, 1, 101)[:-1]
@@ -352,7 +352,7 @@ def _find_largest(found: Sequence[Repetition], curves: Sequence[Curve]) -> Float
     return times
 
 
-def _find_nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
+def _find_nearest_events(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
     """Return of each repetition the event nearest to the usual phase; nan without one near it."""
     phases = [np.empty(0)]
     for each in found:
@@ -360,7 +360,7 @@ def _find_nearest(found: Sequence[Repetition], times: Sequence[Floats]) -> Float
         inside = events[(events >= each.start) & (events < each.stop)]
         phases.append(CYCLE * (inside - each.start) / (each.stop - each.start))
     # nan where there are no events; then no window holds one.
-    phase = mean_phase(np.concatenate(phases)) / CYCLE
+    phase = compute_mean_phase(np.concatenate(phases)) / CYCLE
     chosen = np.full(len(found), np.nan)
     for i, each in enumerate(found):
         first, last = _find_window(each, phase)
@@ -391,8 +391,8 @@ def _find_event_times(
         frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
         # Where the straight line between both frames crosses the level.
         return (frames + over[frames] / (over[frames] - over[frames + 1])) / fps
-    name, events = normalize_name(anchor), recording.provenance.events
-    marked = np.array([at for at, text in events if normalize_name(text) == name], np.float64)
+    name, events = normalize_event_name(anchor), recording.provenance.events
+    marked = np.array([at for at, text in events if normalize_event_name(text) == name], np.float64)
     if name.endswith((STRIKE, OFF)):
         try:
             found = foot_events(recording).at(name)

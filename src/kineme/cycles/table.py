@@ -35,7 +35,7 @@ def is_phase(measure: str) -> bool:
     return measure.rpartition(".")[2] in PHASES
 
 
-def mean_phase(phases: Floats) -> float:
+def compute_mean_phase(phases: Floats) -> float:
     """Return the mean direction, from 0 to 100, as 1 of 98 and 4; nan of none."""
     if not len(phases):
         return np.nan
@@ -255,7 +255,7 @@ class Cycles:
         # A single repetition is not counted.
         rows = (self.columns["group"] == group) & (self.columns["place"] != "only")
         names = "confidence", "border_confidence"
-        return count_confidence(*(self.columns[name][rows] for name in names))
+        return compute_count_confidence(*(self.columns[name][rows] for name in names))
 
     def summary(self, *, ends: bool = False) -> Columns:
         """Number, mean and deviation of all that was measured, for each group.
@@ -450,7 +450,7 @@ def as_columns(names: Sequence[str], lines: Sequence[Sequence[object]]) -> Colum
     return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
 
 
-def count_confidence(confidence: Floats, borders: Floats) -> float:
+def compute_count_confidence(confidence: Floats, borders: Floats) -> float:
     """Return probability that the number of these repetitions is right, the least one of several.
 
     nan where there is nothing to count, or where ``confidence`` is no probability: that of the
@@ -470,7 +470,7 @@ def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
         return 0, *[np.nan] * 6
     circular = is_phase(measure)
     if circular:  # as near to their mean as they can be
-        middle = mean_phase(values)
+        middle = compute_mean_phase(values)
         values = middle + compute_phase_differences(values - middle)
     mean, sd = float(values.mean()), float(values.std(ddof=1)) if n > 1 else np.nan
     # Of angles a share of the mean says nothing: their zero is chosen.

@@ -68,8 +68,8 @@ class Cycle:
         """Return every angle of the figure at the phases (cycles from 0), scaled about standing."""
         found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
         for name, values in self.angles.items():
-            curve = _cyclic(self.at, values)
-            for full_name in _full_names(name):
+            curve = _make_cyclic_curve(self.at, values)
+            for full_name in _expand_name(name):
                 # Half a cycle earlier in the curve is half a cycle later in time.
                 late = 0.5 if self.gait and full_name.startswith("right") else 0.0
                 angle = curve(phase - late)
@@ -92,11 +92,11 @@ def mirror_posture(angles: Mapping[str, Floats]) -> dict[str, Floats]:
     return found
 
 
-def _full_names(name: str) -> list[str]:
+def _expand_name(name: str) -> list[str]:
     return [f"{side} {name}" for side in SIDES] if name in LIMBS else [name]
 
 
-def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
+def _make_cyclic_curve(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
     """Return the cyclic curve through values at the given shares of a cycle."""
     # What the angle gains in a cycle, such as 360 degrees of an arm circle.
     gain = values[-1] - values[0]
@@ -114,7 +114,9 @@ def _cyclic(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], 
     return at_phase
 
 
-def _beats(middle: float, amplitude: float, *, times: int = 1, at: float = 0.0) -> list[float]:
+def _make_cosine(
+    middle: float, amplitude: float, *, times: int = 1, at: float = 0.0
+) -> list[float]:
     """Return a cosine over the tenths of a cycle, highest at the share ``at``."""
     tenths = np.arange(11) / 10
     return list(middle + amplitude * np.cos(2 * np.pi * times * (tenths - at)))
@@ -132,13 +134,13 @@ ACTIONS: dict[str, Cycle] = {
             "knee": (5, 14, 13, 8, 5, 11, 34, 63, 57, 24, 5),
             "foot": (20, 2, 0, 0, -4, -20, -52, -50, -20, 8, 20),
             "toe": (0, 0, 0, 0, 4, 20, 25, 5, 0, 0, 0),
-            "tilt": _beats(4, 1, times=2),
-            "yaw": _beats(0, -5),
-            "list": _beats(0, -3, at=0.15),
-            "twist": _beats(0, 9),
-            "bend": _beats(3, 1, times=2),
-            "swing": _beats(2, -20),
-            "elbow": _beats(24, -10),
+            "tilt": _make_cosine(4, 1, times=2),
+            "yaw": _make_cosine(0, -5),
+            "list": _make_cosine(0, -3, at=0.15),
+            "twist": _make_cosine(0, 9),
+            "bend": _make_cosine(3, 1, times=2),
+            "swing": _make_cosine(2, -20),
+            "elbow": _make_cosine(24, -10),
         },
         gait=True,
         travels=True,
@@ -151,15 +153,15 @@ ACTIONS: dict[str, Cycle] = {
             "knee": (20, 35, 38, 29, 24, 48, 86, 98, 78, 38, 20),
             "foot": (8, 0, 0, -25, -62, -80, -85, -62, -30, 0, 8),
             "toe": (0, 0, 2, 22, 12, 0, 0, 0, 0, 0, 0),
-            "tilt": _beats(9, 2, times=2),
-            "yaw": _beats(0, -7),
-            "list": _beats(0, -3, at=0.15),
-            "twist": _beats(0, 16),
-            "bend": _beats(7, 1, times=2),
-            "swing": _beats(4, -34),
-            "raise": _beats(14, 0),
-            "elbow": _beats(84, -14),
-            "roll": _beats(18, 0),
+            "tilt": _make_cosine(9, 2, times=2),
+            "yaw": _make_cosine(0, -7),
+            "list": _make_cosine(0, -3, at=0.15),
+            "twist": _make_cosine(0, 16),
+            "bend": _make_cosine(7, 1, times=2),
+            "swing": _make_cosine(4, -34),
+            "raise": _make_cosine(14, 0),
+            "elbow": _make_cosine(84, -14),
+            "roll": _make_cosine(18, 0),
         },
         gait=True,
         flights=((0.37, 0.5), (0.87, 1.0)),

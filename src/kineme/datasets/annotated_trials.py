@@ -59,13 +59,15 @@ def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
 
     Known errors are mended, with a `KinemeWarning` for every row.
     """
-    trials = _json_trials(path) if Path(path).suffix.lower() == ".json" else _text_trials(path)
-    return {name: _mend(name, rows) for name, rows in trials.items()}
+    trials = (
+        _read_json_trials(path) if Path(path).suffix.lower() == ".json" else _read_text_trials(path)
+    )
+    return {name: _correct_rows(name, rows) for name, rows in trials.items()}
 
 
-def _json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
+def _read_json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     try:
-        trials = decode_json(_text(path), path, _File).trials
+        trials = decode_json(_read_text(path), path, _File).trials
     except ReadError as error:
         reason = f"no annotations.json of the benchmark: it {error.reason}"
         raise ReadError(path, reason, line=error.line) from error
@@ -75,11 +77,11 @@ def _json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     }
 
 
-def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
+def _read_text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     """Head lines hold a trial's name; what follows a label and three numbers is a row."""
     trials: dict[str, list[Action]] = {}
     rows: list[Action] | None = None
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(_read_text(path).splitlines(), 1):
         row = re.fullmatch(r"\s*(\S.*?)\s+(\d{1,9})\s+(\d{1,9})\s+(\d{1,9})\s*", line)
         head = re.search(r"\b\d+_\d+\b", line)
         if head:
@@ -95,7 +97,7 @@ def _text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
     return trials
 
 
-def _mend(trial: str, rows: list[Action]) -> list[Action]:
+def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
     mended = []
     for number, row in enumerate(rows, 1):
         frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])
@@ -111,7 +113,7 @@ def _mend(trial: str, rows: list[Action]) -> list[Action]:
     return mended
 
 
-def _text(path: str | PathLike[str]) -> str:
+def _read_text(path: str | PathLike[str]) -> str:
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:

@@ -48,7 +48,7 @@ class Fetched:
     new: bool
 
 
-def cache_folder() -> Path:
+def find_cache_folder() -> Path:
     """Where recordings are kept: ``KINEME_CACHE``, else the system's place for caches."""
     named = environ.get("KINEME_CACHE")
     if named:
@@ -80,7 +80,7 @@ def fetch_subject(
     trials : sequence of int, optional
         Their numbers; by default from 1 up to the first that the site does not have.
     folder : str or PathLike, optional
-        Where to keep them; default ``cmuNN`` in `cache_folder`.
+        Where to keep them; default ``cmuNN`` in `find_cache_folder`.
     progress : callable, optional
         Called while a file comes: name, bytes so far, bytes in all or None.
     site, annotations : str, optional
@@ -100,7 +100,7 @@ def fetch_subject(
     for number in (subject, *(trials or ())):
         if number < 1:
             raise ParameterError(f"subjects and trials count from 1, not {number}")
-    home = Path(folder) if folder is not None else cache_folder() / f"cmu{subject:02d}"
+    home = Path(folder) if folder is not None else find_cache_folder() / f"cmu{subject:02d}"
     base = f"{site.rstrip('/')}/subjects/{subject:02d}/{subject:02d}"
 
     def get(url: str) -> Fetched | None:
@@ -132,7 +132,7 @@ def _check_content(
     frames: list[int | None] = []
 
     def check(path: Path) -> None:
-        frames.append(_content(path, folder))
+        frames.append(_read_content(path, folder))
 
     path = folder / url.rsplit("/", 1)[-1]
     if path.is_file():
@@ -146,10 +146,10 @@ def _check_content(
     return Fetched(path, frames[-1], path.stat().st_size, new=True)
 
 
-def _content(path: Path, folder: Path) -> int | None:
+def _read_content(path: Path, folder: Path) -> int | None:
     """Read a file of the database: the number of frames of a motion, else None."""
     if path.suffix == ".amc":
-        return _n_frames(path, folder)
+        return _count_frames(path, folder)
     if path.suffix == ".asf":
         from kineme.formats.files import load
         from kineme.formats.skeletons.asf import read_asf
@@ -164,7 +164,7 @@ def _content(path: Path, folder: Path) -> int | None:
     return None
 
 
-def _n_frames(path: Path, folder: Path) -> int:
+def _count_frames(path: Path, folder: Path) -> int:
     """Return the length of a motion that is not truncated, of which the reader only warns."""
     from kineme.formats import read
 

@@ -119,7 +119,7 @@ class _Download:
                 start = self._accepted(url, answer, size)
                 self._append(answer, start)
         except requests.RequestException as error:
-            raise _BrokenOffError(_reason(error, self.timeout_s)) from error
+            raise _BrokenOffError(_explain_error(error, self.timeout_s)) from error
 
     def _accepted(self, url: str, answer: Response, size: int) -> int:
         """Return the byte that the answer begins with."""
@@ -169,7 +169,7 @@ class _Download:
         return self.part.stat().st_size if self.part.is_file() else 0
 
 
-def _reason(error: Any, timeout_s: float) -> str:
+def _explain_error(error: Any, timeout_s: float) -> str:
     import requests
 
     if isinstance(error, requests.ConnectTimeout | requests.ReadTimeout):

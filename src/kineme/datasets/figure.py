@@ -62,7 +62,7 @@ _LIMBS = (
 )
 
 
-def figure(size: float = _HEIGHT) -> Skeleton:
+def make_figure(size: float = _HEIGHT) -> Skeleton:
     """Return the skeleton of a person ``size`` metres tall."""
     rows: list[tuple[str, str | None, tuple[float, float, float]]] = list(_TRUNK)
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
@@ -79,7 +79,9 @@ def figure(size: float = _HEIGHT) -> Skeleton:
     )
 
 
-def joint_rotations(skeleton: Skeleton, angles: Mapping[str, Floats], heading: Floats) -> Floats:
+def compute_joint_rotations(
+    skeleton: Skeleton, angles: Mapping[str, Floats], heading: Floats
+) -> Floats:
     """Rotations (frames, joints, 4) of the figure, from degrees (frames,) for each of ``ANGLES``.
 
     ``heading`` is where the figure faces, degrees: 0 is +z, 90 is +x.
@@ -88,27 +90,27 @@ def joint_rotations(skeleton: Skeleton, angles: Mapping[str, Floats], heading: F
     facing = np.radians(heading)
     rotations = np.tile(rot.IDENTITY, (len(facing), skeleton.n_joints, 1))
     local: dict[str, Floats] = {
-        "Hips": _euler("yxz", facing + a["yaw"], a["tilt"], a["list"]),
-        "Spine": _euler("yxz", 0.5 * a["twist"], 0.5 * a["bend"], 0.5 * a["lean"]),
-        "Spine1": _euler("yxz", 0.5 * a["twist"], 0.5 * a["bend"], 0.5 * a["lean"]),
-        "Neck": _euler("yx", 0.4 * a["look"], 0.4 * a["nod"]),
-        "Head": _euler("yx", 0.6 * a["look"], 0.6 * a["nod"]),
+        "Hips": _from_euler("yxz", facing + a["yaw"], a["tilt"], a["list"]),
+        "Spine": _from_euler("yxz", 0.5 * a["twist"], 0.5 * a["bend"], 0.5 * a["lean"]),
+        "Spine1": _from_euler("yxz", 0.5 * a["twist"], 0.5 * a["bend"], 0.5 * a["lean"]),
+        "Neck": _from_euler("yx", 0.4 * a["look"], 0.4 * a["nod"]),
+        "Head": _from_euler("yx", 0.6 * a["look"], 0.6 * a["nod"]),
     }
     for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
         hip, spread, knee, foot, toe, swing, lift, roll, elbow = (a[f"{side} {x}"] for x in LIMBS)
-        thigh = _euler("xz", -hip, sign * spread)
+        thigh = _from_euler("xz", -hip, sign * spread)
         # Local rotations of hip and knee follow from plain angles.
-        shin = _euler("x", knee)
+        shin = _from_euler("x", knee)
         # The foot's angle is against the floor, so what the leg does is taken out.
         leg = rot.multiply(rot.multiply(local["Hips"], thigh), shin)
-        sole = _euler("yx", facing + sign * _TOES_OUT, -foot)
+        sole = _from_euler("yx", facing + sign * _TOES_OUT, -foot)
         of_side = {
-            "Arm": _euler("xzx", -swing, sign * (lift - np.pi / 2), roll),
-            "ForeArm": _euler("y", -sign * elbow),
+            "Arm": _from_euler("xzx", -swing, sign * (lift - np.pi / 2), roll),
+            "ForeArm": _from_euler("y", -sign * elbow),
             "UpLeg": thigh,
             "Leg": shin,
             "Foot": rot.multiply(rot.conjugate(leg), sole),
-            "ToeBase": _euler("x", -toe),
+            "ToeBase": _from_euler("x", -toe),
         }
         local |= {side.capitalize() + joint: turned for joint, turned in of_side.items()}
     for joint, turned in local.items():
@@ -116,5 +118,5 @@ def joint_rotations(skeleton: Skeleton, angles: Mapping[str, Floats], heading: F
     return rotations
 
 
-def _euler(axes: str, *radians: Floats) -> Floats:
+def _from_euler(axes: str, *radians: Floats) -> Floats:
     return rot.from_euler(np.stack(radians, axis=1), axes)

@@ -13,8 +13,8 @@ from scipy.ndimage import gaussian_filter1d
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.datasets.actions import ACTIONS, mirror_posture
-from kineme.datasets.figure import ANGLES, joint_rotations
-from kineme.datasets.timeline import Part, phase_of, weight_of
+from kineme.datasets.figure import ANGLES, compute_joint_rotations
+from kineme.datasets.timeline import Part, compute_phase, compute_weight
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import compute_world_rotations
 
@@ -24,12 +24,14 @@ _GRIP_SHARED = 0.01
 _SMOOTHING_S = 0.025
 
 
-def root_path(skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: float) -> Floats:
+def compute_root_path(
+    skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: float
+) -> Floats:
     """Positions (frames, 3) of the root that keep the feet on the floor y = 0.
 
     ``airborne`` (frames,) are metres between the feet and the floor; 0 while they bear.
     """
-    contacts = _contacts(skeleton, rotations, fps)
+    contacts = _compute_contacts(skeleton, rotations, fps)
     heights = contacts[:, :, 1]
     lowest = heights.min(axis=1, keepdims=True)
     # Soft minimum of the contacts' heights, taken from the lowest for the sake of the exponential.
@@ -51,7 +53,7 @@ def root_path(skeleton: Skeleton, rotations: Floats, airborne: Floats, fps: floa
     return path
 
 
-def _contacts(skeleton: Skeleton, rotations: Floats, fps: float) -> Floats:
+def _compute_contacts(skeleton: Skeleton, rotations: Floats, fps: float) -> Floats:
     """(frames, 6, 3): heels, balls and tips of the feet, from a root at the origin."""
     at_origin = np.zeros((len(rotations), 3))
     motion = Motion.from_rotations(skeleton, rotations, fps, at_origin)
@@ -81,13 +83,13 @@ def perform(
     frames = int(parts[-1].frames[-1])
     rotations = np.zeros((frames, skeleton.n_joints, 4))
     airborne = np.zeros(frames)
-    heading = _heading(parts, frames, rng)
-    sway = {name: _SWAY_DEG * _slow_noise(frames, _SWAY_S * fps, rng) for name in ANGLES}
+    heading = _draw_heading(parts, frames, rng)
+    sway = {name: _SWAY_DEG * _make_slow_noise(frames, _SWAY_S * fps, rng) for name in ANGLES}
     for part in parts:
         # An action begins with its fade-in and ends with its fade-out, in which others overlap.
         start, stop = part.frames[0] - part.fade_in, part.frames[-1] + part.fade_out
         span = slice(start, stop)
-        phase = phase_of(part)
+        phase = compute_phase(part)
         sizes = part.action.amplitude * (1 + rng.normal(0, _SIZE_VARIES, part.action.repetitions))
         # The size changes from the middle of one repetition to the middle of the next.
         size = np.interp(phase, np.arange(len(sizes)) + 0.5, sizes)
@@ -96,19 +98,21 @@ def perform(
         if part.action.side == "left" and not cycle.gait:
             angles = mirror_posture(angles)
         swaying = {name: angle + sway[name][span] for name, angle in angles.items()}
-        weight = weight_of(part)
-        turned = joint_rotations(skeleton, swaying, heading[span])
+        weight = compute_weight(part)
+        turned = compute_joint_rotations(skeleton, swaying, heading[span])
         # As q and -q are one rotation: the sign that is nearer to what is there already.
         nearer = np.sign(np.einsum("fjc,fjc->fj", turned, rotations[span]))
         nearer[nearer == 0] = 1
         rotations[span] += weight[:, None, None] * nearer[..., None] * turned
-        airborne[span] += weight * size * _flight(part, phase, fps)
+        airborne[span] += weight * size * _compute_flight_height(part, phase, fps)
     # A weighted sum of quaternions, normalised, blends the actions.
     rotations /= np.linalg.norm(rotations, axis=2, keepdims=True)
     return rotations, airborne
 
 
-def shaken(skeleton: Skeleton, rotations: Floats, noise: float, rng: np.random.Generator) -> Floats:
+def add_noise(
+    skeleton: Skeleton, rotations: Floats, noise: float, rng: np.random.Generator
+) -> Floats:
     """Return the rotations with a small random turn of every joint that carries something."""
     reach = np.zeros(skeleton.n_joints)
     # Children before parents: how far the longest chain below each joint reaches.
@@ -125,7 +129,7 @@ def shaken(skeleton: Skeleton, rotations: Floats, noise: float, rng: np.random.G
     return np.asarray(turned / np.linalg.norm(turned, axis=2, keepdims=True))
 
 
-def _flight(part: Part, phase: Floats, fps: float) -> Floats:
+def _compute_flight_height(part: Part, phase: Floats, fps: float) -> Floats:
     """Metres above the floor of a body thrown up at each take-off."""
     period = np.diff(part.frames).mean() / fps
     share = phase - np.floor(phase)
@@ -137,7 +141,7 @@ def _flight(part: Part, phase: Floats, fps: float) -> Floats:
     return height
 
 
-def _heading(parts: list[Part], frames: int, rng: np.random.Generator) -> Floats:
+def _draw_heading(parts: list[Part], frames: int, rng: np.random.Generator) -> Floats:
     """Degrees: the figure turns while it walks or runs, and only then."""
     heading = np.full(frames, rng.uniform(-180, 180))
     for part in parts:
@@ -149,7 +153,7 @@ def _heading(parts: list[Part], frames: int, rng: np.random.Generator) -> Floats
     return heading
 
 
-def _slow_noise(frames: int, sigma: float, rng: np.random.Generator) -> Floats:
+def _make_slow_noise(frames: int, sigma: float, rng: np.random.Generator) -> Floats:
     """Smooth noise of standard deviation 1."""
     # The filter needs values on both sides; they are cut off again.
     margin = int(4 * sigma)

@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from kineme.datasets.actions import ACTIONS
-from kineme.datasets.figure import figure
-from kineme.datasets.performance import perform, root_path, shaken
-from kineme.datasets.timeline import Action, schedule, true_segments
+from kineme.datasets.figure import make_figure
+from kineme.datasets.performance import add_noise, compute_root_path, perform
+from kineme.datasets.timeline import Action, make_true_segments, schedule_actions
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Provenance
 from kineme.segments.segmentation import Segmentation
@@ -86,16 +86,16 @@ def synthesize(
             f"not {fps}, {size} and {noise}"
         )
     rng = np.random.default_rng(seed)
-    skeleton = figure(size)
-    parts = schedule(sequence, fps, rng)
+    skeleton = make_figure(size)
+    parts = schedule_actions(sequence, fps, rng)
     rotations, airborne = perform(parts, skeleton, fps, rng)
-    path = root_path(skeleton, rotations, airborne, fps)
+    path = compute_root_path(skeleton, rotations, airborne, fps)
     if noise:
-        rotations = shaken(skeleton, rotations, noise, rng)
+        rotations = add_noise(skeleton, rotations, noise, rng)
         path = path + rng.normal(0, noise, path.shape)
     provenance = Provenance(format="synthetic").noted(f"synthetic recording, seed {seed}")
     motion = Motion.from_rotations(skeleton, rotations, fps, path, provenance=provenance)
-    return SyntheticRecording(motion, true_segments(parts, fps))
+    return SyntheticRecording(motion, make_true_segments(parts, fps))
 
 
 def random_recording(

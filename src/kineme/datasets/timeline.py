@@ -76,7 +76,7 @@ class Part:
     fade_out: int
 
 
-def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
+def schedule_actions(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
     """Return the actions one after the other, each repetition a little shorter or longer."""
     parts: list[Part] = []
     now, fade_in = 0, 0
@@ -98,9 +98,9 @@ def schedule(actions: Sequence[Action], fps: float, rng: np.random.Generator) ->
     return parts
 
 
-def true_segments(parts: list[Part], fps: float) -> Segmentation:
+def make_true_segments(parts: list[Part], fps: float) -> Segmentation:
     """Activities, transitions and repetitions as a segment table."""
-    kinds = list(dict.fromkeys(map(_kind, parts)))
+    kinds = list(dict.fromkeys(map(_get_kind, parts)))
     rows: list[Row] = []
 
     def add(level: str, kind: str, start: int, stop: int, label: str, cluster: int = -1) -> None:
@@ -109,17 +109,17 @@ def true_segments(parts: list[Part], fps: float) -> Segmentation:
 
     for part in parts:
         name, frames = part.action.name, part.frames.tolist()
-        cluster = -1 if name == "stand" else kinds.index(_kind(part))
+        cluster = -1 if name == "stand" else kinds.index(_get_kind(part))
         borders = [frames[0], frames[-1]] if name == "stand" else frames
         add("activity", "activity", frames[0], frames[-1], name, cluster)
         for start, stop in pairwise(borders):
             add("primitive", "primitive", start, stop, name, cluster)
         for level in ("activity", "primitive"):
             add(level, "transition", frames[-1], frames[-1] + part.fade_out, "")
-    return segments_of(rows, int(parts[-1].frames[-1]), fps)
+    return make_segmentation(rows, int(parts[-1].frames[-1]), fps)
 
 
-def segments_of(rows: Sequence[Row], n_frames: int, fps: float) -> Segmentation:
+def make_segmentation(rows: Sequence[Row], n_frames: int, fps: float) -> Segmentation:
     """Rows of known truth as a segment table."""
     keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
     return Segmentation.from_columns(
@@ -130,7 +130,7 @@ def segments_of(rows: Sequence[Row], n_frames: int, fps: float) -> Segmentation:
     )
 
 
-def phase_of(part: Part) -> Floats:
+def compute_phase(part: Part) -> Floats:
     """Cycles done at each frame, fades included: they run up to and down from full pace."""
     frames = part.frames.astype(float)
     cycles = np.arange(len(frames), dtype=float)
@@ -139,12 +139,12 @@ def phase_of(part: Part) -> Floats:
     at = np.arange(frames[0], frames[-1])
     between = inside(at) if inside else np.interp(at, frames, cycles)
     # The run-up is a run-down backwards, before the first cycle.
-    run_up = _run_down(part.fade_in, frames[1] - frames[0])[::-1]
-    run_down = _run_down(part.fade_out, frames[-1] - frames[-2])
+    run_up = _slow_down(part.fade_in, frames[1] - frames[0])[::-1]
+    run_down = _slow_down(part.fade_out, frames[-1] - frames[-2])
     return np.concatenate([-run_up, between, cycles[-1] + run_down])
 
 
-def weight_of(part: Part) -> Floats:
+def compute_weight(part: Part) -> Floats:
     """1 during the action, rising and falling smoothly over the fades."""
     rise = np.linspace(0, 1, part.fade_in, endpoint=False)
     fall = np.linspace(1, 0, part.fade_out, endpoint=False)
@@ -153,7 +153,7 @@ def weight_of(part: Part) -> Floats:
     return np.asarray(weight * weight * (3 - 2 * weight))
 
 
-def _run_down(fade: int, period: float) -> Floats:
+def _slow_down(fade: int, period: float) -> Floats:
     """Cycles gone while the pace falls evenly to nothing within half of the fade."""
     ramp = max(fade / 2, 1.0)
     # After half of the fade the figure stands still.
@@ -162,7 +162,7 @@ def _run_down(fade: int, period: float) -> Floats:
     return np.asarray((elapsed - elapsed**2 / (2 * ramp)) / period)
 
 
-def _kind(part: Part) -> tuple[str, str]:
+def _get_kind(part: Part) -> tuple[str, str]:
     """Return what makes two actions the same movement: the name, and the side where it matters."""
     name = part.action.name
     return name, part.action.side if ACTIONS[name].one_sided else ""

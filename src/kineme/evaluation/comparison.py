@@ -32,7 +32,7 @@ from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
 from kineme.evaluation.label_truth import add_repetitions, make_labelling, make_truth
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, Truth
-from kineme.labels.spans import text_of
+from kineme.labels.spans import format_text
 from kineme.segments.segmentation import Segmentation
 
 LABELS_TOLERANCE_S = 0.5
@@ -319,7 +319,9 @@ def compare(
     truth = add_repetitions(truth)
     numbers = {} if classes is None else classes
     classes_of_rows = [
-        UNLABELLED if row.kind == "transition" else numbers.setdefault(text_of(row), len(numbers))
+        UNLABELLED
+        if row.kind == "transition"
+        else numbers.setdefault(format_text(row), len(numbers))
         for row in truth.activities
     ]
     # Activities in no cluster get numbers above all clusters.

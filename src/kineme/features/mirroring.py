@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
-from kineme._util.rotations import matrices, quaternions
+from kineme._util.rotations import from_matrices, to_matrices
 from kineme.errors import MotionError, ParameterError
 from kineme.features.effectors import PARTS
 from kineme.recordings import Motion, Skeleton
@@ -115,7 +115,10 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
         partner, X o is that of the child's partner. X of the partner is the inverse.
     """
     places, turns = get_rig(skeleton).rest()
-    frames, means = matrices(turns), [matrices(rotations[:, j]).mean(0) for j in range(len(turns))]
+    frames, means = (
+        to_matrices(turns),
+        [to_matrices(rotations[:, j]).mean(0) for j in range(len(turns))],
+    )
     image = _reflect_rest(skeleton, places, partners)
     found = np.empty((skeleton.n_joints, 3, 3))
     for joint, (other, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
@@ -138,7 +141,7 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
         # The orthogonal matrix nearest to the fit of the children, then to that guess.
         u, _, v = np.linalg.svd(fit + max(TWIST * size, TINY) * near)
         found[joint] = u @ np.diag([1.0, 1.0, -np.linalg.det(u @ v)]) @ v
-    flips = quaternions(-found)
+    flips = from_matrices(-found)
     for joint, other in enumerate(partners):
         if other > joint:  # so that the signs of a motion mirrored twice are its own
             flips[other] = -rot.conjugate(flips[joint])

@@ -21,7 +21,7 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent, parse_numbers
 from kineme.recordings.times import (
     append_unit,
@@ -255,7 +255,7 @@ class DelimitedText:
 
 def make_unique_names(names: Iterable[str]) -> list[str]:
     """Return the names of columns, each of them once, and none of them empty."""
-    return unique(name.strip() or NAMELESS for name in names)
+    return make_unique(name.strip() or NAMELESS for name in names)
 
 
 def find_separator(line: str) -> str:

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.checks import is_text, unique, warn
+from kineme._util.checks import is_text, make_unique, warn
 from kineme._util.files import atomic_write, read_head, refuse_pipe
 from kineme.errors import ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
@@ -196,7 +196,7 @@ def clean_names(path: Path, names: Sequence[str], spelling: Callable[[str], str]
     for name in names:
         if not is_text(name):
             raise WriteError(path, f"the name {name!r:.60} cannot be written: it is not text")
-    spellings = unique(map(spelling, names))
+    spellings = make_unique(map(spelling, names))
     changed = [pair for pair in zip(names, spellings, strict=True) if pair[0] != pair[1]]
     if changed:
         name, new = changed[0]

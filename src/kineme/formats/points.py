@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import format_count, join_names, unique
+from kineme._util.checks import format_count, join_names, make_unique
 from kineme.errors import ReadError
 from kineme.formats.gaps import Gaps, bridge_gaps, fill_gaps, mark_spans
 from kineme.formats.persons import choose_person
@@ -84,7 +84,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     path = provenance.path or "recording"
     given = [name.strip() or "point" for name in points.names]
     names, subjects = split_subjects(given, points.person)
-    names = unique(names)
+    names = make_unique(names)
     if len(subjects) > 1:
         subject = _describe_subject(path, subjects, points.person)
         provenance = provenance.noted(subject).of_person(points.person or subjects[0], subjects)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.formats.channels.parquet import (
     open_parquet,
     read_parquet_channels,
@@ -77,9 +77,9 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
         table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
     used = read_parquet_columns(content, file, [name for name in stored if is_used(name)])
-    columns = dict.fromkeys(unique(stored), np.empty(0)) | {
+    columns = dict.fromkeys(make_unique(stored), np.empty(0)) | {
         name: np.asarray(column.to_numpy())
-        for name, column in zip(unique(used.column_names), used.columns, strict=True)
+        for name, column in zip(make_unique(used.column_names), used.columns, strict=True)
     }
     return columns_to_motion(content, PARQUET.name, columns, options)
 

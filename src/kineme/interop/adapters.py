@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.checks import require_extra
 from kineme.errors import ParameterError
-from kineme.labels.spans import join_lines, parse_text, text_of
+from kineme.labels.spans import format_text, join_lines, parse_text
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -57,10 +57,10 @@ def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
     >>> from_ruptures([40, 100], fps=10).activities.stop_s.tolist()
     [4.0, 10.0]
     """
-    ends = _frames(breakpoints, "breakpoints")
+    ends = _check_frames(breakpoints, "breakpoints")
     if not len(ends):
         raise ParameterError("breakpoints must hold at least the number of frames")
-    return _activities([0, *ends], [""] * len(ends), fps)
+    return _make_activities([0, *ends], [""] * len(ends), fps)
 
 
 def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray[np.int64]:
@@ -90,8 +90,8 @@ def from_aeon(change_points: ArrayLike, *, n_frames: int, fps: float) -> Segment
     >>> from_aeon([40], n_frames=100, fps=10).activities.stop_s.tolist()
     [4.0, 10.0]
     """
-    cuts = _frames(change_points, "change_points")
-    return _activities([0, *cuts, n_frames], [""] * (len(cuts) + 1), fps)
+    cuts = _check_frames(change_points, "change_points")
+    return _make_activities([0, *cuts, n_frames], [""] * (len(cuts) + 1), fps)
 
 
 def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.DataFrame:
@@ -115,7 +115,7 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
         import pandas as pd
     rows = segmentation.level(level)
     spans = pd.IntervalIndex.from_arrays(rows.start_frame, rows.stop_frame, closed="left")
-    return pd.DataFrame({"ilocs": spans, "labels": list(map(text_of, rows))})
+    return pd.DataFrame({"ilocs": spans, "labels": list(map(format_text, rows))})
 
 
 def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
@@ -133,9 +133,9 @@ def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
     spans = segments["ilocs"].array
     if getattr(spans, "closed", None) != "left":
         raise ParameterError("ilocs must be intervals closed on the left")
-    starts, stops = _frames(spans.left, "ilocs"), _frames(spans.right, "ilocs")
+    starts, stops = _check_frames(spans.left, "ilocs"), _check_frames(spans.right, "ilocs")
     texts = segments["labels"] if "labels" in segments else [""] * len(spans)
-    return _touching(starts, stops, list(map(str, texts)), fps)
+    return _join_intervals(starts, stops, list(map(str, texts)), fps)
 
 
 def to_mir_eval(
@@ -154,7 +154,7 @@ def to_mir_eval(
     True
     """
     rows = segmentation.level(level)
-    return np.column_stack([rows.start_s, rows.stop_s]), list(map(text_of, rows))
+    return np.column_stack([rows.start_s, rows.stop_s]), list(map(format_text, rows))
 
 
 def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) -> Segmentation:
@@ -171,20 +171,20 @@ def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) ->
         raise ParameterError(f"intervals must be finite, (n, 2), not of shape {times.shape}")
     # The nearest frame, halves up, as label files have it.
     frames = np.floor(times * fps + 0.5).astype(np.int64)
-    return _touching(frames[:, 0], frames[:, 1], list(labels), fps)
+    return _join_intervals(frames[:, 0], frames[:, 1], list(labels), fps)
 
 
-def _touching(
+def _join_intervals(
     starts: NDArray[np.int64], stops: NDArray[np.int64], texts: Sequence[str], fps: float
 ) -> Segmentation:
     if len(starts) != len(texts) or not len(starts):
         raise ParameterError(f"{len(starts)} intervals and {len(texts)} labels: give one for each")
     if starts[0] != 0 or (starts[1:] != stops[:-1]).any():
         raise ParameterError("intervals must start at 0, and each where the one before it stops")
-    return _activities([0, *stops], texts, fps)
+    return _make_activities([0, *stops], texts, fps)
 
 
-def _activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -> Segmentation:
+def _make_activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -> Segmentation:
     kinds, clusters, labels = zip(*(parse_text(join_lines(text)) for text in texts), strict=True)
     columns: dict[str, Any] = {
         "level": ["activity"] * len(texts),
@@ -197,7 +197,7 @@ def _activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -> Seg
     return Segmentation.from_columns(columns, n_frames=int(borders[-1]), fps=fps)
 
 
-def _frames(values: ArrayLike, name: str) -> NDArray[np.int64]:
+def _check_frames(values: ArrayLike, name: str) -> NDArray[np.int64]:
     frames = np.asarray(values)
     if frames.ndim != 1 or (frames.size and frames.dtype.kind not in "iu"):
         raise ParameterError(f"{name} must be whole numbers in a row, not {frames.dtype}")

@@ -144,7 +144,7 @@ def from_movement(
     >>> from_movement(to_movement(motion)).n_frames == motion.n_frames
     True
     """
-    person = _individual(dataset, individual)
+    person = _select_individual(dataset, individual)
     position = person["position"].transpose("time", "keypoints", "space")
     axes = [str(axis) for axis in position["space"].values]
     if sorted(axes) not in (["x", "y"], ["x", "y", "z"]):
@@ -178,7 +178,7 @@ def from_movement(
     return motion
 
 
-def _individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
+def _select_individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
     """Return what the dataset holds of one individual."""
     if "position" not in dataset or not {"time", "space", "keypoints"} <= {
         *dataset["position"].dims

@@ -22,7 +22,7 @@ from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import ParameterError
 from kineme.formats.gaps import mark_spans
-from kineme.labels.spans import text_of
+from kineme.labels.spans import format_text
 from kineme.recordings import Motion
 from kineme.segments.colors import get_cluster_color
 from kineme.segments.table import Level
@@ -71,7 +71,7 @@ def write_rerun(
         )
     with atomic_write(path) as draft:
         recording = rr.RecordingStream("kineme", recording_id=Path(path).stem)
-        recording.save(draft, default_blueprint=_blueprint(segmentation is not None))
+        recording.save(draft, default_blueprint=_make_blueprint(segmentation is not None))
         _send_body(recording, motion)
         if segmentation is not None:
             for level in get_args(Level):
@@ -94,7 +94,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     positions = motion.positions[frames].astype(np.float32)
     # One flat list of points, which is parted into frames below.
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
-    times = _times(frames, motion.fps)
+    times = _make_time_columns(frames, motion.fps)
     counts = np.full(len(frames), motion.skeleton.n_joints)
     recording.send_columns("body/joints", times, joints.partition(counts))
     children = [j for j, parent in enumerate(motion.skeleton.parents) if parent >= 0]
@@ -117,16 +117,16 @@ def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None
     values = [f"{level} {number}" for number in range(len(rows))]
     style = rr.StateConfiguration(
         values=values,
-        labels=list(map(text_of, rows)),
-        colors=[_rgba(row.cluster) for row in rows],
+        labels=list(map(format_text, rows)),
+        colors=[_to_rgba(row.cluster) for row in rows],
     )
     recording.log(f"segments/{level}", style, static=True)
-    times = _times(rows.start_frame, segmentation.fps)
+    times = _make_time_columns(rows.start_frame, segmentation.fps)
     states = rr.StateChange.columns(state=values)
     recording.send_columns(f"segments/{level}", times, states)
 
 
-def _times(frames: Any, fps: float) -> list[Any]:
+def _make_time_columns(frames: Any, fps: float) -> list[Any]:
     import rerun as rr
 
     frames = np.asarray(frames, np.int64)
@@ -136,7 +136,7 @@ def _times(frames: Any, fps: float) -> list[Any]:
     ]
 
 
-def _blueprint(lanes: bool) -> Any:
+def _make_blueprint(lanes: bool) -> Any:
     import rerun.blueprint as rrb
 
     body = rrb.Spatial3DView(origin="body", name="body")
@@ -146,5 +146,5 @@ def _blueprint(lanes: bool) -> Any:
     return rrb.Blueprint(rrb.Vertical(body, states, row_shares=[3, 1]))
 
 
-def _rgba(cluster: int) -> int:
+def _to_rgba(cluster: int) -> int:
     return int(get_cluster_color(cluster)[1:] + "FF", 16)

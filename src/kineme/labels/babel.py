@@ -27,7 +27,7 @@ from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.labels.delimited import read_first_bytes
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span, text_of
+from kineme.labels.spans import Labels, Span, format_text
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
@@ -39,9 +39,9 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     """Leave an object with one recording, number 0, at ``path``."""
     labels = [
         {
-            "raw_label": text_of(row),
-            "proc_label": text_of(row),
-            "act_cat": [text_of(row)],
+            "raw_label": format_text(row),
+            "proc_label": format_text(row),
+            "act_cat": [format_text(row)],
             "start_t": row.start_s,
             "end_t": row.stop_s,
             "seg_id": str(number),
@@ -89,7 +89,7 @@ def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
         )
         for label in labels
     ]
-    apart, shared = _cut_apart(spans, path)
+    apart, shared = _split_overlaps(spans, path)
     note = f"labels overlap; with the texts of several: {format_count(shared, 'segment')}"
     return Labels(apart, "seconds", None, length, (note,) if shared else ())
 
@@ -101,7 +101,7 @@ def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
     return float(value)
 
 
-def _cut_apart(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
+def _split_overlaps(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
     """Return the spans cut where another begins or ends, with all texts; how many have several."""
     solid = [span for span in spans if span.start < span.stop]
     # Empty and backward spans are kept as they are: reading refuses or drops them later.

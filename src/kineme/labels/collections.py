@@ -3,7 +3,7 @@
 A table has the columns ``recording``, ``start_s``, ``stop_s`` and ``label`` (or
 ``start_frame``, ``stop_frame``); a recording is named with or without its suffix. In a folder,
 the labels of ``walk.bvh`` are in a file called ``walk`` in any label format (``walk.eaf``,
-``walk.labels.csv``). What either says of a single recording is read by `labels_for`.
+``walk.labels.csv``). What either says of a single recording is read by `read_labels`.
 
 A frame has the label in whose span ``[start, stop)`` its time lies. Labels of public sets overlap
 here and there, run backwards or beyond the end: of two that overlap the one further down in the
@@ -26,7 +26,7 @@ from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError
 from kineme.labels import csv_table
 from kineme.labels.delimited import SAME_RATE, read_columns
-from kineme.labels.registry import format_to_read, holds_labels, read_content, read_segments
+from kineme.labels.registry import find_read_format, holds_labels, read_content, read_segments
 from kineme.labels.spans import (
     TOO_FAR,
     Labels,
@@ -87,15 +87,15 @@ def find_labels(
     They are in a table with a column ``recording``, or in a folder with a file for each. ReadError
     where nothing there is of any of the recordings.
     """
-    return find_labels_and_strays(recordings, labels)[0]
+    return find_labels_and_unmatched(recordings, labels)[0]
 
 
-def find_labels_and_strays(
+def find_labels_and_unmatched(
     recordings: Iterable[Path], labels: str | PathLike[str]
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
     """What `find_labels` gives, and the recordings that a table names and that are not there."""
     files, home = list(recordings), Path(labels)
-    named = _find_in_folder(home) if home.is_dir() else _find_in_table(home)
+    named = _find_in_folder(home) if home.is_dir() else _read_table(home)
     # Tables may name a recording with or without its suffix.
     pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
     found = {path: source for path, source in pairs if source is not None}
@@ -109,7 +109,7 @@ def find_labels_and_strays(
     return found, strays
 
 
-def labels_for(
+def read_labels(
     recording: Path,
     labels: str | PathLike[str],
     *,
@@ -118,7 +118,9 @@ def labels_for(
     clock: Clock | None = None,
 ) -> Segmentation:
     """What a label file says of a recording: its own rows, where others are in the table, too."""
-    table = format_to_read(labels) is csv_table.FORMAT and "recording" in read_columns(Path(labels))
+    table = find_read_format(labels) is csv_table.FORMAT and "recording" in read_columns(
+        Path(labels)
+    )
     if not table:
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
     (source,) = find_labels([recording], labels).values()
@@ -205,7 +207,7 @@ class _Covered:
         return [(begin, end) for begin, end in free if begin < end]
 
 
-def _find_in_table(path: Path) -> dict[str, LabelSource]:
+def _read_table(path: Path) -> dict[str, LabelSource]:
     with translate_read_errors(path):
         tables = csv_table.read_intervals(path)
     if "" in tables:

@@ -34,9 +34,9 @@ from kineme.labels.delimited import (
     digest_cuts,
     find_differences,
     find_separator,
-    number,
     open_new_text,
     parse_level,
+    parse_number,
     read_rows,
     write_rows,
 )
@@ -59,7 +59,7 @@ SPANS: dict[Unit, tuple[str, str]] = {
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Leave the table at ``path`` and the rest beside it."""
     beside = name_provenance(path)
-    head = make_head(segmentation) | {CUTS_KEY: _digest(segmentation.table.columns())}
+    head = make_head(segmentation) | {CUTS_KEY: _digest_columns(segmentation.table.columns())}
     more: dict[str, Sequence[Any]] = {**segmentation.more_columns()}
     if any(comments := assign_comments(segmentation)):
         more[COMMENT] = comments
@@ -99,7 +99,12 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
         table = join_head(columns, rest, path)
         changes = find_differences(
-            path, beside, head, _digest(columns), head_rate=table.fps, row_rate=_read_rate(columns)
+            path,
+            beside,
+            head,
+            _digest_columns(columns),
+            head_rate=table.fps,
+            row_rate=_read_rate(columns),
         )
         if not changes:
             return join_head(columns, head, path)
@@ -138,13 +143,13 @@ def read_intervals(path: Path) -> dict[str, Labels]:
             start, stop = (
                 parse_date(cell.strip())
                 if unit == "seconds" and is_date(cell.strip())
-                else number(cell, name, path, line)
+                else parse_number(cell, name, path, line)
                 for name, cell in cells.items()
             )
-            count = _count(row, path, line)
+            count = _parse_count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
             level = parse_level(row.get("level"))
-            span = Span(start, stop, text, level, _cluster(row), repetitions=count)
+            span = Span(start, stop, text, level, _parse_cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
     return {recording: Labels(some, unit) for recording, some in spans.items()}
 
@@ -162,13 +167,13 @@ def _read_intervals(path: Path) -> Labels:
     return next(iter(found.values()), Labels([]))
 
 
-def _cluster(row: dict[str, str]) -> int:
+def _parse_cluster(row: dict[str, str]) -> int:
     """Return a cluster's number, as in an exported library; other words are people's own."""
     text = row.get("cluster", "").strip()
     return int(text) if re.fullmatch("[0-9]{1,9}", text) else -1
 
 
-def _count(row: dict[str, str], path: Path, line: int) -> int | None:
+def _parse_count(row: dict[str, str], path: Path, line: int) -> int | None:
     text = row.get("count", "").strip()
     if text and not text.isdecimal():
         raise ReadError(path, f"count must be a whole number, not {text!r:.60}", line=line)
@@ -209,7 +214,7 @@ def _read_cell(text: str | None, name: str, path: Path, line: int, *, commas: bo
         raise ReadError(path, f"{name} must be {needed}, not {text!r}", line=line) from error
 
 
-def _digest(columns: Mapping[str, Any]) -> str:
+def _digest_columns(columns: Mapping[str, Any]) -> str:
     return digest_cuts(
         zip(columns["level"], columns["start_frame"], columns["stop_frame"], strict=True)
     )

@@ -79,7 +79,7 @@ def parse_level(text: str | None) -> Level:
     return "primitive" if text == "primitive" else "activity"
 
 
-def number(text: str, name: str, path: Path, line: int) -> float:
+def parse_number(text: str, name: str, path: Path, line: int) -> float:
     """``text`` as a finite number."""
     try:
         value = float(text)
@@ -92,7 +92,7 @@ def number(text: str, name: str, path: Path, line: int) -> float:
 
 def parse_integer(text: str, name: str, path: Path, line: int) -> int:
     """``text`` as a whole number."""
-    value = number(text, name, path, line)
+    value = parse_number(text, name, path, line)
     if value != int(value):
         raise ReadError(path, f"{name} must be a whole number, not {text!r:.60}", line=line)
     return int(value)

@@ -40,17 +40,17 @@ from kineme.labels.delimited import (
     digest_cuts,
     find_differences,
     format_source,
-    number,
     open_new_text,
     parse_integer,
     parse_level,
+    parse_number,
     read_columns,
     read_first_bytes,
     read_rows,
     write_rows,
 )
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span, text_of
+from kineme.labels.spans import Labels, Span, format_text
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
@@ -100,8 +100,8 @@ def read_bids(path: Path) -> Labels:
             rates.append((span.stop, _parse_rate(cells, span.stop)))
             cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
     beside = name_sidecar(path)
-    sidecar = _parse(beside)
-    facts = _make_facts(sidecar, beside)
+    sidecar = _read_sidecar(beside)
+    facts = _parse_facts(sidecar, beside)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
     notes = find_differences(
@@ -122,13 +122,13 @@ def _format_cells(row: Segment) -> list[Any]:
     )
     time = [row.start_s, row.stop_s - row.start_s]
     frames = [row.start_frame, row.stop_frame]
-    return [*time, text_of(row), row.level, cluster, confidence, *frames, action, border]
+    return [*time, format_text(row), row.level, cluster, confidence, *frames, action, border]
 
 
 def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
-    onset = number(cells["onset"], "onset", path, line)
+    onset = parse_number(cells["onset"], "onset", path, line)
     duration = cells["duration"]
-    length = 0.0 if duration == MISSING else number(duration, "duration", path, line)
+    length = 0.0 if duration == MISSING else parse_number(duration, "duration", path, line)
     text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
     cluster = cells.get("cluster", MISSING)
     confidence = cells.get("confidence", MISSING)
@@ -138,7 +138,9 @@ def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
         text,
         parse_level(cells.get("level")),
         -1 if cluster in (MISSING, "") else parse_integer(cluster, "cluster", path, line),
-        math.nan if confidence in (MISSING, "") else number(confidence, "confidence", path, line),
+        math.nan
+        if confidence in (MISSING, "")
+        else parse_number(confidence, "confidence", path, line),
     )
 
 
@@ -149,7 +151,7 @@ def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
     return int(text) / stop_s if valid else None
 
 
-def _make_facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
+def _parse_facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
     facts: dict[str, float | None] = {}
     for name in ("SamplingFrequency", "RecordingDuration"):
         value = sidecar.get(name)
@@ -161,7 +163,7 @@ def _make_facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None
 
 def _read_sidecar_to_keep(beside: Path) -> dict[str, Any]:
     try:
-        found = _parse(beside)
+        found = _read_sidecar(beside)
     except ReadError as error:
         raise WriteError(beside, f"is in the way of the sidecar: {error.reason}") from error
     if "schema" in found:
@@ -169,7 +171,7 @@ def _read_sidecar_to_keep(beside: Path) -> dict[str, Any]:
     return found
 
 
-def _parse(beside: Path) -> dict[str, Any]:
+def _read_sidecar(beside: Path) -> dict[str, Any]:
     if not beside.is_file():
         return {}
     found = load_json(beside)
@@ -229,7 +231,7 @@ def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path)
     }
     events = [
         {
-            "Behavior": text_of(row),
+            "Behavior": format_text(row),
             "Behavioral category": row.level,
             "Behavior type": kind,
             "Time": time,
@@ -274,7 +276,7 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
         same = ("Observation id", "Subject", "Behavior", "Behavioral category")
         # States of several subjects and observations may be open at once.
         key = tuple(cells.get(name, "") for name in same)
-        time = number(cells["Time"], "Time", path, line)
+        time = parse_number(cells["Time"], "Time", path, line)
         if kind == "START" and key not in starts:
             starts[key] = time
         elif kind == "STOP" and key in starts:
@@ -295,8 +297,8 @@ def _read_aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span
     for line, cells in rows:
         if _parse_kind(cells) == "POINT":
             continue
-        start = number(cells["Start (s)"], "Start (s)", path, line)
-        stop = number(cells["Stop (s)"], "Stop (s)", path, line)
+        start = parse_number(cells["Start (s)"], "Start (s)", path, line)
+        stop = parse_number(cells["Stop (s)"], "Stop (s)", path, line)
         level = parse_level(cells.get("Behavioral category"))
         yield Span(start, stop, cells["Behavior"], level)
 

@@ -34,16 +34,16 @@ from kineme.errors import ReadError, WriteError
 from kineme.labels.csv_table import choose_roundest_rate
 from kineme.labels.delimited import (
     format_source,
-    number,
     open_new_text,
     parse_integer,
+    parse_number,
     read_columns,
     read_first_bytes,
     read_rows,
     write_rows,
 )
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span, text_of
+from kineme.labels.spans import Labels, Span, format_text
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
@@ -54,7 +54,7 @@ NEEDED = ("file", "start", "stop")
 
 def _write_audacity(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
     with open_new_text(path, newline="\n") as file:
-        file.writelines(f"{row.start_s!r}\t{row.stop_s!r}\t{text_of(row)}\n" for row in rows)
+        file.writelines(f"{row.start_s!r}\t{row.stop_s!r}\t{format_text(row)}\n" for row in rows)
 
 
 def _read_audacity(path: Path) -> Labels:
@@ -66,8 +66,8 @@ def _read_audacity(path: Path) -> Labels:
                 continue
             if len(cells) < 2:
                 raise ReadError(path, "a label is a start, a stop and a text with tabs", line=line)
-            start = number(cells[0], "the start", path, line)
-            stop = number(cells[1], "the stop", path, line)
+            start = parse_number(cells[0], "the start", path, line)
+            stop = parse_number(cells[1], "the stop", path, line)
             spans.append(Span(start, stop, cells[2] if len(cells) > 2 else ""))
     return Labels(spans)
 
@@ -94,7 +94,9 @@ def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
         raise WriteError(path, f"must lie in a folder called {FOLDER}: give {FOLDER}/{path.name}")
     with suppress(OSError):  # atomic_write says why there is none
         path.parent.mkdir(exist_ok=True)
-    texts = ["".join("_" if letter.isspace() else letter for letter in text_of(r)) for r in rows]
+    texts = [
+        "".join("_" if letter.isspace() else letter for letter in format_text(r)) for r in rows
+    ]
     mapping = path.parent.parent / "mapping.txt"
     classes = _list_classes(mapping)
     for text in texts:
@@ -160,7 +162,7 @@ MS_TCN = LabelFormat(
 
 def _write_clips(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     source = format_source(segmentation)
-    lines = ((source, row.start_frame, row.stop_frame, 0, row.start_s, row.stop_s, text_of(row))
+    lines = ((source, row.start_frame, row.stop_frame, 0, row.start_s, row.stop_s, format_text(row))
              for row in rows)  # fmt: skip
     with open_new_text(path) as file:
         write_rows(file, (*NEEDED, "mirror", "start_s", "stop_s", "label"), lines)
@@ -176,7 +178,7 @@ def _read_clips(path: Path) -> Labels:
             spans[Span(start, stop, cells.get("label", ""))] = None
             sources[cells["file"]] = None
             if cells.get("stop_s"):
-                last = max(last, (stop, number(cells["stop_s"], "stop_s", path, line)))
+                last = max(last, (stop, parse_number(cells["stop_s"], "stop_s", path, line)))
     if len(sources) > 1:
         names = ", ".join(sources)
         raise ReadError(path, f"lists clips of {len(sources)} files ({names:.100}): keep one")

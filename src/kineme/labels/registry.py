@@ -221,7 +221,7 @@ def write_segments(
     """
     check_type(segmentation, Segmentation, "write_segments", "kineme.segment(motion) gives one")
     check_path(path, "write_segments")
-    label_format = format_to_write(path, format)
+    label_format = find_write_format(path, format)
     if label_format.holds == "all" and level is not None:
         raise ParameterError(
             f"{label_format.name} always holds both levels: leave out level={level!r}"
@@ -316,12 +316,12 @@ def read_content(
     path: str | PathLike[str], name: str | None = None
 ) -> tuple[LabelFormat, Segmentation | Labels]:
     """Return the format of a file and what it holds by itself, before anything is filled in."""
-    label_format = format_to_read(path, name)
+    label_format = find_read_format(path, name)
     with translate_read_errors(path):
         return label_format, label_format.read(Path(path))
 
 
-def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
+def find_read_format(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
     """Return the format in which a file is read: the one named, else by its content and suffix."""
     if name is not None:
         return _find_named(name)
@@ -331,12 +331,12 @@ def format_to_read(path: str | PathLike[str], name: str | None = None) -> LabelF
     if not fitting:
         every = (known for candidate in FORMATS.values() for known in candidate.suffixes)
         stored = ", ".join(dict.fromkeys(every))
-        raise ReadError(path, f"segments are stored as {stored}, not {_suggest_other(suffix)}")
+        raise ReadError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
     fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
-    return next((each for each in fitting if _speaks(each, Path(path))), fitting[0])
+    return next((each for each in fitting if _recognises(each, Path(path))), fitting[0])
 
 
-def format_to_write(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
+def find_write_format(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
     """Return format in which a file is written: the one named, else the first with its suffix."""
     fitting = _find_by_suffix(path) if name is None else [_find_named(name)]
     writers = [candidate for candidate in fitting if candidate.write]
@@ -346,7 +346,7 @@ def format_to_write(path: str | PathLike[str], name: str | None = None) -> Label
         return min(writers, key=lambda candidate: candidate.written_suffix.lower() != suffix)
     if fitting:
         raise WriteError(path, f"{fitting[0].name} is only read: segments go into {stored}")
-    raise WriteError(path, f"segments are stored as {stored}, not {_suggest_other(suffix)}")
+    raise WriteError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
 
 
 def holds_labels(path: str | PathLike[str]) -> bool:
@@ -371,7 +371,7 @@ def holds_labels(path: str | PathLike[str]) -> bool:
     target = Path(path)
     if target.name.endswith(".provenance.json"):  # of the table beside it
         return False
-    return any(_speaks(candidate, target) for candidate in _find_by_suffix(path))
+    return any(_recognises(candidate, target) for candidate in _find_by_suffix(path))
 
 
 def _find_by_suffix(path: str | PathLike[str]) -> list[LabelFormat]:
@@ -379,7 +379,7 @@ def _find_by_suffix(path: str | PathLike[str]) -> list[LabelFormat]:
     return [candidate for candidate in FORMATS.values() if suffix in candidate.suffixes]
 
 
-def _speaks(candidate: LabelFormat, path: Path) -> bool:
+def _recognises(candidate: LabelFormat, path: Path) -> bool:
     return candidate.recognises is None or candidate.recognises(path)
 
 
@@ -389,5 +389,5 @@ def _find_named(name: str) -> LabelFormat:
     return FORMATS[name]
 
 
-def _suggest_other(suffix: str) -> str:
+def _format_suffix(suffix: str) -> str:
     return repr(suffix) if suffix else "without a suffix"

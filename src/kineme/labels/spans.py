@@ -98,7 +98,7 @@ class Labels:
     remarks: tuple[str, ...] = ()
 
 
-def text_of(row: Segment) -> str:
+def format_text(row: Segment) -> str:
     """Return the text of a segment: its label, or what else tells it from others."""
     if row.label or row.kind == "transition":
         return row.label or "transition"
@@ -106,7 +106,7 @@ def text_of(row: Segment) -> str:
 
 
 def parse_text(text: str) -> tuple[Kind, int, str]:
-    """Kind, on the activity level, cluster and label of a text: the inverse of `text_of`."""
+    """Kind, on the activity level, cluster and label of a text: the inverse of `format_text`."""
     if text == "transition":
         return "transition", -1, ""
     if text in ("activity", ""):
@@ -136,11 +136,11 @@ def as_segmentation(
     if not 0 < rate < math.inf:
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
     per_unit = rate if labels.unit == "seconds" else 1.0
-    rows = [_row(span, per_unit, path) for span in labels.spans]
+    rows = [_make_row(span, per_unit, path) for span in labels.spans]
     last = max(row[3] for row in rows)
     notes = [*labels.remarks]
     if n_frames is None and labels.length is not None:
-        n_frames = max(last, _frame(labels.length, per_unit, path))
+        n_frames = max(last, _to_frame(labels.length, per_unit, path))
     elif n_frames is None:
         n_frames, frames = last, format_count(last, "frame")
         notes.append(f"length of {frames} taken from the end of the last label")
@@ -192,9 +192,9 @@ def join_lines(text: str) -> str:
     return "".join(" " if unicodedata.category(letter) in bad else letter for letter in text)
 
 
-def _row(span: Span, per_unit: float, path: Path) -> Row:
+def _make_row(span: Span, per_unit: float, path: Path) -> Row:
     """Return a row of the table, with frames for the unit of the file."""
-    start, stop = _frame(span.start, per_unit, path), _frame(span.stop, per_unit, path)
+    start, stop = _to_frame(span.start, per_unit, path), _to_frame(span.stop, per_unit, path)
     if stop < start:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
     kind, cluster, label = parse_text(join_lines(span.text))
@@ -202,7 +202,7 @@ def _row(span: Span, per_unit: float, path: Path) -> Row:
     return span.level, kind, start, stop, max(cluster, span.cluster), label, span.confidence
 
 
-def _frame(value: float, per_unit: float, path: Path) -> int:
+def _to_frame(value: float, per_unit: float, path: Path) -> int:
     frame = value * per_unit
     # A start may round down to frame 0.
     if not -0.5 <= frame < TOO_FAR:

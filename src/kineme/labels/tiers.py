@@ -44,9 +44,9 @@ from xml.etree import ElementTree as ET
 from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
 from kineme.formats.label_tables import is_elan_table
-from kineme.labels.delimited import number, open_new_text, read_first_bytes
+from kineme.labels.delimited import open_new_text, parse_number, read_first_bytes
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span, text_of
+from kineme.labels.spans import Labels, Span, format_text
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -76,7 +76,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     root = ET.Element("ANNOTATION_DOCUMENT", AUTHOR="kineme", DATE="1970-01-01T00:00:00+00:00")
     root.attrib |= {"FORMAT": "3.0", "VERSION": "3.0", **SCHEMA}
     header = ET.SubElement(root, "HEADER", MEDIA_FILE="", TIME_UNITS="milliseconds")
-    _name_medium(header, segmentation)
+    _add_medium(header, segmentation)
     for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
         ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
     # Each time once: segments that touch share a time slot.
@@ -96,7 +96,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{position}")
         span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
         # XML cannot hold two characters that labels can.
-        text = text_of(row).replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
+        text = format_text(row).replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
         ET.SubElement(span, "ANNOTATION_VALUE").text = text
     ET.SubElement(
         root,
@@ -112,7 +112,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 def read(path: Path) -> Labels:
     """Return the annotations at ``path``."""
-    root = _parse(path)
+    root = _parse_document(path)
     if root.tag != "ANNOTATION_DOCUMENT":
         raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
     slots = {slot.get("TIME_SLOT_ID"): slot.get("TIME_VALUE") for slot in root.iter("TIME_SLOT")}
@@ -131,7 +131,7 @@ def read(path: Path) -> Labels:
     return Labels(spans, "seconds", fps, n_frames / fps if n_frames and fps else None)
 
 
-def _name_medium(header: ET.Element, segmentation: Segmentation) -> None:
+def _add_medium(header: ET.Element, segmentation: Segmentation) -> None:
     """Say which video the annotations are of, where one is known."""
     source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
     given = Path(video.get("path") or "")
@@ -163,7 +163,7 @@ class _Builder(NoEntities, ET.TreeBuilder):
     """Elements of a document that defines no entities."""
 
 
-def _parse(path: Path) -> ET.Element:
+def _parse_document(path: Path) -> ET.Element:
     parser = ET.XMLParser(target=_Builder())  # noqa: S314 (see NoEntities)
     try:
         with path.open("rb") as file:
@@ -257,7 +257,7 @@ def _read_named_columns(rows: Sequence[tuple[int, list[str]]], path: Path) -> It
     for line, cells in rows[1:]:
         row = [*cells, *[""] * (len(names) - len(cells))]
         start, stop = (
-            _table_seconds(row[times[end][0]], path, line, is_ms=times[end][1])
+            _parse_table_seconds(row[times[end][0]], path, line, is_ms=times[end][1])
             for end in ("begin", "end")
         )
         if tier is not None:
@@ -282,14 +282,14 @@ def _read_unnamed_columns(
     for line, row in rows:
         if len(row) <= chosen[1]:
             raise ReadError(path, f"{len(row)} cells, where others have {len(first)}", line=line)
-        start, stop = (_table_seconds(row[i], path, line, is_ms=is_ms) for i in chosen[:2])
+        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in chosen[:2])
         yield row[0], start, stop, row[len(first) - 1] if len(row) >= len(first) else ""
 
 
-def _table_seconds(text: str, path: Path, line: int, *, is_ms: bool) -> float:
+def _parse_table_seconds(text: str, path: Path, line: int, *, is_ms: bool) -> float:
     if match := _CLOCK.fullmatch(text.strip()):
         return 3600 * int(match[1]) + 60 * int(match[2]) + float(match[3])
-    return number(text, "a time", path, line) / (1000 if is_ms else 1)
+    return parse_number(text, "a time", path, line) / (1000 if is_ms else 1)
 
 
 ELAN_TABLE = LabelFormat(
@@ -324,15 +324,15 @@ def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Pa
 def read_textgrid(path: Path) -> Labels:
     """Return the intervals at ``path``."""
     tokens = _split_tokens(path)
-    if _parse_text(tokens, path) != "ooTextFile" or _parse_text(tokens, path) != "TextGrid":
+    if _read_text(tokens, path) != "ooTextFile" or _read_text(tokens, path) != "TextGrid":
         raise ReadError(path, "is not a TextGrid in text form")
-    _number(tokens, path)
-    length = _number(tokens, path)
+    _read_number(tokens, path)
+    length = _read_number(tokens, path)
     tiers: dict[str, list[Span]] = {}
-    for _ in range(_count(tokens, path)):
-        kind, name = _parse_text(tokens, path), _parse_text(tokens, path)
-        _number(tokens, path), _number(tokens, path)
-        found = [_parse_interval(tokens, kind, path) for _ in range(_count(tokens, path))]
+    for _ in range(_read_count(tokens, path)):
+        kind, name = _read_text(tokens, path), _read_text(tokens, path)
+        _read_number(tokens, path), _read_number(tokens, path)
+        found = [_read_interval(tokens, kind, path) for _ in range(_read_count(tokens, path))]
         if kind == "IntervalTier" and any(span.text for span in found):
             tiers[name] = [span for span in found if span.text]
     levels = choose_tiers(list(tiers), path)
@@ -342,7 +342,7 @@ def read_textgrid(path: Path) -> Labels:
 
 def _format_lines(rows: Sequence[Segment]) -> Iterator[str]:
     for place, row in enumerate(rows, 1):
-        text = text_of(row).replace('"', '""')
+        text = format_text(row).replace('"', '""')
         yield f"        intervals [{place}]:\n"
         yield f"            xmin = {row.start_s!r}\n            xmax = {row.stop_s!r}\n"
         yield f'            text = "{text}"\n'
@@ -362,35 +362,35 @@ def _split_tokens(path: Path) -> Iterator[str | float]:
             raise ReadError(path, f"has {match[2]!r:.60} where a number should be") from error
 
 
-def _parse_interval(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
-    start = _number(tokens, path)
-    stop = _number(tokens, path) if kind == "IntervalTier" else start
-    return Span(start, stop, _parse_text(tokens, path))
+def _read_interval(tokens: Iterator[str | float], kind: str, path: Path) -> Span:
+    start = _read_number(tokens, path)
+    stop = _read_number(tokens, path) if kind == "IntervalTier" else start
+    return Span(start, stop, _read_text(tokens, path))
 
 
-def _parse_text(tokens: Iterator[str | float], path: Path) -> str:
+def _read_text(tokens: Iterator[str | float], path: Path) -> str:
     token = next(tokens, None)
     if not isinstance(token, str):
-        raise ReadError(path, f"has {_format_number(token)} where a text in quotes should be")
+        raise ReadError(path, f"has {_format_token(token)} where a text in quotes should be")
     return token
 
 
-def _number(tokens: Iterator[str | float], path: Path) -> float:
+def _read_number(tokens: Iterator[str | float], path: Path) -> float:
     token = next(tokens, None)
     if not isinstance(token, float):
-        raise ReadError(path, f"has {_format_number(token)} where a number should be")
+        raise ReadError(path, f"has {_format_token(token)} where a number should be")
     return token
 
 
-def _count(tokens: Iterator[str | float], path: Path) -> int:
-    """How many follow; a claim beyond what is there is refused by `_parse_text` or `_number`."""
-    count = _number(tokens, path)
+def _read_count(tokens: Iterator[str | float], path: Path) -> int:
+    """Read a count of items; too large ones fail later in `_read_text` or `_read_number`."""
+    count = _read_number(tokens, path)
     if not 0 <= count < 1e9 or count != int(count):
         raise ReadError(path, f"has {count} where a count should be")
     return int(count)
 
 
-def _format_number(token: object) -> str:
+def _format_token(token: object) -> str:
     return "its end" if token is None else f"{token!r:.60}"
 
 

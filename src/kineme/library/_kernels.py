@@ -11,7 +11,7 @@ MOST = np.int32(np.iinfo(np.int32).max)
 
 
 @njit("void(Array(int8, 2, 'C', readonly=True), int32[:, ::1], int32, int32[::1])", **OPTIONS)
-def find_least_squares(windows, parts, finer, least):
+def find_smallest_distances(windows, parts, finer, least):
     """The square of each window's distance from the nearest part of an example.
 
     ``windows`` (n, numbers) are whole numbers, ``parts`` (m, numbers) those of an example, as much

@@ -25,9 +25,9 @@ from kineme.library.planning import (
     as_paths,
     list_recordings,
     make_absolute,
+    make_plan,
     name_recordings,
     open_folder,
-    plan_of,
 )
 from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
 from kineme.library.storage.index import write_index
@@ -43,8 +43,8 @@ from kineme.library.storage.layout import (
     read_json,
     write_json,
 )
-from kineme.library.storage.places import lies_in, place, reach
-from kineme.library.storage.tables import is_table, is_tables, read_table, write_tables
+from kineme.library.storage.places import is_inside, make_path, translate_remote_errors
+from kineme.library.storage.tables import is_table_file, is_tables_folder, read_table, write_tables
 from kineme.methods.segmenter import SegmentOptions
 from kineme.transfer.clusters import CONSTANTS, Spans
 
@@ -166,13 +166,13 @@ def build(
     with start_processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
         folder = open_folder(into, [*added, *removed])
-        with lock_for_writing(folder, "build"), reach(folder):
+        with lock_for_writing(folder, "build"), translate_remote_errors(folder):
             head = read_json(folder / HEAD)
-            plan = plan_of(folder, head, added, removed, recursive, read_options, segment_options)
-            return _update(plan, head, executor, progress or (lambda _: None))
+            plan = make_plan(folder, head, added, removed, recursive, read_options, segment_options)
+            return _update_library(plan, head, executor, progress or (lambda _: None))
 
 
-def _update(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
+def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
     """Return the library brought up to date, for one that holds it."""
     progress("looking for recordings")
     before = _read_former_recordings(plan.folder, head)
@@ -192,8 +192,8 @@ def _update(plan: Plan, head: Head, executor: Executor, progress: Progress) -> B
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
     with lock_for_writing(plan.folder, "build", LOCK_EDITS):
-        tables = _name_tables(plan, head, before, entries, failed, progress)
-    _clean(plan.folder, {key for _, _, key in entries}, tables)
+        tables = _update_tables(plan, head, before, entries, failed, progress)
+    _delete_unused_files(plan.folder, {key for _, _, key in entries}, tables)
     return Built(
         plan.folder,
         tuple(path for _, path, _ in entries),
@@ -210,7 +210,7 @@ def _read_former_recordings(folder: Path, head: Head) -> Former:
         return {}
     table = read_table(folder, head["tables"], "recordings")
     columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
-    return {place(path): (name, key) for path, name, key in zip(*columns, strict=True)}
+    return {make_path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
 
 
 def _group_missing(
@@ -221,11 +221,11 @@ def _group_missing(
         path: source
         for path, (_, key) in not_found.items()
         for source in missing_sources
-        if lies_in(path, source) and has_analysis(plan.analyses, key)
+        if is_inside(path, source) and has_analysis(plan.analyses, key)
     }
 
 
-def _name_tables(
+def _update_tables(
     plan: Plan,
     head: Head,
     before: Former,
@@ -301,7 +301,7 @@ def _write_removed(
         write_json(folder / REMOVED, content)
 
 
-def _clean(folder: Path, keys: set[str], tables: str) -> None:
+def _delete_unused_files(folder: Path, keys: set[str], tables: str) -> None:
     """Delete files of earlier builds that nothing names, and drafts of builds that were ended."""
     owned = OwnedFolder(folder)
     for home in ((), (ANALYSES,), (TABLES, tables)):
@@ -309,7 +309,7 @@ def _clean(folder: Path, keys: set[str], tables: str) -> None:
     owned.delete(ANALYSES, is_ours=lambda name: is_analysis(name) and name[:KEY_LENGTH] not in keys)
     with suppress(OSError):
         for path in [*(folder / TABLES).iterdir()]:
-            if path.name != tables and is_tables(path.name):
-                owned.delete(TABLES, path.name, is_ours=is_table)
+            if path.name != tables and is_tables_folder(path.name):
+                owned.delete(TABLES, path.name, is_ours=is_table_file)
                 with suppress(OSError):  # somebody keeps a file in it
                     path.rmdir()

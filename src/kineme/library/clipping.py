@@ -18,10 +18,10 @@ import numpy as np
 
 from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import is_one_of, warn
-from kineme.clips.options import ClipOptions, choose
+from kineme.clips.options import ClipOptions, resolve_options
 from kineme.clips.quality import PHASES, LoopQuality
-from kineme.clips.shaping import RankedLoop, loop_qualities, planted_feet
-from kineme.clips.tags import DIRECTIONS, travel_of
+from kineme.clips.shaping import RankedLoop, find_planted_feet, measure_loops
+from kineme.clips.tags import DIRECTIONS, measure_travel
 from kineme.errors import KinemeError, ParameterError
 from kineme.features import compute_body_frame, end_effectors
 from kineme.library.open_library import OpenTables
@@ -72,12 +72,12 @@ class Coverage(NamedTuple):
     stops: int
 
 
-def coverage_of(tables: OpenTables) -> list[Coverage]:
+def measure_coverage(tables: OpenTables) -> list[Coverage]:
     """Return what a library has of each cluster in each direction; recordings are read for it."""
     found: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
     found, labels = defaultdict(list), dict[int, str]()
     for motion, rows in _read_bodies(tables):
-        travel = travel_of(motion)
+        travel = measure_travel(motion)
         for row in rows if travel is not None else ():
             if travel is None or row.level != "activity" or row.kind == "transition":
                 continue
@@ -118,7 +118,7 @@ def write_best_loops(
     from kineme.clips.split import Source, write_clips
 
     options["loops"] = True
-    best = choose(options).shape.best
+    best = resolve_options(options).shape.best
     if not is_one_of(per, get_args(Per)):
         raise ParameterError(f"per is {per!r:.60}: choose from {', '.join(get_args(Per))}")
     groups: defaultdict[tuple[int, str], list[_Candidate]] = defaultdict(list)
@@ -180,8 +180,8 @@ def _list_candidates(
     motion: Motion, rows: Sequence[Segment], wanted: Sequence[int], recording: str
 ) -> Iterator[_Candidate]:
     """Yield the rows of a recording that can become loops."""
-    own, travel = [rows[index] for index in wanted], travel_of(motion)
-    qualities = loop_qualities(motion, own, planted_feet(motion)) if own else {}
+    own, travel = [rows[index] for index in wanted], measure_travel(motion)
+    qualities = measure_loops(motion, own, find_planted_feet(motion)) if own else {}
     for place, quality in qualities.items():
         row = own[place]
         clip = cut(motion, row.start_frame, row.stop_frame)

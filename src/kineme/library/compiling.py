@@ -28,7 +28,7 @@ from kineme.library.storage.layout import (
     as_column,
     import_arrow,
 )
-from kineme.library.storage.tables import read_table, table_of
+from kineme.library.storage.tables import make_table, read_table
 from kineme.recordings.arrays import to_samples
 from kineme.segments.table import COLUMNS
 from kineme.transfer.clusters import (
@@ -66,7 +66,7 @@ def compile_tables(
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     keys = [key for _, _, key in entries]
     local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
-    shared = _cluster_of_segments(analyses, local, found.cluster)
+    shared = _assign_clusters(analyses, local, found.cluster)
     new = {
         name: list_spans(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
@@ -79,7 +79,7 @@ def compile_tables(
         "local_clusters": _tabulate_local_clusters(entries, local, found, renumbered),
         "embeddings": _tabulate_embeddings(entries, analyses),
     }
-    return {name: table_of(name, columns) for name, columns in tables.items()}, max(
+    return {name: make_table(name, columns) for name, columns in tables.items()}, max(
         [following, *(number + 1 for number in numbers.values())]
     )
 
@@ -121,7 +121,7 @@ def _join_clusters(
         if not local:
             continue
         if kind == BODIES or len(numbers) == 1:
-            clusters = _cluster_set(local, analyses, keys, folder)
+            clusters = _make_cluster_set(local, analyses, keys, folder)
             found = link_clusters(clusters, keys, CONSTANTS, progress=progress)
         else:
             found = assign_to_centres(
@@ -135,7 +135,7 @@ def _join_clusters(
     return every, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
 
 
-def _cluster_set(
+def _make_cluster_set(
     local: Sequence[LocalCluster], analyses: Sequence[Analysis], keys: Sequence[str], folder: Path
 ) -> ClusterSet:
     @lru_cache(CACHED)
@@ -149,7 +149,7 @@ def _cluster_set(
     return ClusterSet(local, embeddings, load)
 
 
-def _cluster_of_segments(
+def _assign_clusters(
     analyses: Sequence[Analysis], local: Sequence[LocalCluster], clusters: Ints
 ) -> list[Ints]:
     """Return the cluster in common of each segment of each analysis, -1 without one."""

@@ -128,12 +128,12 @@ def read_edits(folder: Path) -> Edits:
         raise ReadError(path, f"is of the schema {content.get('schema')!r:.40}, not {SCHEMA}")
     try:
         return Edits(
-            {_cluster(number): str(name) for number, name in content["names"].items()},
-            {_cluster(old): _cluster(new) for old, new in content["merged"].items()},
+            {_parse_cluster(number): str(name) for number, name in content["names"].items()},
+            {_parse_cluster(old): _parse_cluster(new) for old, new in content["merged"].items()},
             tuple(
                 Split(
-                    _cluster(one["cluster"]),
-                    _cluster(one["into"]),
+                    _parse_cluster(one["cluster"]),
+                    _parse_cluster(one["into"]),
                     tuple(map(str, one["recordings"])),
                 )
                 for one in content["splits"]
@@ -143,7 +143,7 @@ def read_edits(folder: Path) -> Edits:
         raise ReadError(path, "is damaged: names, merges or splits are not as written") from error
 
 
-def _cluster(written: Any) -> int:
+def _parse_cluster(written: Any) -> int:
     """Return the number of a cluster; ValueError for one that no table can hold."""
     number = int(written)
     if not -1 <= number < MOST_CLUSTERS:

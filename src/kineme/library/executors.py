@@ -149,7 +149,7 @@ def start_processes(jobs: int) -> Iterator[Executor]:
     several.close(wait=True)
 
 
-def start_soon() -> None:
+def start_fork_server() -> None:
     """Start the server that processes are forked from: that takes a second beside this one."""
     if sys.platform == "linux":
         make_process_context(PRELOADED)
@@ -186,7 +186,7 @@ class Cluster:
 
         def submit(n: int) -> None:
             for task in islice(waiting, n):
-                future = self._client.submit(_work_alone, work, task, pure=False)
+                future = self._client.submit(_run_exclusively, work, task, pure=False)
                 running[future] = task
                 done.add(future)
 
@@ -242,7 +242,7 @@ def _get_version() -> str:
     return __version__
 
 
-def _work_alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
+def _run_exclusively(work: Callable[[Task], Outcome], task: Task) -> Outcome:
     """Work on a task, the only one in its process: settings of BLAS hold for a whole process."""
     from distributed import get_worker
 
@@ -253,7 +253,7 @@ def _work_alone(work: Callable[[Task], Outcome], task: Task) -> Outcome:
         return work(task)
 
 
-def watch(progress: Progress, things: int, work: float) -> Callable[[int, float], None]:
+def track_progress(progress: Progress, things: int, work: float) -> Callable[[int, float], None]:
     """Return what tells how many things are done, and how long the work on the others will take.
 
     So many things make so much work, in any unit. It is called with what was done since.

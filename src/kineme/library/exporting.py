@@ -12,7 +12,7 @@ from kineme._util.checks import format_count, require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import KinemeError, ParameterError, WriteError
 from kineme.labels.delimited import write_rows
-from kineme.library.open_library import Cluster, OpenTables, cluster_table, list_clusters
+from kineme.library.open_library import Cluster, OpenTables, list_clusters, tabulate_clusters
 from kineme.library.searching import Hit
 from kineme.library.storage.layout import EXTRA, import_arrow
 from kineme.library.storage.tables import DESCRIBED
@@ -30,10 +30,10 @@ AT_ONCE = 12
 ALL = "clusters.png"
 
 
-def table_called(tables: OpenTables, name: str) -> Any:
+def get_table(tables: OpenTables, name: str) -> Any:
     """One of `DESCRIBED`, or ``clusters``, edits applied, a pyarrow.Table."""
     if name == CLUSTERS:
-        return cluster_table(list_clusters(tables))
+        return tabulate_clusters(list_clusters(tables))
     if name not in DESCRIBED:
         raise ParameterError(
             f"no table {name!r:.40}; there are {', '.join((*DESCRIBED, CLUSTERS))}"
@@ -41,7 +41,7 @@ def table_called(tables: OpenTables, name: str) -> Any:
     return tables.table(name)
 
 
-def answer(tables: OpenTables, sql: str) -> Any:
+def run_query(tables: OpenTables, sql: str) -> Any:
     """Return the answer to a question in SQL over all tables of a library, a pyarrow.Table."""
     with require_extra("duckdb", EXTRA):
         import duckdb
@@ -50,7 +50,7 @@ def answer(tables: OpenTables, sql: str) -> Any:
     with duckdb.connect() as connection:
         connection.execute("SET enable_external_access = false")
         for name in (*DESCRIBED, CLUSTERS):
-            connection.register(name, table_called(tables, name))
+            connection.register(name, get_table(tables, name))
         try:
             found = connection.sql(sql)
             if found is None:
@@ -139,15 +139,15 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
         recording = recording.seconds(cluster.start_s, cluster.stop_s)
         drawn.append((cluster, recording))
         path = folder / f"{_make_file_name(cluster)}.png"
-        write_sheet([_strip(cluster, recording)], path)
+        write_sheet([_make_strip(cluster, recording)], path)
         written.append(path)
     if drawn:
-        write_sheet([_strip(*each) for each in drawn[:AT_ONCE]], folder / ALL)
+        write_sheet([_make_strip(*each) for each in drawn[:AT_ONCE]], folder / ALL)
         written.insert(0, folder / ALL)
     return written
 
 
-def _strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
+def _make_strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
     """Return a span of a recording under what a line says of its cluster."""
     from kineme.plot.sheets import Strip
 

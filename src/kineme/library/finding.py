@@ -10,13 +10,13 @@ import numpy as np
 from kineme._util.arrays import Float32s
 from kineme._util.checks import is_number, is_one_of, warn
 from kineme._util.files import AnyPath
-from kineme.clips.tags import TAGS, Tag, Travel, travel_of
+from kineme.clips.tags import TAGS, Tag, Travel, measure_travel
 from kineme.errors import ParameterError, ReadError
 from kineme.features.canonical import mirror_features
 from kineme.library.descriptions import Description, describe
 from kineme.library.executors import Executor
-from kineme.library.open_library import OpenTables, find_numbers
-from kineme.library.planning import read_at
+from kineme.library.open_library import OpenTables, find_cluster_numbers
+from kineme.library.planning import read_recording
 from kineme.library.searching import (
     Example,
     Hit,
@@ -24,14 +24,14 @@ from kineme.library.searching import (
     Parts,
     Sought,
     choose_best,
+    find_matches_in_parts,
     find_parts,
-    matches_in,
     merge_overlapping,
 )
 from kineme.library.storage.analyses import read_features
 from kineme.library.storage.index import open_index
 from kineme.library.storage.layout import ANALYSES, BODIES
-from kineme.library.storage.places import place
+from kineme.library.storage.places import make_path
 from kineme.library.windows import choose_length
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
@@ -77,7 +77,7 @@ def find_hits(
     parts = _list_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
         parts = _find_likely_parts(tables, features, top) or parts
-    found = matches_in(
+    found = find_matches_in_parts(
         tables.folder / ANALYSES, tables.recordings["piece"], parts, sought, executor
     )
     rows = list(found)
@@ -96,7 +96,7 @@ def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | 
             break
         if hit.recording not in travels:
             motion = tables.read(hit.recording)
-            travels[hit.recording] = travel_of(motion) if isinstance(motion, Motion) else None
+            travels[hit.recording] = measure_travel(motion) if isinstance(motion, Motion) else None
         travel = travels[hit.recording]
         if travel is not None:
             span = to_samples((hit.start_s, hit.stop_s), travel.fps, len(travel.looks))
@@ -129,7 +129,7 @@ def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: in
 def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
     """Return the most typical segments of a cluster, by number or name, as examples."""
     local = tables.columns("local_clusters")
-    rows = np.flatnonzero(np.isin(local["cluster"], find_numbers(tables, cluster)))
+    rows = np.flatnonzero(np.isin(local["cluster"], find_cluster_numbers(tables, cluster)))
     rows = rows[np.argsort(local["spread"][rows], kind="stable")][:TYPICAL]
     columns = (local[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
     return [Example(Named(name), *span) for name, *span in zip(*columns, strict=True)]
@@ -198,7 +198,7 @@ def describe_examples(
     """Vocabulary and features of each example."""
     found = []
     for example in examples:
-        described = _describe(tables, example.recording)
+        described = _describe_recording(tables, example.recording)
         lasts = len(described.features) / described.fps
         stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
         if example.stop_s is not None and example.stop_s > lasts + BEYOND:
@@ -222,11 +222,11 @@ def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
     return kinds[0]
 
 
-def _describe(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
+def _describe_recording(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
     """Return the features of a recording, from the library where it is one of it."""
     recordings, (read_options, segment_options) = tables.recordings, tables.options
     if isinstance(recording, str) and (
-        isinstance(recording, Named) or not place(recording).exists()
+        isinstance(recording, Named) or not make_path(recording).exists()
     ):
         if recording not in recordings["recording"]:
             raise ReadError(recording, "there is no such file, and no recording of that name")
@@ -238,7 +238,7 @@ def _describe(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Desc
         return _check_comparable(described, recording)
     example = recording
     if not isinstance(example, Motion | Signals):
-        example = read_at(place(example), read_options)
+        example = read_recording(make_path(example), read_options)
     described = describe(example, segment_options)
     return _check_comparable(described, example.provenance.path or "the example")
 

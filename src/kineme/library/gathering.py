@@ -26,7 +26,7 @@ from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
-from kineme.library.executors import Executor, InProcess, Progress, watch
+from kineme.library.executors import Executor, InProcess, Progress, track_progress
 from kineme.library.planning import (
     Plan,
     compute_digest,
@@ -77,7 +77,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     )
     waiting = [path for path in readable if path not in gathered.digests]
     if waiting:
-        _make(plan, waiting, executor, progress, gathered)
+        _make_analyses(plan, waiting, executor, progress, gathered)
     present = {str(path): (states[path], digest) for path, digest in gathered.digests.items()}
     if present != former:
         write_json(plan.folder / STATES, present)
@@ -104,7 +104,7 @@ def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> d
     return digests
 
 
-def _make(
+def _make_analyses(
     plan: Plan, waiting: Sequence[Path], executor: Executor, progress: Progress, into: Gathered
 ) -> None:
     """Make the analyses of recordings; what came of each is noted."""
@@ -113,10 +113,10 @@ def _make(
     groups = {group.tasks[0]: group for group in group_by_content(tasks, skeleton)}
     if not isinstance(executor, InProcess):  # what comes next is imported while others work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
-    done = watch(progress, len(tasks), sum(task.size for task in tasks))
+    done = track_progress(progress, len(tasks), sum(task.size for task in tasks))
     alone: list[Task] = []
     for task, outcome in run_tasks(list(groups), executor):
-        _note(plan, task, outcome, into)
+        _record_outcome(plan, task, outcome, into)
         (_, *others), digest = groups[task]
         if outcome.digest == digest:
             into.digests.update((other.path, digest) for other in others)
@@ -125,11 +125,11 @@ def _make(
             others = []
         done(1 + len(others), task.size * (1 + len(others)))
     for task, outcome in run_tasks(alone, executor):
-        _note(plan, task, outcome, into)
+        _record_outcome(plan, task, outcome, into)
         done(1, task.size)
 
 
-def _note(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
+def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
     """Note what came of a task; WriteError for an error that all others will have, too."""
     if outcome.fatal:
         raise WriteError(plan.folder, outcome.error)
@@ -151,16 +151,16 @@ def group_by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Gr
     """Groups of equal content, the largest first; what is elsewhere or cannot be read is alone."""
     criteria: tuple[Callable[[Task], str], ...] = (
         lambda task: "" if is_remote(task.path) else f"{task.size}",
-        _sample,
-        lambda task: _digest(task, skeleton),
+        _digest_sample,
+        lambda task: _digest_files(task, skeleton),
     )
     groups = [Group(list(tasks), "")]
     for criterion in criteria:
-        groups = [part for group in groups for part in _split(group, criterion)]
+        groups = [part for group in groups for part in _split_group(group, criterion)]
     return sorted(groups, key=lambda group: (-group.tasks[0].size, group.tasks[0].path))
 
 
-def _split(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
+def _split_group(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
     """The parts of a group of which a criterion says the same; what it says nothing of is alone."""
     if len(group.tasks) < 2:
         return [group]
@@ -170,7 +170,7 @@ def _split(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
     return [Group(part, key if isinstance(key, str) else "") for key, part in parts.items()]
 
 
-def _sample(task: Task) -> str:
+def _digest_sample(task: Task) -> str:
     """Return what is in the middle of a file."""
     if task.path.is_dir():
         return "folder"
@@ -183,7 +183,7 @@ def _sample(task: Task) -> str:
         return ""
 
 
-def _digest(task: Task, skeleton: AnyPath | None) -> str:
+def _digest_files(task: Task, skeleton: AnyPath | None) -> str:
     try:
         return compute_digest(task.path, skeleton)
     except ReadError:  # whoever works on it will say so

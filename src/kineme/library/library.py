@@ -14,12 +14,12 @@ from kineme._util.files import AnyPath
 from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.library.executors import connect
-from kineme.library.exporting import answer, table_called, write_hits, write_pictures, write_table
+from kineme.library.exporting import get_table, run_query, write_hits, write_pictures, write_table
 from kineme.library.finding import as_examples, choose_typical_examples, find_hits, select_tagged
-from kineme.library.open_library import Cluster, OpenTables, find_numbers, list_clusters
+from kineme.library.open_library import Cluster, OpenTables, find_cluster_numbers, list_clusters
 from kineme.library.searching import Example, Hit
 from kineme.library.storage.layout import as_column, import_arrow
-from kineme.library.storage.places import place, reach
+from kineme.library.storage.places import make_path, translate_remote_errors
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
@@ -58,8 +58,8 @@ class Library:
 
     def __init__(self, folder: AnyPath):
         import_arrow()
-        self.folder = place(folder, "Library")
-        with reach(self.folder):
+        self.folder = make_path(folder, "Library")
+        with translate_remote_errors(self.folder):
             self._tables = OpenTables(self.folder)
 
     @property
@@ -106,7 +106,7 @@ class Library:
         ParameterError
             There is no such table.
         """
-        return table_called(self._tables, name)
+        return get_table(self._tables, name)
 
     def clusters(self) -> list[Cluster]:
         """Return the clusters of the library, those of most seconds first."""
@@ -125,7 +125,7 @@ class Library:
 
     def numbers(self, cluster: int | str) -> list[int]:
         """Return the clusters of that number or name; ParameterError where there is none."""
-        return find_numbers(self._tables, cluster)
+        return find_cluster_numbers(self._tables, cluster)
 
     def search(
         self,
@@ -204,9 +204,9 @@ class Library:
 
     def coverage(self) -> list[Coverage]:
         """Return what there is of each cluster in each direction; recordings are read for it."""
-        from kineme.library.clipping import coverage_of
+        from kineme.library.clipping import measure_coverage
 
-        return coverage_of(self._tables)
+        return measure_coverage(self._tables)
 
     def loops(
         self,
@@ -253,7 +253,7 @@ class Library:
         MissingDependencyError
             duckdb is not installed.
         """
-        return answer(self._tables, sql)
+        return run_query(self._tables, sql)
 
     def export(self, path: AnyPath, table: str = "segments") -> None:
         """Write one of its tables, edits applied.

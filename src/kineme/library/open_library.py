@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
-from kineme.library.planning import read_at, read_kept_options
+from kineme.library.planning import read_kept_options, read_recording
 from kineme.library.storage.layout import (
     LOCK_EDITS,
     as_array,
@@ -24,7 +24,7 @@ from kineme.library.storage.layout import (
     lock_for_writing,
     read_head,
 )
-from kineme.library.storage.places import place
+from kineme.library.storage.places import make_path
 from kineme.library.storage.tables import DESCRIBED, read_table
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
@@ -65,11 +65,11 @@ class OpenTables:
             row = self.recordings["recording"].index(recording)
         except ValueError:
             raise ParameterError(f"no recording is called {recording!r:.60}") from None
-        return place(self.recordings["path"][row])
+        return make_path(self.recordings["path"][row])
 
     def read(self, recording: str) -> Motion | Signals:
         """Return a recording of the library, read as it was when the library was built."""
-        return read_at(self.path_of(recording), self.options[0])
+        return read_recording(self.path_of(recording), self.options[0])
 
     def table(self, name: str) -> Any:
         """Return a table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
@@ -196,7 +196,7 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
     return sorted(found, key=lambda cluster: (-cluster.seconds, cluster.cluster))
 
 
-def cluster_table(clusters: Sequence[Cluster]) -> Any:
+def tabulate_clusters(clusters: Sequence[Cluster]) -> Any:
     """Return the clusters as a pyarrow.Table."""
     pa, _ = import_arrow()
     hints = get_type_hints(Cluster)
@@ -208,7 +208,7 @@ def cluster_table(clusters: Sequence[Cluster]) -> Any:
     )
 
 
-def find_numbers(tables: OpenTables, cluster: int | str) -> list[int]:
+def find_cluster_numbers(tables: OpenTables, cluster: int | str) -> list[int]:
     """Return the numbers of the clusters of that number or name, one at least."""
     numbers = sorted(set(tables.columns("local_clusters")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)

@@ -23,7 +23,7 @@ from kineme.formats.keypoints.openpose import list_frame_files
 from kineme.formats.listing import holds_recording, scan_folder
 from kineme.formats.skeletons.amc import find_skeleton
 from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json
-from kineme.library.storage.places import is_remote, lies_in, place, reach
+from kineme.library.storage.places import is_inside, is_remote, make_path, translate_remote_errors
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 
@@ -64,7 +64,7 @@ class Plan:
         return make_analysis_key(self.options_digest, digest)
 
 
-def plan_of(
+def make_plan(
     folder: Path,
     head: Mapping[str, Any],
     sources: Iterable[Path],
@@ -127,8 +127,8 @@ def change_sources(
     into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
 ) -> list[Path]:
     """The sources of a library after these were added and removed, as absolute paths."""
-    head = read_json(place(into) / HEAD)
-    sources = [place(each) for each in head.get("sources", ())] + [*map(make_absolute, sources)]
+    head = read_json(make_path(into) / HEAD)
+    sources = [make_path(each) for each in head.get("sources", ())] + [*map(make_absolute, sources)]
     removed = {*map(make_absolute, remove)}
     unknown = removed - set(sources)
     if unknown:
@@ -141,7 +141,7 @@ def change_sources(
 
 def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
     """Return the folder of a library, made where there is none, unless nothing is named."""
-    folder = place(into, "build")
+    folder = make_path(into, "build")
     owned = OwnedFolder(folder)
     owned.path(ANALYSES)
     owned.path(TABLES)
@@ -163,10 +163,10 @@ def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
 def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
     """One path or several as a list; ParameterError where one is none."""
     if isinstance(given, str | PathLike):
-        return [place(given)]
+        return [make_path(given)]
     if not isinstance(given, Iterable):
         raise ParameterError(f"build needs paths of recordings or folders, not {given!r:.60}")
-    return [place(path, "build") for path in given]
+    return [make_path(path, "build") for path in given]
 
 
 def make_absolute(path: Path) -> Path:
@@ -254,7 +254,7 @@ def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) 
         if source.is_dir():
             inside = find_recordings(source, recursive=recursive)
         for path in inside:
-            if path.exists() and not lies_in(path, without):
+            if path.exists() and not is_inside(path, without):
                 found.setdefault(path, source)
     return found
 
@@ -312,7 +312,7 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
         return
     files = [path]
     with TemporaryDirectory(prefix="kineme-") as home:
-        with reach(path):
+        with translate_remote_errors(path):
             if path.suffix.lower() == ".amc" and skeleton is None:
                 files.append(find_skeleton(path))
             for file in files:
@@ -323,7 +323,7 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
             raise ReadError(path, error.reason) from error
 
 
-def read_at(path: Path, options: ReadOptions) -> Motion | Signals:
+def read_recording(path: Path, options: ReadOptions) -> Motion | Signals:
     """Return the recording at a place, with a warning as `kineme.read` gives it."""
     if not is_remote(path):
         return read(path, **vars(options))

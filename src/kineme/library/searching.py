@@ -22,11 +22,11 @@ from kineme._util.arrays import Float32s, Ints
 from kineme._util.checks import is_number
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
-from kineme.library._kernels import find_least_squares
+from kineme.library._kernels import find_smallest_distances
 from kineme.library.executors import Executor
 from kineme.library.storage.analyses import read_parts
 from kineme.library.storage.index import Windows
-from kineme.library.windows import FINER, describe_at_speeds, step
+from kineme.library.windows import FINER, compute_step, describe_at_speeds
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import Matches, search
 
@@ -104,7 +104,7 @@ class Hit(NamedTuple):
     label: str
 
 
-def find_spans(
+def find_matches(
     features: Float32s,
     examples: Sequence[Float32s],
     counterexamples: Sequence[Float32s],
@@ -116,9 +116,9 @@ def find_spans(
 
     A span goes that is more like a counter-example.
     """
-    found = _join_spans(features, examples, threshold, None if counterexamples else top)
+    found = _merge_matches(features, examples, threshold, None if counterexamples else top)
     if counterexamples and len(found.starts):
-        others = _join_spans(features, counterexamples, threshold, None)
+        others = _merge_matches(features, counterexamples, threshold, None)
         first = np.maximum(found.starts[:, None], others.starts[None])
         shared = np.minimum(found.stops[:, None], others.stops[None]) - first
         covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
@@ -140,7 +140,7 @@ def choose_best(
     return [(i, (start, stop, distance)) for distance, i, start, stop in sorted(spans)[:top]]
 
 
-def _join_spans(
+def _merge_matches(
     features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
 ) -> Matches:
     """Return the spans that are like any of the examples, apart from each other, the best first."""
@@ -207,8 +207,8 @@ def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
     """Return the parts of recordings around the windows that are nearest to an example."""
     near = _find_nearest(windows, describe_at_speeds(example), top)
     rows = np.searchsorted(windows.firsts, near, side="right") - 1
-    middles = (near - windows.firsts[rows]) * step(windows.length) + windows.length // 2
-    reach = step(windows.length) + len(example)  # a match may last twice as long
+    middles = (near - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
+    reach = compute_step(windows.length) + len(example)  # a match may last twice as long
     lasts = windows.samples[rows]
     return merge_overlapping(
         Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
@@ -228,7 +228,7 @@ def merge_overlapping(parts: Parts) -> Parts:
     return Parts(rows[first], starts[first], reached[last] - rows[first] * far)
 
 
-def matches_in(
+def find_matches_in_parts(
     folder: Path,
     analyses: Sequence[str],
     parts: Parts,
@@ -244,7 +244,9 @@ def matches_in(
         with threadpool_limits(1):  # tasks are searched side by side
             found = map_threads(search_parts, tasks)
     else:
-        found = [_matches(outcome) for _, outcome in executor.completed(search_parts, tasks)]
+        found = [
+            _require_outcome(outcome) for _, outcome in executor.completed(search_parts, tasks)
+        ]
     by_row: dict[int, list[Matches]] = {}
     for each in found:
         for row, matches in each.items():
@@ -262,7 +264,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
         at = np.flatnonzero(parts.rows == row)
         spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
         read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
-    matches = find_spans(
+    matches = find_matches(
         features,
         sought.examples,
         sought.counterexamples,
@@ -283,7 +285,7 @@ def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
 
     def compare(first: int) -> None:
         block = slice(first, first + BLOCK)
-        find_least_squares(
+        find_smallest_distances(
             np.asarray(windows.embedded[block]), parts, np.int32(FINER), least[block]
         )
 
@@ -302,7 +304,7 @@ def _make_batches(parts: Parts) -> Iterator[Parts]:
         yield Parts(*(column[first:stop] for column in parts))
 
 
-def _matches(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
+def _require_outcome(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
     if outcome is None:
         raise KinemeError("the processes that searched died: they may need more memory")
     return outcome

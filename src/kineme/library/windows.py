@@ -29,17 +29,17 @@ FINER = 16
 """As many times finer is an example."""
 
 
-def step(length: int) -> int:
+def compute_step(length: int) -> int:
     """Samples from one window to the next."""
     return length // 2
 
 
-def count(samples: Ints, length: int) -> Ints:
+def count_windows(samples: Ints, length: int) -> Ints:
     """Return how many windows of a length there are in recordings of so many samples.
 
     A recording that is shorter is one window.
     """
-    windows = np.maximum(samples - length, 0) // step(length) + 1
+    windows = np.maximum(samples - length, 0) // compute_step(length) + 1
     return np.where(samples > 0, windows, 0)
 
 
@@ -49,7 +49,9 @@ def describe_windows(features: Float32s, length: int) -> Bytes:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
         features = _resample_to(features, length)
-    windows = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[:: step(length)]
+    windows = np.lib.stride_tricks.sliding_window_view(features, length, axis=0)[
+        :: compute_step(length)
+    ]
     return np.clip(np.rint(LARGEST * _compute_numbers(windows)), -LARGEST, LARGEST).astype(np.int8)
 
 
@@ -62,7 +64,7 @@ def group_by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]
     """Yield each of `LENGTHS` and its part of `describe_all_windows`."""
     first = 0
     for length in LENGTHS:
-        n = int(count(np.array(samples), length))
+        n = int(count_windows(np.array(samples), length))
         yield length, windows[first : first + n]
         first += n
 

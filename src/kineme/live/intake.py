@@ -17,7 +17,7 @@ from math import ceil, floor, log10
 import numpy as np
 
 from kineme._util.arrays import Floats, Masks
-from kineme.recordings.clock import tells_dates
+from kineme.recordings.clock import is_unix_time
 from kineme.recordings.regular import LONGEST_S, UNEVEN, Timing
 from kineme.recordings.times import UNITS_OF_TIME
 
@@ -208,7 +208,7 @@ class Intake:
         """Undo a step of the clock if that was set; return whether it was."""
         near = max(LONGEST_S, 3 / self.fps)
         for shift in SHIFTS_S:
-            if abs(step - shift) <= near and (shift < 0 or tells_dates(self.ahead_s)):
+            if abs(step - shift) <= near and (shift < 0 or is_unix_time(self.ahead_s)):
                 self._say(pieces, "the clock changes by an hour or a day, which is undone")
                 self.ahead_s += shift
                 return True

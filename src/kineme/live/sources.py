@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import join_names, require_extra, unique
+from kineme._util.checks import join_names, make_unique, require_extra
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.regular import place_rows
@@ -150,7 +150,7 @@ class _Parser:
             names = [str(cell).strip() for cell in cells]
         keeps_first = self.is_json or names != [str(cell).strip() for cell in cells]
         self.first_lines = [first] if keeps_first else []
-        self.names = unique(names, allow_empty=True)
+        self.names = make_unique(names, allow_empty=True)
         self.time = next((i for i, name in enumerate(self.names) if is_time(name)), None)
         self.at = [
             i
@@ -246,7 +246,7 @@ def receive_lsl(name: str) -> Source:
             values = np.array(samples, np.float64).reshape(-1, count)
             yield Rows(values, np.array(stamps, np.float64))
 
-    channels = tuple(unique(names, allow_empty=True))
+    channels = tuple(make_unique(names, allow_empty=True))
     return Source(float(info.nominal_srate()), channels, rows())
 
 

@@ -25,7 +25,7 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_path
-from kineme._util.files import POSES, AnyPath, atomic_write, hold, is_held, refuse_link
+from kineme._util.files import POSES, AnyPath, atomic_write, is_locked, lock_shared, refuse_link
 from kineme._util.parallel import announce, check_cancelled
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.channels.parquet import open_parquet
@@ -194,14 +194,14 @@ def _run(
 ) -> None:
     """Append the poses of all frames that the file of an earlier run lacks."""
     refuse_link(part)
-    if part.exists() and is_held(part):
+    if part.exists() and is_locked(part):
         raise WriteError(part, "is being written: wait for the other kineme to end")
     told = {**_told_of(estimator, model), "sha256": digest, "limit": estimator.limit}
     with open_video(path) as video:
         last = _resume(part, told, len(estimator.keypoints))
         try:
             with part.open("ab") as file, estimator.start(model) as estimate:
-                hold(file.fileno())
+                lock_shared(file.fileno())
                 _append(file, video, estimate, told, last, watch)
         except ReadError:  # of the video or the model: nothing to go on with
             part.unlink(missing_ok=True)

@@ -103,7 +103,7 @@ class Clock:
     @property
     def tells_dates(self) -> bool:
         """Return whether it counts from 1970, which the size of its times tells."""
-        return tells_dates(self.times[0])
+        return is_unix_time(self.times[0])
 
     def time(self, seconds: ArrayLike) -> Floats:
         """Return what it shows at seconds of the recording."""
@@ -148,6 +148,6 @@ class Clock:
         return datetime.fromtimestamp(time, UTC).isoformat(timespec="milliseconds")
 
 
-def tells_dates(seconds: float) -> bool:
+def is_unix_time(seconds: float) -> bool:
     """Return whether a time is one since 1970, by its size."""
     return bool(_DATES[0] <= seconds < _DATES[1])

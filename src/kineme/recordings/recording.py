@@ -153,7 +153,7 @@ class Recording(Protocol):
             start,
             stop,
             tuple((a, b) for a, b in gaps if a < b),
-            _cut(self.provenance, start, stop, self.fps),
+            _cut_provenance(self.provenance, start, stop, self.fps),
         )
 
     def _repr_html_(self) -> str:
@@ -187,7 +187,7 @@ def as_gaps(
     return found
 
 
-def _cut(provenance: Provenance, start: int, stop: int, fps: float) -> Provenance:
+def _cut_provenance(provenance: Provenance, start: int, stop: int, fps: float) -> Provenance:
     """Return what is true of the frames [start, stop): the events in them, and their clock."""
     first, last = start / fps, stop / fps
     events: Iterable[tuple[float, str]] = (

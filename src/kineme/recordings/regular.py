@@ -26,7 +26,7 @@ from kineme._util.arrays import Floats, Ints, Masks
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import find_spans
-from kineme.recordings.clock import Clock, tells_dates
+from kineme.recordings.clock import Clock, is_unix_time
 from kineme.recordings.provenance import Note
 
 LONGEST_S = 0.2
@@ -109,7 +109,7 @@ class Timing:
         else:
             # an index that changes nothing would copy a day of rows
             sorted_rows = len(self.order) == len(given) and (np.diff(self.order) > 0).all()
-            at, frames = _merge(self.at, given if sorted_rows else given[self.order])
+            at, frames = _average_duplicates(self.at, given if sorted_rows else given[self.order])
             n_frames = self.n_frames
         on_grid = bool((at == np.rint(at)).all())
         present = np.isfinite(frames)
@@ -119,7 +119,7 @@ class Timing:
         missing = np.zeros(found.shape, np.bool_)
         grid = np.arange(n_frames, dtype=np.float64)
         filled = 0
-        for channels, seen in _group_patterns(present):
+        for channels, seen in _group_by_missing_rows(present):
             known = at if seen.all() else at[seen]
             if not len(known):
                 found[:, channels], missing[:, channels] = np.nan, True
@@ -208,24 +208,26 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         at = at[apart][np.cumsum(apart) - 1]
     at, note = _spread_packets(at, taken)
     notes += note
-    moments, merged = (np.unique(at), None) if taken is None else _merge(at, taken)
+    moments, merged = (np.unique(at), None) if taken is None else _average_duplicates(at, taken)
     rate = fps or _find_fastest_rate(moments, merged)
-    frames = _snap((at - at[0]) * rate, rate)
+    frames = _snap_to_grid((at - at[0]) * rate, rate)
     if not fps and (frames != np.rint(frames)).any():
         # any rate is true on a grid that rows are brought to, and a whole one is the sensor's
         whole = max(1.0, np.rint(rate))
         if abs(whole - rate) <= _WHOLE * rate:
-            rate, frames = whole, _snap((at - at[0]) * whole, whole)
+            rate, frames = whole, _snap_to_grid((at - at[0]) * whole, whole)
     elif not fps:
         rate = _round_rate(rate, max(1e-6, UNEVEN / max(1.0, float(frames[-1]))))
     exact = bool((frames == np.rint(frames)).all())
-    notes += _describe(np.diff(moments), len(at) - len(moments), rate, exact=exact)
+    notes += _describe_timing(np.diff(moments), len(at) - len(moments), rate, exact=exact)
     channels = 1 if taken is None else max(1, taken.shape[1])
     timing = Timing(rate, rows, frames, notes=tuple(notes))
-    return _split(timing, at, ahead, was_set, _ROOM * len(at) + _VALUES // channels)
+    return _add_clock_and_gaps(timing, at, ahead, was_set, _ROOM * len(at) + _VALUES // channels)
 
 
-def _split(timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int) -> Timing:
+def _add_clock_and_gaps(
+    timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int
+) -> Timing:
     """Return the same with its clock and gaps, and pauses cut that ``most`` frames do not hold.
 
     ``at`` are the seconds of the rows in order of time, ``ahead`` is how far the clock was ahead of
@@ -270,7 +272,7 @@ def fill_gaps_in_channels(
     holds no number, or nothing is left between the gaps.
     """
     found = timing.resample(values)
-    doubts = doubt_channels(found, timing.fps, names)
+    doubts = find_faulty_channels(found, timing.fps, names)
     notes: list[Note | str] = []
     if found.filled:
         values_filled = format_count(found.filled, "missing value")
@@ -304,7 +306,7 @@ _COARSE = 5  # steps of the sensor by which values reach its limit at once
 _LEVELS = 50  # different values that a sensor has at least
 
 
-def doubt_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[Note | str]:
+def find_faulty_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[Note | str]:
     """Return warnings of channels that freeze for seconds, or are cut off at a largest value."""
     frozen, clipped = [], []
     least = max(2, round(FROZEN_S * fps))
@@ -356,7 +358,7 @@ def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
     return False
 
 
-def _group_patterns(present: Masks) -> Iterator[tuple[list[int], Masks]]:
+def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
     """Yield channels that have values in the same rows, and which rows these are."""
     found: dict[bytes, list[int]] = {}
     for channel in range(present.shape[1]):
@@ -365,7 +367,7 @@ def _group_patterns(present: Masks) -> Iterator[tuple[list[int], Masks]]:
         yield channels, present[:, channels[0]]
 
 
-def _merge(at: Floats, values: Floats) -> tuple[Floats, Floats]:
+def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
     """Return each time once, and the means of the values that rows of one time have."""
     starts = np.flatnonzero(np.diff(at, prepend=-np.inf) > 0)
     if len(starts) == len(at):
@@ -423,7 +425,7 @@ def _correct_clock(
 
     notes: list[Note | str] = []
     hours = near(-_HOUR) & back if usual < _HOUR / 10 else np.zeros_like(back)
-    if usual < _HOUR / 10 and tells_dates(shown[0]):
+    if usual < _HOUR / 10 and is_unix_time(shown[0]):
         hours = hours | near(_HOUR)
     days = near(-_DAY) & back
     if hours.any():
@@ -438,7 +440,7 @@ def _correct_clock(
         if (steps < 0).any():
             notes.append("1 step back in time" if (steps < 0).sum() == 1 else "steps back in time")
         return at, None, notes
-    if not _was_set(at, usual, values):
+    if not _was_clock_set(at, usual, values):
         return at, None, [*notes, Note("rows are not in order of time: sorted", "warning")]
     # one frame between, which is a gap: nobody knows how long it took
     at = at + np.append(0.0, np.cumsum(np.where(reset, 2 * usual - steps, 0.0)))
@@ -447,7 +449,7 @@ def _correct_clock(
     return at, np.append(False, reset), notes
 
 
-def _was_set(at: Floats, usual: float, values: Floats | None) -> bool:
+def _was_clock_set(at: Floats, usual: float, values: Floats | None) -> bool:
     """Return whether sorting rows would mix them up: a clock went back, and rows are in order."""
     order = np.argsort(at, kind="stable")
     steps, before = np.diff(at[order]), np.diff(at)
@@ -460,7 +462,7 @@ def _was_set(at: Floats, usual: float, values: Floats | None) -> bool:
     if crowded > 4 * int((before < -LONGEST_S).sum()):
         return True
     hole = max(LONGEST_S, 3 * usual)
-    return not tells_dates(at[0]) and (steps > hole).sum() > (before > hole).sum()
+    return not is_unix_time(at[0]) and (steps > hole).sum() > (before > hole).sum()
 
 
 def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Note | str]]:
@@ -495,7 +497,7 @@ def _find_fastest_rate(moments: Floats, values: Floats | None) -> float:
     """Return the rate of the rows, or of the fastest sensor that fills only some of them."""
     rates: list[float] = []
     if values is not None:
-        rows = [seen for _, seen in _group_patterns(np.isfinite(values)) if seen.any()]
+        rows = [seen for _, seen in _group_by_missing_rows(np.isfinite(values)) if seen.any()]
         if all(seen.mean() <= _MOST for seen in rows):
             rates = [_measure_rate(moments[seen]) for seen in rows if seen.sum() > 1]
     return max(rates, default=_measure_rate(moments))
@@ -520,7 +522,7 @@ def _measure_rate(moments: Floats) -> float:
     return len(counted) / float(counted.sum())
 
 
-def _snap(frames: Floats, fps: float) -> Floats:
+def _snap_to_grid(frames: Floats, fps: float) -> Floats:
     """Return whole frames where rows are regular between holes; else they stay between frames.
 
     After a pause rows are off the grid by some share of a frame, which does not matter.
@@ -555,7 +557,7 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
     return frames, cut
 
 
-def _describe(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
+def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
     """Return a sentence on times that are uneven; ``exact`` if rows are at frames all the same."""
     counts = [
         (doubled, "row", "with the time of another"),

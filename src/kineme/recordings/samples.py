@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Floats, interpolate_frames
-from kineme._util.checks import as_floats, check_type, is_number, join_names, unique, warn
+from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, find_spans
 from kineme.recordings.channel_names import is_channel_name
@@ -152,7 +152,9 @@ def _convert_xarray(data: Any) -> _Samples:
     names, values = zip(*columns, strict=True)
     times = data.coords[along].values if along == "time" and along in data.coords else None
     return _Samples(
-        np.column_stack(values).astype(np.float64), tuple(unique(names, allow_empty=True)), times
+        np.column_stack(values).astype(np.float64),
+        tuple(make_unique(names, allow_empty=True)),
+        times,
     )
 
 
@@ -194,7 +196,7 @@ def _convert_frame(frame: Any) -> _Samples:
     if left:
         notes.append(f"columns that are no channels: {', '.join(left)}")
     values = np.column_stack([_convert_numbers(columns[i]) for i in chosen])
-    channels = tuple(unique((called[i] for i in chosen), allow_empty=True))
+    channels = tuple(make_unique((called[i] for i in chosen), allow_empty=True))
     found = _Samples(values, channels, notes=notes)
     index: Any = getattr(frame, "index", None)
     kind = getattr(getattr(index, "dtype", None), "kind", "O")
@@ -302,7 +304,7 @@ def _compare_clocks(
             raise ParameterError(f"offsets are {len(signals)} numbers, not {offsets!r:.60}")
         clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
         started = zip(clocks, offsets, strict=True)
-        return [_shift(c.since_first(), offset) for c, offset in started], []
+        return [_shift_clock(c.since_first(), offset) for c, offset in started], []
     clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
     if all(clock.tells_dates for clock in clocks):
         return clocks, []
@@ -317,7 +319,7 @@ def _compare_clocks(
     return [clock.since_first() for clock in clocks], [Note(remark, "warning")]
 
 
-def _shift(clock: Clock, seconds: float) -> Clock:
+def _shift_clock(clock: Clock, seconds: float) -> Clock:
     return Clock(clock.seconds, [time + seconds for time in clock.times])
 
 
@@ -332,4 +334,4 @@ def _make_names_unique(signals: Sequence[Signals]) -> tuple[str, ...]:
         for stem, each in zip(stems, signals, strict=True)
         for name in each.names
     )
-    return tuple(unique(names, allow_empty=True))
+    return tuple(make_unique(names, allow_empty=True))

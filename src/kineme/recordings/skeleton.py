@@ -112,7 +112,7 @@ class Skeleton:
         except (KeyError, TypeError):
             close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
             raise ParameterError(
-                f"no joint is called {name!r}; did you mean {_list_names(close)}?"
+                f"no joint is called {name!r}; did you mean {_format_names(close)}?"
             ) from None
 
     @property
@@ -183,5 +183,5 @@ class Skeleton:
         return {name: i for i, name in enumerate(self.names)}
 
 
-def _list_names(names: Iterable[str]) -> str:
+def _format_names(names: Iterable[str]) -> str:
     return ", ".join(map(repr, names))

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.checks import check_type, format_count, is_number, is_one_of
-from kineme._util.json import convert_json, fault_of
+from kineme._util.json import convert_json, find_fault
 from kineme.errors import ParameterError
 from kineme.recordings.clock import Clock
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
@@ -121,7 +121,7 @@ def copy_as_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
         copy: dict[str, Any] = json.loads(json.dumps(dict(value), allow_nan=False))
     except (TypeError, ValueError, RecursionError) as error:
         raise ParameterError(f"{name} cannot be written as JSON: {error}") from error
-    if fault := fault_of(copy):  # which nobody could read again
+    if fault := find_fault(copy):  # which nobody could read again
         raise ParameterError(f"{name} {fault}")
     return copy
 

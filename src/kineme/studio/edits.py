@@ -10,7 +10,7 @@ from typing import Protocol
 from msgspec import UNSET, Struct
 
 from kineme.errors import ParameterError
-from kineme.labels.collections import labels_for
+from kineme.labels.collections import read_labels
 from kineme.segments import editing
 from kineme.segments.editing.annotating import mark_edited
 from kineme.segments.hierarchy import DEFAULT_DETAIL
@@ -90,7 +90,7 @@ def apply_edit(
         return _label_table(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
-        labels = labels_for(
+        labels = read_labels(
             loaded.listed.called, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
         )
         return Outcome(labels, [f"the table is that of {path.name}"], replaced=True)

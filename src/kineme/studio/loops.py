@@ -5,7 +5,7 @@ from __future__ import annotations
 from base64 import b64encode
 from math import isnan
 
-from kineme.clips.shaping import played_loop, ranked_loops
+from kineme.clips.shaping import list_ranked_loops, make_preview_loop
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.studio.open_recording import OpenRecording
@@ -17,7 +17,7 @@ def rank_loops(opened: OpenRecording) -> Loops:
     """How good the repetitions of a recording would be as loops."""
     table, motion = opened.table, _require_motion(opened)
     numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
-    found = ranked_loops(motion, [table.table[number] for number in numbers])
+    found = list_ranked_loops(motion, [table.table[number] for number in numbers])
     return Loops(
         loops=[
             LoopRow(
@@ -39,7 +39,7 @@ def make_played_loop(opened: OpenRecording, number: int) -> PlayedLoop:
     table, motion = opened.table, _require_motion(opened)
     if not 0 <= number < len(table):
         raise ParameterError("choose the segment to play: this one is not in the table")
-    closed, carry = played_loop(motion, table.table[number])
+    closed, carry = make_preview_loop(motion, table.table[number])
     head, poses = display_motion(closed, effectors=opened.loaded.effectors, rate=closed.fps)
     numbers = b64encode(poses).decode()
     return PlayedLoop(motion=head, numbers=numbers, turn=carry.turn, x=carry.x, z=carry.z)

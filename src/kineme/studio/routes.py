@@ -288,7 +288,7 @@ class Api:
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import find_differences, score_agreement
-        from kineme.labels.collections import labels_for
+        from kineme.labels.collections import read_labels
         from kineme.web.tables import make_segments_message
 
         opened = self._opened(request)
@@ -299,7 +299,7 @@ class Api:
         elif sent.annotation is not UNSET and sent.preset is UNSET:
             path = self._recordings.annotation(sent.annotation)
             title = path.name
-            other = labels_for(
+            other = read_labels(
                 opened.listed.called,
                 path,
                 n_frames=table.n_frames,

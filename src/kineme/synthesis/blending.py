@@ -267,7 +267,7 @@ def plant_feet(motion: Motion) -> Motion:
         path = motion.positions[:, ankle]
         target = path + _compute_corrections(path, find_foot_contacts(path, motion.fps), motion.fps)
         # The second leg starts from the motion that the first one has changed.
-        motion = _reach(motion, (hip, knee, ankle), target)
+        motion = _move_ankle(motion, (hip, knee, ankle), target)
     return motion
 
 
@@ -304,7 +304,7 @@ def _compute_corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     fade = round(FADE * fps)
     # Knots of the correction: 0 one fade before the first frame.
     frames, values = [-fade], [np.zeros(2)]
-    for start, stop in _holds(floor, contacts, round(SHORTEST * fps)):
+    for start, stop in _split_contacts(floor, contacts, round(SHORTEST * fps)):
         # To the median place of the hold, which single frames do not draw away.
         offset = np.median(floor[start:stop], axis=0) - floor[start:stop]
         # Far from the last hold, the correction fades to 0 in between; else it goes over directly.
@@ -321,7 +321,7 @@ def _compute_corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
     return np.stack([x, np.zeros(len(path)), z], axis=1)
 
 
-def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
+def _split_contacts(floor: Floats, contacts: Spans, gap: int) -> Spans:
     """Contacts, each parted where the foot has crept out of reach, with a gap to step over."""
     holds: Spans = []
     for start, stop in contacts:
@@ -337,7 +337,7 @@ def _holds(floor: Floats, contacts: Spans, gap: int) -> Spans:
     return holds
 
 
-def _reach(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
+def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
     """Return the motion with the ankle at ``target``, or as near as the leg can reach.
 
     The knee opens or closes about its hinge until the ankle is as far from the

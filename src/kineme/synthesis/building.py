@@ -187,7 +187,7 @@ def motion_graph(
     >>> list(kineme.motion_graph([motion], [truth], prune=False).names)[:3]
     ['walk', 'squat', 'arm circles']
     """
-    _check(motions, threshold, window)
+    _check_inputs(motions, threshold, window)
     if segmentations is not None:
         check_type(segmentations, Iterable, "motion_graph", "give one segmentation per motion")
     found = [segment(m) for m in motions] if segmentations is None else list(segmentations)
@@ -216,7 +216,7 @@ def motion_graph(
     return graph.pruned() if prune else graph
 
 
-def _check(motions: Sequence[Motion], threshold: float, window: float) -> None:
+def _check_inputs(motions: Sequence[Motion], threshold: float, window: float) -> None:
     for name, value in (("threshold", threshold), ("window", window)):
         if not (is_number(value) and value > 0):
             raise ParameterError(f"{name} must be a number above 0, not {value!r:.60}")

@@ -177,7 +177,7 @@ def line_route(
     points = space_evenly(line)
     hips = [motion.positions[:, motion.skeleton.carrier] for motion in motions]
     floors = [path[:, 0] + 1j * path[:, 2] for path in hips]
-    found = _search(graph, floors, points, _find_allowed(graph, actions))
+    found = _search_route(graph, floors, points, _find_allowed(graph, actions))
     if found is None:
         raise ParameterError(
             "no route through the graph follows this line: give recordings in which somebody "
@@ -195,7 +195,7 @@ def line_route(
     return route, _place_start(graph, floors, route[0], points)
 
 
-def _search(
+def _search_route(
     graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int]
 ) -> tuple[_Candidate, _Progress] | None:
     """Return the cheapest candidate at the end of the line; None where all end before it."""

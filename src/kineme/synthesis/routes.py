@@ -99,7 +99,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
         chosen.append(through.argmin(axis=0))
         total = through.min(axis=0)
         if not np.isfinite(total).any():
-            raise ParameterError(_refuse_route(graph, names[: i + 1], cost))
+            raise ParameterError(_explain_missing_route(graph, names[: i + 1], cost))
     at = int(total.argmin())
     route = [layers[-1][at]]
     # From the last action back to the first.
@@ -185,7 +185,7 @@ def find_following(graph: MotionGraph, name: str) -> list[str]:
     >>> find_following(graph, "walk")
     ['jump']
     """
-    return _format_names(
+    return _list_marked_names(
         graph, np.isfinite(_find_cheapest_paths(graph)[0][graph.nodes_of(name)]).any(axis=0)
     )
 
@@ -225,23 +225,23 @@ def _trace_path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
     return [node % n for node in path]
 
 
-def _refuse_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
+def _explain_missing_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
     shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(names))
     tail, head = names[-2:]
     # Nodes from which any node of that name can be reached.
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
         f"no route leads through {shown}: from {tail!r} one can go on to "
-        f"{_list_names(find_following(graph, tail))}, and {head!r} is reached from "
-        f"{_list_names(_format_names(graph, back))}; "
+        f"{_join_names(find_following(graph, tail))}, and {head!r} is reached from "
+        f"{_join_names(_list_marked_names(graph, back))}; "
         "put another action between, or build the graph with a higher threshold"
     )
 
 
-def _format_names(graph: MotionGraph, mask: Any) -> list[str]:
+def _list_marked_names(graph: MotionGraph, mask: Any) -> list[str]:
     chosen = (node.name for node, yes in zip(graph.nodes, mask, strict=True) if yes)
     return list(dict.fromkeys(name for name in chosen if name))
 
 
-def _list_names(names: list[str]) -> str:
+def _join_names(names: list[str]) -> str:
     return ", ".join(names) or "nowhere"

@@ -227,19 +227,19 @@ class CycleCurves:
 
     def _of_table(self, table: Segmentation) -> Cycles:
         """Its cycles, without channels; measured once for all that people say of its segments."""
-        from kineme.cycles.measure import cycles, drop_left_out
+        from kineme.cycles.measure import cycles, mark_excluded
 
         if self._cycles is None or not _have_same_segments([self._table], [table]):
             recording = self._read()
             found = cycles(recording, _rescale_table(table, recording), channels=[])
             self._table, self._cycles = table, _add_frames(found, table)
-        return drop_left_out(self._cycles, [table])
+        return mark_excluded(self._cycles, [table])
 
     def _together(
         self, table: Segmentation, other: CycleCurves, other_table: Segmentation
     ) -> tuple[Cycles, Cycles]:
         """Return the cycles of both, without channels; movements of one name begin at one phase."""
-        from kineme.cycles.measure import cycles, drop_left_out
+        from kineme.cycles.measure import cycles, mark_excluded
 
         tables = table, other_table
         with self._lock:
@@ -247,7 +247,7 @@ class CycleCurves:
                 recordings = self._read(), other._read()
                 timed = [_rescale_table(*each) for each in zip(tables, recordings, strict=True)]
                 self._both = tables, cycles(recordings, timed, channels=[])
-            found = drop_left_out(self._both[1], tables)
+            found = mark_excluded(self._both[1], tables)
         # The first recording's name; rows of the other one have another.
         first = found.columns["recording"] == found.columns["recording"][0]
         return _add_frames(found.select(first), table), found.select(~first)
@@ -259,7 +259,7 @@ class CycleCurves:
 
     def _with_channels(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         from kineme.cycles.channels import channels_of
-        from kineme.cycles.measure import measure_again
+        from kineme.cycles.measure import measure_other_channels
 
         missing = [name for name in names if name not in self._values]
         if missing:
@@ -278,7 +278,7 @@ class CycleCurves:
         # Drop the channel that was used longest ago.
         while len(self._values) > MOST_KEPT:
             self._values.popitem(last=False)
-        return measure_again(cycles, channels)
+        return measure_other_channels(cycles, channels)
 
 
 def _copy_numbers(channel: Channel) -> Channel:

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from kineme._util.json import sentence
+from kineme._util.json import format_problem
 from kineme.errors import ParameterError
 
 Message = TypeVar("Message")
@@ -42,7 +42,7 @@ def from_json(body: bytes, kind: type[Message]) -> Message:
     try:
         return msgspec.json.decode(body, type=kind)
     except msgspec.ValidationError as error:
-        raise ParameterError(sentence(str(error), "the request")) from error
+        raise ParameterError(format_problem(str(error), "the request")) from error
     except (ValueError, RecursionError) as error:  # ValueError: also what is not UTF-8
         raise ParameterError("the request does not hold JSON") from error
 

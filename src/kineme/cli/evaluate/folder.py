@@ -29,7 +29,7 @@ from kineme.evaluation.score import (
     write_result,
 )
 from kineme.formats.options import ReadOptions
-from kineme.labels.collections import find_labels_and_strays
+from kineme.labels.collections import find_labels_and_unmatched
 
 NAMED = 5
 """Names that a list of files shows before it only counts."""
@@ -58,7 +58,7 @@ def run_folder(
     with show_progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = find_recordings(folder)
-        found, strays = find_labels_and_strays(recordings, labels)
+        found, strays = find_labels_and_unmatched(recordings, labels)
         result = evaluate_folder(
             found,
             methods,
@@ -122,7 +122,7 @@ def _show(result: FolderScores) -> None:
     show_table(title, list(columns), groups, note=explain_disagreement(columns))
 
 
-def _row(one: RecordingScores, names: Sequence[str]) -> list[str]:
+def _format_row(one: RecordingScores, names: Sequence[str]) -> list[str]:
     return ["failed" if one.error else _format_score(one.scores.get(name)) for name in names]
 
 

@@ -86,9 +86,9 @@ def build(
     processes = jobs or count_threads()
     with failures.caught(into):
         if processes > 1 and scheduler is None and _needs_processes(files or (), into):
-            from kineme.library.executors import start_soon
+            from kineme.library.executors import start_fork_server
 
-            start_soon()  # what is imported next takes a while as well
+            start_fork_server()  # what is imported next takes a while as well
         from kineme.library.building import build as build_library
         from kineme.library.planning import change_sources
         from kineme.library.storage.places import is_remote

@@ -29,10 +29,10 @@ SHOWN = 1000
 def parse_path_or_url(text: str) -> Path:
     """Return a place that was typed."""
     from kineme.errors import KinemeError
-    from kineme.library.storage.places import place
+    from kineme.library.storage.places import make_path
 
     try:
-        return place(text)
+        return make_path(text)
     except KinemeError as error:
         raise typer.BadParameter(str(error)) from error
 

@@ -79,7 +79,7 @@ def poses_to_motion(
     rotations = np.zeros((len(poses), len(_JOINTS), 4))
     # The crown has no rotation of its own.
     rotations[:, -1] = rot.IDENTITY
-    rotations[:, :-1] = rot.exponential(vectors)
+    rotations[:, :-1] = rot.from_rotation_vectors(vectors)
     turn = make_up_rotation(options.up or "z")
     # Only the root is turned, since all others are relative to their parents.
     rotations[:, 0] = rot.multiply(turn, rotations[:, 0])

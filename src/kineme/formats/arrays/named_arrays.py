@@ -18,7 +18,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from kineme._util.arrays import Array
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.formats.arrays.amass import find_rate, poses_to_motion
 from kineme.formats.columns import columns_to_motion
 from kineme.formats.files import FileContent
@@ -87,7 +87,7 @@ def _restore_motion(
     parents = _read_integers(content, arrays, "parents")
     ends = _read_integers(content, arrays, "end_sites") if "end_sites" in arrays else []
     gaps = _read_integers(content, arrays, "gaps") if "gaps" in arrays else []
-    names = tuple(unique(map(str, arrays["names"].ravel())))
+    names = tuple(make_unique(map(str, arrays["names"].ravel())))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
     rotations = _read_numbers(content, arrays, "rotations") if "rotations" in arrays else None
     # Start and stop alternate.

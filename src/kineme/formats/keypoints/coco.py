@@ -19,7 +19,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
     Person,
@@ -93,7 +93,7 @@ def _find_names(data: Mapping[str, Any]) -> list[str] | None:
     for category in categories if isinstance(categories, list) else []:
         names = category.get("keypoints") if isinstance(category, Mapping) else None
         if isinstance(names, list) and names:
-            return unique(map(str, names))
+            return make_unique(map(str, names))
     return None
 
 

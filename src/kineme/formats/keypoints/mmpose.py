@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.coco import LAYOUTS, LIMIT
 from kineme.formats.keypoints.video import Person, Video, video_to_motion
@@ -79,6 +79,6 @@ def _find_names(data: Any, count: int) -> Sequence[str]:
     facts = data.get("meta_info") if isinstance(data, Mapping) else None
     named = facts.get("keypoint_id2name") if isinstance(facts, Mapping) else None
     if isinstance(named, Mapping) and count in (len(named), 133):
-        listed = unique(str(named.get(str(i), i)) for i in range(count))
+        listed = make_unique(str(named.get(str(i), i)) for i in range(count))
         return listed[: len(LAYOUTS[133])] if count == 133 else listed
     return LAYOUTS.get(count, ())

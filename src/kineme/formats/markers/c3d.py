@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import re
 
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.errors import ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
@@ -139,7 +139,7 @@ def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Sig
         notes.append(note)
     if not file.analog.size:
         raise content.error("holds no analog channels")
-    names = unique(file.analog_labels)
+    names = make_unique(file.analog_labels)
     chosen = list_needed_columns(select_columns(content, names, columns, names), names)
     values = file.analog[:, [names.index(name) for name in chosen]]
     table = ChannelTable(chosen, values, {}, file.analog_rate or None, tuple(notes))
@@ -148,7 +148,7 @@ def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Sig
 
 def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
     """Return the names of the channels that are muscles', and a sentence on what was taken."""
-    names = unique(file.analog_labels)
+    names = make_unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
     described = [*described, *[""] * len(names)]

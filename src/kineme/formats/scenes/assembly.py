@@ -26,8 +26,8 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme._util.checks import join_names, unique
-from kineme._util.rotations import matrices, quaternions
+from kineme._util.checks import join_names, make_unique
+from kineme._util.rotations import from_matrices, to_matrices
 from kineme.formats.files import MAX_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, list_ancestors
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
@@ -133,7 +133,7 @@ def assemble(
     ]
     rotations[:, ends] = rot.IDENTITY
     given = [nodes[node].name for node in joints]
-    names = tuple(unique(given))
+    names = tuple(make_unique(given))
     if others := [new for new, old in zip(names, given, strict=True) if new != old]:
         remark = f"several bones have one name: they are read as {join_names(others)}"
         provenance = provenance.noted(Note(remark, "warning"))
@@ -288,7 +288,7 @@ def _multiply_matrices(
     # In blocks, as matrices of all frames take much memory.
     for span in iterate_blocks(n_frames):
         n = span.stop - span.start
-        ground = np.broadcast_to(matrices(turn), (n, 3, 3))
+        ground = np.broadcast_to(to_matrices(turn), (n, 3, 3))
         worlds = {-len(above) - 1: (ground, ground, np.zeros((n, 3)))}
         turned: dict[int, Floats] = {}
         for number, parent, _ in chain:
@@ -298,7 +298,7 @@ def _multiply_matrices(
             if number < 0:
                 continue
             axes, _, position = worlds[number]
-            turned[number] = quaternions(axes)
+            turned[number] = from_matrices(axes)
             if parents[number] < 0:
                 rotations[span, number] = turned[number]
                 shifts[number, span] = position
@@ -326,7 +326,7 @@ def _multiply_transform(
 ) -> World:
     """Return a node's world, from its parent's and the transforms of both."""
     axes, matrix, position = parent
-    turn = matrices(_select_frames(found.rotation, span))
+    turn = to_matrices(_select_frames(found.rotation, span))
     scale = _select_frames(found.scale, span)
     # The parent's scale and shear, in its own axes.
     inherited = axes.transpose(0, 2, 1) @ matrix
@@ -375,7 +375,7 @@ def compose(translations: Floats, rotations: Floats, scales: Floats) -> Floats:
     """Return matrices (nodes, 4, 4) that multiply columns; scales are (nodes, 3) or (nodes,)."""
     found = np.tile(np.eye(4), (len(translations), 1, 1))
     scales = scales.reshape(len(translations), 1, -1)
-    found[:, :3, :3] = matrices(rotations) * scales
+    found[:, :3, :3] = to_matrices(rotations) * scales
     found[:, :3, 3] = translations
     return found
 
@@ -387,5 +387,5 @@ def decompose(matrix: Floats) -> Transform:
     # A reflection: it belongs to the scale, so that the axes are a rotation.
     if np.linalg.det(axes) < 0:
         scale = -scale
-    turn = quaternions(orthogonalize((axes / np.where(scale == 0, 1, scale))[None]))[0]
+    turn = from_matrices(orthogonalize((axes / np.where(scale == 0, 1, scale))[None]))[0]
     return Transform(matrix[:3, 3], turn, scale)

@@ -15,7 +15,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kineme._util.checks import join_names, unique
+from kineme._util.checks import join_names, make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.persons import choose_person
 from kineme.recordings import Note
@@ -219,7 +219,7 @@ def _name_bodies(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[st
         space = root.rpartition(":")[0]
         alone = carrier >= 0 and carriers.count(carrier) == 1
         names.append(nodes[carrier].name if alone else space or root)
-    return unique(names)
+    return make_unique(names)
 
 
 def _find_props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:

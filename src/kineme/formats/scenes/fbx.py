@@ -18,8 +18,8 @@ from __future__ import annotations
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import unique
-from kineme._util.rotations import quaternions
+from kineme._util.checks import make_unique
+from kineme._util.rotations import from_matrices
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -54,7 +54,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     scene = FBXScene(content, root)
     moved = [scene.moved(take) for take in scene.takes]
     animated = find_moving_takes(moved, scene.bones)
-    names = unique(take.name for take in scene.takes)
+    names = make_unique(take.name for take in scene.takes)
     number, notes = choose_take(content, names, animated, options.take)
     take, nodes = scene.takes[number], scene.nodes(moved[number])
     character = find_character(content, nodes, options.person)
@@ -159,7 +159,7 @@ def _find_turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]
     notes: list[str] = [] if name == "y" else [f"turned: {name} is up in the file"]
     # A proper rotation has determinant 1; -1 is left-handed, 0 is no set of axes.
     if np.linalg.det(rows) > 0.5:
-        return quaternions(rows[None]).reshape(4), notes
+        return from_matrices(rows[None]).reshape(4), notes
     remark = (
         "the file's axes are left-handed or no axes: read as right-handed ones with the same up"
     )

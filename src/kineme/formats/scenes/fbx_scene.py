@@ -330,7 +330,9 @@ class Pose:
                     # What is missing from the turn so far to that of the layer.
                     layer = rot.multiply(rot.conjugate(turn), layer)
                 # The weight shortens the rotation along its arc.
-                turn = rot.multiply(turn, rot.exponential(weight * rot.logarithm(layer)))
+                turn = rot.multiply(
+                    turn, rot.from_rotation_vectors(weight * rot.to_rotation_vectors(layer))
+                )
         return _to_rotation(angles, order) if turn is None else turn
 
     def _values(self, model: Model, what: str, usual: float) -> Floats:

@@ -21,7 +21,7 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme._util.checks import unique
+from kineme._util.checks import make_unique
 from kineme.errors import ReadError
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
@@ -88,7 +88,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         for animation in file.tree.animations
     ]
     animated = find_moving_takes(moved, bones)
-    names = unique(animation.name or "animation" for animation in file.tree.animations)
+    names = make_unique(animation.name or "animation" for animation in file.tree.animations)
     number, notes = choose_take(content, names, animated, options.take)
     nodes = [
         SceneNode(

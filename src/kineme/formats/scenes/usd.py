@@ -26,9 +26,9 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme._util.checks import require_extra, unique
+from kineme._util.checks import make_unique, require_extra
 from kineme._util.files import translate_read_errors
-from kineme._util.rotations import quaternions
+from kineme._util.rotations import from_matrices
 from kineme.errors import KinemeError, ReadError
 from kineme.formats.files import FileContent, load
 from kineme.formats.options import ReadOptions
@@ -145,7 +145,7 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
         UsdSkel.Animation(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Animation)
     ]
     fitting = skeleton.fitting(animations)
-    names = unique(each.GetPrim().GetName() for each in fitting)
+    names = make_unique(each.GetPrim().GetName() for each in fitting)
     number, notes = choose_take(content, names, range(len(fitting)), options.take)
     fps, codes, rated = _find_frames(content, stage, fitting[number], len(nodes), options, beside)
     pose = skeleton.pose(fitting[number], codes)
@@ -312,7 +312,7 @@ def _to_transform(matrices: Floats) -> Transform:
     scale = np.linalg.norm(axes, axis=1)
     # A reflection: it belongs to the scale, so that the axes are a rotation.
     scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
-    turns = quaternions(orthogonalize(axes / np.where(scale == 0, 1, scale)[:, None, :]))
+    turns = from_matrices(orthogonalize(axes / np.where(scale == 0, 1, scale)[:, None, :]))
     return Transform(matrices[:, 3, :3], turns, scale)
 
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import require_extra, unique
+from kineme._util.checks import make_unique, require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.formats.files import clean_names, require_rotations
@@ -37,7 +37,7 @@ def write_usd(motion: Motion, path: Path) -> None:
     skeleton = motion.skeleton
     names = clean_names(path, skeleton.names, str.strip)
     # Names in paths are identifiers, and unique.
-    words = unique(Tf.MakeValidIdentifier(name) for name in names)
+    words = make_unique(Tf.MakeValidIdentifier(name) for name in names)
     joints: list[str] = []
     for word, parent in zip(words, skeleton.parents, strict=True):
         joints.append(word if parent < 0 else f"{joints[parent]}/{word}")

@@ -110,7 +110,7 @@ def read_analysis(folder: Path, key: str) -> Analysis:
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
         facts = decode_json(table.schema.metadata[METADATA], path, dict[str, Any])
-        columns = {name: _column(table, name) for name in COLUMNS}
+        columns = {name: _read_column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
     return Analysis(facts, SegmentTable(**columns), flat.reshape(-1, EMBEDDED))
 
@@ -132,7 +132,7 @@ def read_parts(
 ) -> None:
     """Fill arrays (samples, dims) with the features in an analysis, each from a sample on."""
     with _open_features(folder, key) as (file, start, _):
-        _fill(file, start, starts, into)
+        _read_rows(file, start, starts, into)
 
 
 def read_spans(
@@ -141,7 +141,7 @@ def read_spans(
     """Return the features in an analysis from some samples to others."""
     with _open_features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
-        _fill(file, start, [first for first, _ in spans], parts)
+        _read_rows(file, start, [first for first, _ in spans], parts)
     return parts
 
 
@@ -168,7 +168,7 @@ def _read_header(file: IO[bytes]) -> tuple[int, int]:
     return 10 + length, int(header[1])
 
 
-def _fill(
+def _read_rows(
     file: IO[bytes], start: int, firsts: Iterable[int], parts: Iterable[NDArray[np.float32]]
 ) -> None:
     """Rows of an npy file from some samples on."""
@@ -176,7 +176,7 @@ def _fill(
         file.seek(start + part.itemsize * part.shape[1] * first)
         if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
             raise ValueError("shorter than was written")
-        _check_sound(part)
+        _check_plausible(part)
 
 
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
@@ -185,11 +185,11 @@ def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
         if rows.ndim != 2 or rows.dtype != kind:
             raise ValueError("not rows of features")
         if kind is np.float32:  # integers cannot be nan or overflow a distance
-            _check_sound(rows)
+            _check_plausible(rows)
     return rows
 
 
-def _check_sound(features: NDArray[np.float32]) -> None:
+def _check_plausible(features: NDArray[np.float32]) -> None:
     squares = float(np.vdot(features, features))  # one pass, not finite if any of them is not
     if not squares < LARGEST:
         raise ValueError("features that no recording has")
@@ -214,6 +214,6 @@ def _open_array(path: Path) -> Iterator[None]:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
 
 
-def _column(table: Any, name: str) -> NDArray[Any]:
+def _read_column(table: Any, name: str) -> NDArray[Any]:
     column = as_array(table.column(name))
     return column.astype(np.str_) if column.dtype == object else column

@@ -17,7 +17,7 @@ from kineme.errors import ReadError
 from kineme.library.storage.analyses import read_windows
 from kineme.library.storage.layout import ANALYSES, BODIES, TABLES
 from kineme.library.storage.places import copy_nearby, write_locally
-from kineme.library.windows import LENGTHS, NUMBERS, Bytes, count, group_by_length
+from kineme.library.windows import LENGTHS, NUMBERS, Bytes, count_windows, group_by_length
 
 FROM_HOURS = 100.0
 """Of recordings of bodies, from which a library has an index."""
@@ -45,20 +45,20 @@ class Windows(NamedTuple):
 
 def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
     """Leave an index beside the tables of that name, where the library is large enough."""
-    samples = _build_index(recordings)
+    samples = _list_samples(recordings)
     rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
         return
     home = folder / TABLES / named
-    if all(_place(home, length).is_file() for length in LENGTHS):
+    if all(_make_path(home, length).is_file() for length in LENGTHS):
         return
     with ExitStack() as stack:
         drafts = {
             length: np.lib.format.open_memmap(
-                stack.enter_context(write_locally(_place(home, length))),
+                stack.enter_context(write_locally(_make_path(home, length))),
                 mode="w+",
                 dtype=np.int8,
-                shape=(int(count(samples, length).sum()), NUMBERS),
+                shape=(int(count_windows(samples, length).sum()), NUMBERS),
             )
             for length in LENGTHS
         }
@@ -76,25 +76,25 @@ def open_index(
     folder: Path, named: str, recordings: dict[str, list[Any]], length: int
 ) -> Windows | None:
     """Return the windows of one length, or None where the library has no index."""
-    path = _place(folder / TABLES / named, length)
+    path = _make_path(folder / TABLES / named, length)
     try:
         embedded: Bytes = np.load(copy_nearby(path), mmap_mode="r", allow_pickle=False)
     except FileNotFoundError:
         return None
     except (OSError, ValueError) as error:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
-    samples = _build_index(recordings)
-    firsts = np.concatenate([[0], np.cumsum(count(samples, length))])
+    samples = _list_samples(recordings)
+    firsts = np.concatenate([[0], np.cumsum(count_windows(samples, length))])
     if embedded.shape != (firsts[-1], NUMBERS) or embedded.dtype != np.int8:
         raise ReadError(path, "is damaged: remove it and build the library again")
     return Windows(length, embedded, firsts, samples)
 
 
-def _build_index(recordings: dict[str, list[Any]]) -> Ints:
+def _list_samples(recordings: dict[str, list[Any]]) -> Ints:
     """Return the samples of each recording, 0 of those that are no bodies."""
     bodies = np.array(recordings["vocabulary"], object) == BODIES
     return np.where(bodies, np.array(recordings["samples"], np.int64), 0)
 
 
-def _place(home: Path, length: int) -> Path:
+def _make_path(home: Path, length: int) -> Path:
     return home / f"windows.{length}.npy"

@@ -19,7 +19,7 @@ from kineme._util.checks import is_number, require_extra
 from kineme._util.files import refuse_link
 from kineme._util.json import load_json
 from kineme.errors import ReadError, WriteError
-from kineme.library.storage.places import is_remote, place, write_locally
+from kineme.library.storage.places import is_remote, make_path, write_locally
 
 if sys.platform != "win32":
     import fcntl
@@ -50,7 +50,7 @@ EXTRA = "library"
 
 def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
     """Return what ``library.json`` says."""
-    path = place(folder) / HEAD
+    path = make_path(folder) / HEAD
     if not path.is_file():
         raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
     head = read_json(path)

@@ -28,12 +28,12 @@ EXTRA = "remote"
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
-def place(given: str | PathLike[str], caller: str = "place") -> Path:
+def make_path(given: str | PathLike[str], caller: str = "make_path") -> Path:
     """Return a path, or what behaves like one where a URL is given.
 
     Examples
     --------
-    >>> place("file:///tmp/takes").name
+    >>> make_path("file:///tmp/takes").name
     'takes'
     """
     if is_remote(given):
@@ -58,13 +58,13 @@ def is_remote(path: str | PathLike[str]) -> bool:
     return hasattr(path, "protocol")
 
 
-def lies_in(path: Path, folder: Path) -> bool:
+def is_inside(path: Path, folder: Path) -> bool:
     """Return whether a place is in a folder; what is elsewhere is in none of this machine."""
     return is_remote(path) == is_remote(folder) and path.is_relative_to(folder)
 
 
 @contextmanager
-def reach(path: Path) -> Iterator[None]:
+def translate_remote_errors(path: Path) -> Iterator[None]:
     """A block that uses a place: what goes wrong on the way there is a ReadError."""
     try:
         yield

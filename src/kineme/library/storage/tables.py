@@ -75,19 +75,19 @@ ADDED = ("label", "action_label")
 """Columns that come with the edits, where a table has none."""
 
 
-def is_tables(name: str) -> bool:
+def is_tables_folder(name: str) -> bool:
     """Return whether the folder of the tables of a build is named so."""
     return _FOLDER.fullmatch(name) is not None
 
 
-def is_table(name: str) -> bool:
+def is_table_file(name: str) -> bool:
     """Return whether a file in such a folder is named so: a table, an index or a draft."""
     stem, _, suffix = name.partition(".")
     table = stem in DESCRIBED and suffix == "parquet"
     return table or is_draft(name) or _WINDOWS.fullmatch(name) is not None
 
 
-def table_of(name: str, columns: Mapping[str, Any]) -> Any:
+def make_table(name: str, columns: Mapping[str, Any]) -> Any:
     """Return a table of computed columns, a pyarrow.Table; of any number of rows, with none, too.
 
     Embeddings are a pyarrow.Array already.
@@ -109,7 +109,7 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     _, parquet = import_arrow()
     home = folder / TABLES
     if is_remote(home):
-        return _put(home, tables)
+        return _upload_tables(home, tables)
     draft = home / f".{secrets.token_hex(6)}"
     try:
         draft.mkdir(parents=True)
@@ -128,7 +128,7 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
     return named
 
 
-def _put(home: Path, tables: Mapping[str, Any]) -> str:
+def _upload_tables(home: Path, tables: Mapping[str, Any]) -> str:
     """The same where folders cannot be moved: nothing names these tables before all are there."""
     with TemporaryDirectory(prefix="kineme-") as near:
         named = write_tables(Path(near), tables)
@@ -151,12 +151,12 @@ def read_table(folder: Path, named: str, name: str) -> Any:
         if times > 1 or (times == 0 and column not in ADDED):
             fault = "holds twice" if times else "lacks"
             raise ReadError(path, f"is damaged: it {fault} {column!r}; build the library again")
-        if times and not _is_sound(table.column(column), declared.type):
+        if times and not _is_valid(table.column(column), declared.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
 
 
-def _is_sound(column: Any, kind: type) -> bool:
+def _is_valid(column: Any, kind: type) -> bool:
     """Return whether a column is of its type, and has a value in every row."""
     pa, _ = import_arrow()
     types = {str: pa.string(), int: pa.int64(), float: pa.float64()}

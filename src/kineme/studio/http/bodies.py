@@ -25,7 +25,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
-from kineme._util.files import hold, is_held
+from kineme._util.files import is_locked, lock_shared
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
 from kineme.labels import label_formats
@@ -135,7 +135,7 @@ class Upload:
         except OSError as error:
             raise WriteError(root, f"cannot be written to: {error.strerror}") from error
         # Held, so that other servers do not take it for abandoned.
-        hold(self._file.fileno())
+        lock_shared(self._file.fileno())
 
     def __enter__(self) -> Self:
         return self
@@ -191,7 +191,7 @@ def remove_abandoned_drafts(root: Path) -> None:
         if not DRAFT.fullmatch(path.name):
             continue
         with suppress(OSError):  # another server may have been quicker
-            if time.time() - path.stat().st_mtime > FORGOTTEN and not is_held(path):
+            if time.time() - path.stat().st_mtime > FORGOTTEN and not is_locked(path):
                 path.unlink()
 
 
