@@ -86,7 +86,7 @@ def test_a_stream_goes_on_after_it_was_saved(rows, told, tmp_path):
 
 def test_a_file_that_is_no_stream_is_refused(tmp_path):
     (tmp_path / "other.npz").write_bytes(b"nothing")
-    with pytest.raises(ReadError, match="no stream"):
+    with pytest.raises(ReadError, match="not a stream"):
         Stream.load(tmp_path / "other.npz")
 
 

@@ -1,8 +1,8 @@
-"""Streams: recordings segmented while they are made.
+"""Streams: segment recordings while they are made.
 
-Rows become frames in `intake`, the recent past is segmented again and again in `stream`, and what
-is older than the delay becomes final in `finals`. `journal` keeps the rows on the disk, and
-`sources` brings them from elsewhere.
+`sources` yields rows, `intake` resamples them to frames, `stream` segments the recent past at
+regular intervals (by `looking`), and `finals` holds what is older than the delay. `journal` writes
+rows to disk, `outputs` sends events to other programs.
 """
 
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition

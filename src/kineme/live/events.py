@@ -1,4 +1,4 @@
-"""Events of a stream. A final one never changes; a provisional one is the best guess so far."""
+"""Events of a stream. A final event never changes; a provisional one is the best guess so far."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ State = Literal["provisional", "final"]
 
 @dataclass(frozen=True, kw_only=True)
 class Event:
-    """What a stream tells.
+    """Base class of all events.
 
     Attributes
     ----------
     at_s : float
-        Second of the stream up to which rows were known when it was told.
+        Time of the newest row when the event was sent, in seconds since the stream began.
     state : {"provisional", "final"}
 
     Examples
@@ -29,11 +29,11 @@ class Event:
 
     @property
     def is_final(self) -> bool:
-        """Return whether it will not change any more."""
+        """Return whether the event is final."""
         return self.state == "final"
 
     def to_json(self) -> dict[str, Any]:
-        """Return the kind of event as ``event``, and its attributes, as JSON has them.
+        """Return the name of the class as ``event``, and all attributes.
 
         Examples
         --------
@@ -49,7 +49,7 @@ class Event:
 
 @dataclass(frozen=True, kw_only=True)
 class ActivityStarted(Event):
-    """An activity began at a second of the stream; ``label`` names a known cluster.
+    """An activity began at `start_s`; ``label`` is the name of a known cluster.
 
     Examples
     --------
@@ -64,7 +64,7 @@ class ActivityStarted(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ActivityEnded(Event):
-    """An activity ended, after so many repetitions.
+    """An activity ended, with its number of repetitions.
 
     Examples
     --------
@@ -97,7 +97,7 @@ class Repetition(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Gap(Event):
-    """Nothing was recorded for a while; a provisional gap goes on.
+    """Nothing was recorded for a while; a provisional gap has not ended yet.
 
     Examples
     --------
@@ -111,7 +111,7 @@ class Gap(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Notice(Event):
-    """Something is wrong with the rows; the stream goes on.
+    """Something is wrong with the rows; the stream continues.
 
     Examples
     --------

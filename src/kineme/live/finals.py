@@ -1,9 +1,9 @@
-"""What is final of a stream, and how it grows.
+"""Final segments of a stream, and how new ones are added.
 
-Each look at the recent past gives rows for it. Those before the horizon become final: activities up
-to the frontier, and the repetitions of the open activity as they end. A row that contradicts what
-is final already begins at the frontier. A border must be found by two looks, or wait for the next.
-An activity that does not repeat yet has no primitives yet: they become final when they are found.
+Each segmentation of the recent past (a look) gives rows. Those before the horizon become final:
+activities up to the frontier, and repetitions of the open activity as they end. A row that
+contradicts final ones begins at the frontier. A border becomes final when two looks in a row find
+it. The primitives of an activity become final once they are found, as it may not repeat at first.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from kineme._util.arrays import Ints
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Repetition, State
 
 MOST_SLIP = 0.5
-"""Share of a repetition by which the phase may change in an activity."""
+"""Share of a repetition by which the phase may change within an activity."""
 SHORTEST_S = 0.7
-"""Seconds below which what is left of a row that contradicts the open activity is ignored."""
+"""Seconds: a shorter rest of a row that contradicts the open activity is ignored."""
 AGREEING_S = 0.5
-"""Seconds by which two looks may differ in where an activity starts."""
+"""Seconds by which two looks may differ in the start of an activity."""
 SAME_END = 0.25
-"""Share of a repetition by which two looks may differ in where it ends."""
+"""Share of a repetition by which two looks may differ in its end."""
 
 
 class Row(NamedTuple):
-    """Frames [start, stop) of the stream in a cluster; -1 for transitions."""
+    """Frames [start, stop) of the stream and their cluster; -1 for transitions."""
 
     start: int
     stop: int
@@ -36,20 +36,20 @@ class Row(NamedTuple):
 
 
 class Look(NamedTuple):
-    """What one look at the recent past found: rows of both levels that tile it."""
+    """Segments of the recent past: rows of both levels, each without holes or overlaps."""
 
     activities: list[Row]
     primitives: list[Row]
 
     def has_activity(self, row: Row, near: float) -> bool:
-        """Return whether an activity of this cluster starts within so many frames of a row."""
+        """Return whether an activity of the row's cluster starts within `near` frames of it."""
         return any(
             each.cluster == row.cluster and abs(each.start - row.start) <= near
             for each in self.activities
         )
 
     def has_repetition(self, row: Row) -> bool:
-        """Return whether a repetition ends where a row does, give or take a share of it."""
+        """Return whether a repetition ends where the row does, within `SAME_END`."""
         near = SAME_END * (row.stop - row.start)
         return any(
             each.cluster >= 0 and abs(each.stop - row.stop) <= near for each in self.primitives
@@ -57,18 +57,18 @@ class Look(NamedTuple):
 
 
 class Looks(NamedTuple):
-    """What one look found, and when.
+    """The present look and the one before.
 
     Attributes
     ----------
     look, before : Look
-        The present one, and the one before, which must agree; None if none must.
+        The present look, and the one before, which must agree; None if it need not.
     horizon : int
-        The frame before which rows become final.
+        Frame before which rows become final.
     patience : int
-        Frames by which a row may be older than that, and is then final although looks disagree.
+        Frames. Rows that lie this far before the horizon become final even if the looks disagree.
     now : int
-        Frame at which the look was taken.
+        Number of frames when the look was taken.
     """
 
     look: Look
@@ -80,26 +80,26 @@ class Looks(NamedTuple):
 
 @dataclass
 class Finals:
-    """Rows that do not change any more, and the activity that is open.
+    """Final rows, and the open activity.
 
     Attributes
     ----------
     fps : float
         Frames per second.
     activities, primitives : list of Row
-        Of activities that are over.
+        Rows of the activities that have ended.
     start, cluster : int
-        Of the open activity; a cluster of -1 is a transition.
+        First frame and cluster of the open activity; -1 for a transition.
     counted : int
-        The frame up to which the primitives of the open activity are known.
+        Frame up to which the primitives of the open activity are final.
     n_repetitions : int
-        Its repetitions so far.
+        Final repetitions of the open activity.
     slip : float
         Share of a repetition by which their phase has changed.
     frontier : int
-        The frame up to which activities are final.
+        Frame up to which activities are final.
     highest : int
-        The largest cluster so far.
+        Largest cluster number so far.
     labels : dict of int to str
         Names of known clusters.
     """
@@ -117,7 +117,7 @@ class Finals:
     labels: dict[int, str] = field(default_factory=dict)
 
     def advance(self, looks: Looks) -> list[Event]:
-        """Make final what lies before the horizon; return the events."""
+        """Make rows before the horizon final; return the events."""
         events: list[Event] = []
         at_s = looks.now / self.fps
         for row in looks.look.activities:
@@ -142,14 +142,14 @@ class Finals:
         return events
 
     def _agree(self, row: Row, looks: Looks) -> bool:
-        """Return whether two looks have an activity, and it does not contradict what is final."""
+        """Return whether both looks have the activity, and it does not contradict final rows."""
         if looks.before is None or max(row.start, self.frontier) <= looks.horizon - looks.patience:
             return True
         near = AGREEING_S * self.fps
         return row.start >= self.frontier - near and looks.before.has_activity(row, near)
 
     def close(self, stop: int, at_s: float) -> list[Event]:
-        """End the open activity at a frame."""
+        """End the open activity at a frame; return the events."""
         self.frontier = max(self.frontier, stop)
         if stop <= self.start:
             return []
@@ -184,7 +184,7 @@ class Finals:
             )
 
     def _count(self, first: int, looks: Looks, events: list[Event]) -> None:
-        """Make final the repetitions of the open activity that end before the frontier."""
+        """Make repetitions of the open activity final that end before the frontier."""
         rows, slip = self.uncounted(looks.look.primitives, first)
         for row in rows:
             is_old = looks.before is None or row.stop <= looks.horizon - looks.patience
@@ -203,22 +203,22 @@ class Finals:
     def uncounted(self, primitives: Sequence[Row], first: int) -> tuple[list[Row], float]:
         """Return the repetitions of an activity that are not final, and the change of phase.
 
-        Looks may cut at different phases. Then the first repetition is shorter or longer, as long
-        as all such changes do not add up to half a repetition: else they would be counted. Beyond
-        that the repetitions that touch each other are moved to where the last one ended.
+        Two looks may cut the repetitions at different phases. Then the first repetition becomes
+        shorter or longer, unless all such changes add up to half a repetition, which would change
+        the count. In that case the adjoining repetitions are moved to the last final one.
 
         Parameters
         ----------
         primitives : sequence of Row
-            Of a look.
+            Primitives of a look.
         first : int
-            The frame at which the activity begins there.
+            Frame at which the activity begins in that look.
 
         Returns
         -------
         rows : list of Row
         slip : float
-            Share of a repetition by which the first one is shorter, below 0 if it is longer.
+            Share of a repetition by which the first one became shorter; negative: longer.
         """
         rows = [
             row
@@ -229,7 +229,7 @@ class Finals:
             return rows, 0.0
         length = rows[0].stop - rows[0].start
         over = self.counted - rows[0].start
-        if 2 * over > length:  # it is counted: the second one begins earlier or late
+        if 2 * over > length:  # most of the first one is counted already: the second is the next
             over -= length
             rows = rows[1:]
         if not rows or rows[0].start > self.counted - min(over, 0):
@@ -239,13 +239,13 @@ class Finals:
             return [rows[0]._replace(start=self.counted), *rows[1:]], slip
         apart = (i for i in range(1, len(rows)) if rows[i].start != rows[i - 1].stop)
         n = next(apart, len(rows))
-        end = rows[n - 1].stop  # which stays, be the last one ever so short
+        end = rows[n - 1].stop  # the end stays, however short the last one becomes
         moved = [Row(row.start + over, min(row.stop + over, end), row.cluster) for row in rows[:n]]
         moved[-1] = moved[-1]._replace(stop=end)
         return [row for row in moved if row.start < row.stop] + rows[n:], 0.0
 
     def repetition(self, row: Row, number: int, at_s: float, state: State = "final") -> Repetition:
-        """Return the event of a repetition."""
+        """Return the event for a repetition."""
         return Repetition(
             at_s=at_s,
             state=state,
@@ -256,7 +256,7 @@ class Finals:
         )
 
     def last_activities(self, frame: int) -> list[Row]:
-        """Return the activities that reach beyond a frame, the open one up to the frontier."""
+        """Return the activities that end after a frame; the open one ends at the frontier."""
         found = [Row(self.start, self.frontier, self.cluster)] if self.start < self.frontier else []
         for row in reversed(self.activities):
             if row.stop <= frame:

@@ -1,12 +1,12 @@
-"""Rows at any times to frames at one rate, as they come.
+"""Resample rows with arbitrary times to frames at one rate, as the rows arrive.
 
-What `kineme.recordings.regular` does with all rows of a file is done here with those of the last
-half second. Rows of one time are averaged, and packets of rows that share a time are spread. Holes
-of up to 0.2 s are filled in straight lines, longer ones are gaps. A clock that is set back goes on
-after a gap of one frame.
+`kineme.recordings.regular` does this for files; here only the rows of the last half second are
+known. Rows with equal times are averaged, packets of rows that share a time are spread. Holes of up
+to 0.2 s are interpolated linearly, longer ones become gaps. If the clock is set back, the stream
+continues after a gap of one frame.
 
-The frames depend on the rows alone, not on how many are added at a time: they are made in blocks,
-and a block waits for the rows of the 0.2 s after it.
+The frames do not depend on how many rows are added at a time: they are made in blocks, and a block
+waits for the rows of the 0.2 s after it.
 """
 
 from __future__ import annotations
@@ -24,20 +24,20 @@ from kineme.recordings.times import UNITS_OF_TIME
 BLOCK_S = 0.1
 """Seconds of frames that are made at once."""
 SUDDEN_S = 2.0
-"""Seconds from which on the next row must confirm a step of the clock."""
+"""Seconds: a longer step of the clock must be confirmed by the next row."""
 COUNTED_S = 2.0
-"""Seconds over which rows are counted, to see whether they come at the rate that was named."""
+"""Seconds over which rows are counted to check the given rate."""
 OTHER_RATE = 1.5
-"""Ratio of two rates that are not the same."""
+"""Ratio from which two rates count as different."""
 FULL_PACKET = 0.75, 1.5
-"""Frames for each row of a packet: rows that have less are duplicates, with more some are lost."""
+"""Frames per row of a packet. Below the range rows are duplicates, above it some are lost."""
 SHIFTS_S = (-86400.0, -3600.0, 3600.0)
-"""Steps of local clocks, at midnight and where summer time begins and ends, that are undone."""
+"""Seconds: steps of local clocks (midnight, summer time) that are undone."""
 
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Consecutive frames, (frames, channels), and in which of them nothing is known."""
+    """Consecutive frames (frames, channels), and which of them are missing."""
 
     values: Floats
     missing: Masks
@@ -45,18 +45,18 @@ class Frames:
 
 @dataclass(frozen=True)
 class Hole:
-    """So many frames without any row."""
+    """A number of frames without any row."""
 
     n_frames: int
 
 
 Piece = Frames | Hole | str
-"""What comes out of an intake. A text says what is wrong with the rows."""
+"""Output of `Intake`. A string is a message about the rows."""
 
 
 @dataclass
 class Intake:
-    """Rows that are not frames yet, and the clock by which they were taken.
+    """Rows that are not frames yet, and the state of their clock.
 
     Attributes
     ----------
@@ -64,27 +64,27 @@ class Intake:
         Frames per second.
     n_channels : int
     n_rows : int
-        Rows without a time so far.
+        Number of rows without a time so far.
     per_second : float
-        Of the unit of the times; 0 while it is not known.
+        Units of the times per second; 0 while the unit is unknown.
     ahead_s : float
         Seconds by which the clock is ahead of the stream.
     last_s : float
-        What the clock showed last; NaN before the first row.
+        Time of the last row; NaN before the first row.
     emitted, run_start : int
-        The next frame, and the first one after the last hole.
+        Next frame, and first frame after the last hole.
     counted, counted_rows, other_rate
-        Frames and rows since the rate was looked at, and whether it was another one.
+        Frames and rows since the rate was last checked, and whether it differed then.
     in_packets : bool
-        Whether the last rows of one time were a packet.
+        Whether the last rows with equal times were a packet.
     said : list of str
-        What was said of the rows, which is said once.
+        Messages about the rows that were sent already.
     at, rows : (rows,) and (rows, channels) arrays
-        The frame and the values of each row, those of the past that are still needed among them.
+        Fractional frame and values of each row that is still needed.
     held_times, held_rows
-        Rows whose time is not understood before the next one.
+        Rows whose time can only be interpreted with the next row.
     filler : (channels,) array
-        The values of the last frame.
+        Values of the last frame.
     """
 
     fps: float
@@ -112,14 +112,14 @@ class Intake:
             self.rows = self.held_rows = np.empty((0, self.n_channels))
 
     def add(self, rows: Floats, times: Floats | None = None) -> list[Piece]:
-        """Return the frames that are complete with these rows.
+        """Add rows; return the frames that are now complete.
 
         Parameters
         ----------
         rows : (rows, channels) array
-            NaN where there is nothing.
+            NaN where a value is missing.
         times : (rows,) array, optional
-            In any unit since any beginning.
+            In any unit since any origin.
         """
         pieces: list[Piece] = []
         if times is None:
@@ -133,11 +133,11 @@ class Intake:
         return pieces
 
     def finish(self) -> list[Piece]:
-        """Return the frames of all rows that are left."""
+        """Return the frames of all remaining rows."""
         pieces: list[Piece] = []
         if len(self.held_times):
             self.per_second = self.per_second or 1.0
-            # as if the next row confirmed what is held, if it is a single one
+            # An extra row confirms the time of a single held row.
             times = np.append(self.held_times, self.held_times[-1])
             nothing = np.full((1, self.n_channels), np.nan)
             self._place(np.concatenate([self.held_rows, nothing]), times, pieces)
@@ -147,7 +147,7 @@ class Intake:
         return pieces
 
     def _place(self, rows: Floats, times: Floats, pieces: list[Piece]) -> None:
-        """Find the frame of each row; rows whose time is understood later only are held."""
+        """Find the frame of each row; hold rows whose time needs the next row."""
         self.held_rows, self.held_times = rows[:0], times[:0]
         known = np.isfinite(times)
         if not known.all():
@@ -182,9 +182,9 @@ class Intake:
             start += count
 
     def _place_odd(self, seconds: Floats, row: Floats, pieces: list[Piece]) -> int | None:
-        """Place a row whose clock stands still, goes back or leaps; return how many are placed.
+        """Handle a row whose time repeats, decreases or jumps; return how many rows are done.
 
-        None where the next row has to be known; 0 where the clock was corrected instead.
+        None if the next row is needed first; 0 if the clock was corrected instead.
         """
         step = float(seconds[0]) - self.last_s
         if abs(step) * self.fps <= UNEVEN:
@@ -205,7 +205,7 @@ class Intake:
         return 1
 
     def _correct_clock(self, step: float, pieces: list[Piece]) -> bool:
-        """Undo a step of the clock if that was set; return whether it was."""
+        """Undo a step of the clock if it was set; return whether it was."""
         near = max(LONGEST_S, 3 / self.fps)
         for shift in SHIFTS_S:
             if abs(step - shift) <= near and (shift < 0 or is_unix_time(self.ahead_s)):
@@ -214,19 +214,19 @@ class Intake:
                 return True
         if step < 0:
             pieces.append(f"the clock goes back by {-step:.4g} s: the stream goes on after a gap")
-            # far enough from the last row for a gap
+            # Far enough from the last row to make a gap.
             self.ahead_s += step - (LONGEST_S + 2 / self.fps)
         return step < 0
 
     def _append(self, at: Floats, rows: Floats) -> None:
-        """Keep rows that have a frame; spread the packet before them."""
+        """Store rows that have a frame; spread the packet before them."""
         if len(self.at) and at[0] > self.at[-1]:
             self._spread_packet(float(at[0]))
         self.at = np.append(self.at, at)
         self.rows = np.concatenate([self.rows, rows])
 
     def _spread_packet(self, following: float) -> None:
-        """Spread the last rows, if they share a frame and fill the time up to the following one."""
+        """Spread the last rows if they share a frame and fill the time up to the following one."""
         first = int(np.searchsorted(self.at, self.at[-1]))
         size = len(self.at) - first
         each = (following - float(self.at[-1])) / size
@@ -236,7 +236,7 @@ class Intake:
                 self.at[first:] += np.arange(size) * (each if each <= FULL_PACKET[1] else 1.0)
 
     def _emit(self, pieces: list[Piece], *, finished: bool = False) -> None:
-        """Make the frames that no later row can change."""
+        """Output the frames that no later row can change."""
         after = ceil(LONGEST_S * self.fps) + 2
         block = max(1, round(BLOCK_S * self.fps))
         while len(self.at):
@@ -258,7 +258,7 @@ class Intake:
                 return
 
     def _leap(self, row: int, pieces: list[Piece]) -> None:
-        """Go on with a row after a hole."""
+        """Continue with a row after a hole."""
         self.at, self.rows = self.at[row:], self.rows[row:]
         begin = ceil(float(self.at[0]) - 0.5)
         if begin > self.emitted:
@@ -267,7 +267,7 @@ class Intake:
         self.counted = self.counted_rows = 0
 
     def _make(self, stop: int, end: int, before: int, pieces: list[Piece]) -> Frames:
-        """Return the frames up to ``stop``, by the rows up to ``end`` and those just before."""
+        """Return the frames up to `stop`, computed from the rows up to `end`."""
         base = max(self.emitted - before, self.run_start)
         first, last = np.searchsorted(self.at, [base - 0.5, end])
         at, rows = self.at[first:last] - base, self.rows[first:last]
@@ -279,7 +279,7 @@ class Intake:
         missing: Masks = np.zeros(len(values), np.bool_)
         if found.missing is not None:
             missing = np.asarray(found.missing[made].any(axis=1), np.bool_)
-            for i, row in enumerate(values):  # a channel without any value keeps its last one
+            for i, row in enumerate(values):  # A channel without a value repeats its last one.
                 row[:] = np.where(np.isfinite(row), row, values[i - 1] if i else self.filler)
         self.filler = values[-1]
         inside = (self.at >= self.emitted - 0.5) & (self.at < stop - 0.5)
@@ -290,7 +290,7 @@ class Intake:
         return Frames(values, missing)
 
     def _compare_rate(self, n_frames: int, n_rows: int, pieces: list[Piece]) -> None:
-        """Say when rows begin to come at another rate than the one that was named."""
+        """Report when rows begin to arrive at another rate than the given one."""
         self.counted += n_frames
         self.counted_rows += n_rows
         if self.counted < COUNTED_S * self.fps:
@@ -308,7 +308,7 @@ class Intake:
 
 
 def _guess_unit(first: float, second: float, fps: float) -> float:
-    """Return how many of a unit make a second, if two rows at these times are about a frame apart.
+    """Return the units per second for which two rows at these times are about a frame apart.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Rows on the disk while they come: a CSV that only grows, and a Parquet file at the end.
+"""Write rows to disk as they arrive: an append-only CSV that becomes a Parquet file at the end.
 
-``take.parquet`` is ``take.journal.csv`` before it is complete. Rows are with the system as soon as
-they are written, so a program that is killed loses none but those of its last moment; what is
-written of the last line is left out when the journal is recovered.
+While ``take.parquet`` is recorded it is ``take.journal.csv``. Each row is flushed to the operating
+system, so a killed program loses only the rows of its last moment. An incomplete last line is
+dropped when the journal is recovered.
 """
 
 from __future__ import annotations
@@ -27,26 +27,26 @@ from kineme.live.sources import Rows
 SUFFIX = ".journal.csv"
 TIME = "time_s"
 AHEAD = 100
-"""Pieces of a source that are written before they are taken, at most."""
+"""Largest number of pieces that are written but not processed yet."""
 SYNCHRONISED_S = 0.5
-"""Seconds after which rows are on the disk, should the machine go down."""
+"""Seconds between two calls of fsync, for the case that the machine goes down."""
 
 
 class Journal:
-    """A journal that is open for rows; see `recover_journal` for its end.
+    """A journal that is open for writing; `close` turns it into a Parquet file.
 
     Parameters
     ----------
     path : path
-        Of the Parquet file that it becomes, with or without the suffix.
+        The Parquet file to make, with or without the suffix.
     channels : sequence of str
     fps : float
-        Rows without a time are this far apart.
+        Frames per second of rows without times.
 
     Raises
     ------
     WriteError
-        There is a file of that name, or a journal that was not recovered.
+        The file exists, or a journal that was not recovered.
     """
 
     def __init__(self, path: str | os.PathLike[str], channels: Sequence[str], fps: float) -> None:
@@ -68,9 +68,9 @@ class Journal:
         self._file.flush()
 
     def write(self, rows: Floats, seconds: Floats | None = None) -> None:
-        """Append rows; without seconds they are at the frames that follow.
+        """Append rows; without seconds they follow at the frame rate.
 
-        Raises WriteError where the disk is full.
+        Raises WriteError if the disk is full.
         """
         if seconds is None:
             seconds = (self._n_rows + np.arange(len(rows))) / self._fps
@@ -87,7 +87,7 @@ class Journal:
             raise WriteError(self.path, f"cannot be written: {error.strerror}") from error
 
     def write_ahead(self, source: Iterable[Rows]) -> Iterator[Rows]:
-        """Append the rows of a source as soon as they come, however late they are taken."""
+        """Write the rows of a source as soon as they arrive, even if they are processed later."""
         queue: Queue[Rows | BaseException | None] = Queue(AHEAD)
 
         def write() -> None:
@@ -106,20 +106,20 @@ class Journal:
             yield taken
 
     def close(self) -> Path:
-        """End the journal; return the Parquet file that it became."""
+        """Close the journal; return the Parquet file made from it."""
         self._file.close()
         return recover_journal(self.path)
 
 
 def recover_journal(path: str | os.PathLike[str]) -> Path:
-    """Make a Parquet file of the whole lines of a journal, and remove the journal.
+    """Convert the complete lines of a journal to a Parquet file, and delete the journal.
 
     Raises
     ------
     ReadError
-        It is no journal, or holds no row.
+        It is not a journal, or holds no row.
     WriteError
-        The Parquet file is there already.
+        The Parquet file exists.
     MissingDependencyError
         pyarrow is not installed; the journal stays, and `kineme.read` reads it.
     """
@@ -139,9 +139,9 @@ def recover_journal(path: str | os.PathLike[str]) -> Path:
             names = next(csv.reader(file), [])
         if names[:1] != [TIME]:
             raise ReadError(journal, f"is no journal: its first column would be {TIME}")
-        # by their types, as those of empty columns cannot be told
+        # Types are given, as they cannot be inferred from empty columns.
         convert = arrow_csv.ConvertOptions(column_types=dict.fromkeys(names, pa.float64()))
-        # piece by piece: the rows of a day need not be in memory
+        # In batches, so that the rows of a day need not fit into memory.
         with (
             arrow_csv.open_csv(journal, convert_options=convert) as rows,
             atomic_write(target) as at,
@@ -154,7 +154,7 @@ def recover_journal(path: str | os.PathLike[str]) -> Path:
 
 
 def _cut_last_line(journal: Path) -> None:
-    """Remove what follows the last end of a line."""
+    """Truncate the file after its last line break."""
     with journal.open("r+b") as file:
         size = file.seek(0, os.SEEK_END)
         while size:

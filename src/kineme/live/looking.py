@@ -1,9 +1,8 @@
-"""Looks at the recent past: segments with the cluster numbers of the stream.
+"""Segment the recent past of a stream, with the cluster numbers of the stream.
 
-The recent past is segmented as a recording of its own, by the method that files are segmented by.
-Clusters of one look are those of the look before with which they share most seconds. A cluster
-that shares none is compared with examples of older clusters: these are put before the recent past
-and both are segmented together.
+The recent past is segmented like a file. A cluster takes the number of the cluster of the last look
+with which it shares most seconds. A cluster that shares none is compared with examples of older
+clusters: the examples are put before the recent past, and both are segmented together.
 """
 
 from __future__ import annotations
@@ -25,16 +24,16 @@ from kineme.segments.segmentation import Segmentation
 from kineme.transfer.clusters import keep_numbers, list_spans
 
 EXAMPLE_S = 8.0
-"""Seconds of an activity that stand for its cluster."""
+"""Seconds of an activity that are kept as the example of its cluster."""
 MOST_EXAMPLES = 12
-"""Clusters that are recognised after they have left the recent past: the latest ones."""
+"""Number of examples that are kept: those of the latest clusters."""
 LEAST_S = 1.0
-"""Seconds that must be recorded before anything is looked at."""
+"""Seconds that must be recorded before the recent past is segmented."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """What the values of a frame are: channels by their names, or x, y, z of each joint."""
+    """Meaning of the values of a frame: named channels, or x, y, z of each joint."""
 
     fps: float
     channels: tuple[str, ...] = ()
@@ -42,7 +41,7 @@ class Layout:
 
     @property
     def n_values(self) -> int:
-        """Return how many numbers a frame has."""
+        """Return the number of values in a frame."""
         return len(self.channels) if self.skeleton is None else 3 * self.skeleton.n_joints
 
     def make_recording(self, values: Floats, missing: Masks) -> Motion | Signals:
@@ -55,10 +54,10 @@ class Layout:
 
 
 def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
-    """Return options for looks at the recent past.
+    """Return the options for segmenting the recent past.
 
-    Of the method's views the first is taken: a choice that may change from one look to the next
-    would make other clusters of the same rows, and takes most of the time.
+    Only the first view of the method is used. Choosing among views takes most of the time, and the
+    choice could change from one look to the next, and with it the clusters of the same rows.
     """
     preset = options.resolved(signals=signals)
     if isinstance(preset, KinemeConstants):
@@ -68,7 +67,7 @@ def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
 
 @dataclass
 class RecentPast:
-    """Last frames of a stream, and what is remembered of those before.
+    """The last frames of a stream, and examples of earlier clusters.
 
     Attributes
     ----------
@@ -76,12 +75,12 @@ class RecentPast:
     options : SegmentOptions
         How the recent past is segmented; see `choose_options`.
     start : int
-        Its first frame.
+        First frame of the recent past.
     values, missing : (frames, values) and (frames,) arrays
     examples : dict of int to (frames, values) array
-        Of clusters, the one that was seen last at the end.
+        Example of each cluster, in the order in which clusters were seen last.
     known : (spans, 3) array
-        First frame, frame after the last and cluster of what the last look found.
+        First frame, frame after the last, and cluster of the segments of the last look.
     """
 
     layout: Layout
@@ -98,7 +97,7 @@ class RecentPast:
         self._blocks.append((values, missing))
 
     def collect(self) -> None:
-        """Bring the frames that were added into one array."""
+        """Concatenate the frames that were added."""
         if self._blocks:
             values, missing = zip(*self._blocks, strict=True)
             before = [self.values] if len(self.values) else []
@@ -107,7 +106,7 @@ class RecentPast:
             self._blocks = []
 
     def drop_before(self, frame: int) -> None:
-        """Forget what lies before a frame."""
+        """Drop the frames before a given one."""
         self.collect()
         dropped = min(max(0, frame - self.start), len(self.values))
         self.values, self.missing = self.values[dropped:], self.missing[dropped:]
@@ -152,7 +151,7 @@ class RecentPast:
         return Look(activities, primitives)
 
     def keep_example(self, row: Row) -> None:
-        """Remember the middle of an activity for its cluster."""
+        """Keep the middle of an activity as the example of its cluster."""
         self.collect()
         half = round(EXAMPLE_S * self.layout.fps / 2)
         middle = (row.start + row.stop) // 2
@@ -160,7 +159,7 @@ class RecentPast:
         last = min(row.stop, middle + half) - self.start
         values = self.values[first : max(last, first)][~self.missing[first : max(last, first)]]
         before = self.examples.pop(row.cluster, values)
-        # the latest one, unless it is much shorter
+        # The latest example, unless it is much shorter than the one before.
         kept = values if len(values) >= len(before) / 2 else before
         if len(kept):
             self.examples[row.cluster] = kept.copy()
@@ -174,21 +173,21 @@ class RecentPast:
             return segment_with_options(recording, self.options, details=(DEFAULT_DETAIL,))[0]
 
     def _known_spans(self, finals: Finals) -> Ints:
-        """Spans of clusters in the recent past: final ones, and beyond those of the last look."""
+        """Return final spans of clusters in the recent past, followed by those of the last look."""
         final = [row for row in finals.last_activities(self.start) if row.cluster >= 0]
         coming = self.known[self.known[:, 1] > finals.frontier].copy()
         coming[:, 0] = np.maximum(coming[:, 0], finals.frontier)
         return np.concatenate([np.array(final, np.int64).reshape(-1, 3), coming])
 
     def _recognise(self, found: Segmentation, unseen: list[int], taken: set[int]) -> dict[int, int]:
-        """Return the numbers of clusters that are segmented together with an older example."""
+        """Return the numbers of clusters that are one cluster with an older example."""
         examples = {k: rows for k, rows in self.examples.items() if k not in taken}
         if not examples:
             return {}
         parts, missing, spans, first = [], [], {}, 0
         for number, rows in examples.items():
             spans[number] = slice(first, first + len(rows))
-            # a frame that is missing keeps two examples apart
+            # A missing frame separates two examples.
             parts += [rows, rows[-1:]]
             missing += [np.zeros(len(rows), np.bool_), np.ones(1, np.bool_)]
             first += len(rows) + 1
@@ -196,16 +195,16 @@ class RecentPast:
             np.concatenate([*parts, self.values]), np.concatenate([*missing, self.missing])
         ).per_frame(level="activity")
         here = found.per_frame(level="activity")
-        owners = {_mode(together[span]): number for number, span in spans.items()}
+        owners = {_find_mode(together[span]): number for number, span in spans.items()}
         recognised: dict[int, int] = {}
         for local in unseen:
-            owner = owners.pop(_mode(together[first:][here == local]), None)
+            owner = owners.pop(_find_mode(together[first:][here == local]), None)
             if owner is not None:
                 recognised[local] = owner
         return recognised
 
 
-def _mode(clusters: Ints) -> int:
-    """Return the cluster of most frames; -2 if there is none."""
+def _find_mode(clusters: Ints) -> int:
+    """Return the most frequent cluster; -2 if there is none."""
     active = clusters[clusters >= 0]
     return int(np.bincount(active).argmax()) if len(active) else -2

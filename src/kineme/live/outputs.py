@@ -1,6 +1,6 @@
 """Send events to other programs: websocket, OSC, Lab Streaming Layer.
 
-`OUTPUTS` is the registry: each output is an option of ``kineme live``.
+Each entry of `OUTPUTS` is an option of ``kineme live``.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ CLOSING_S = 2.0
 
 @dataclass(frozen=True)
 class Output:
-    """Describe an output.
+    """An output and its option.
 
     Attributes
     ----------
     open : callable
-        Takes the value of the option; returns a context that gives the function that sends.
+        From the value of the option to a context manager whose value is a `Send` function.
     help, metavar : str
-        Of the option.
+        Help text and placeholder of the option.
     type : type
-        Of its value.
+        Type of its value.
     """
 
     open: Callable[[Any], AbstractContextManager[Send]]
@@ -64,8 +64,8 @@ def open_lsl(name: str) -> Iterator[Send]:
 def open_osc(target: str) -> Iterator[Send]:
     """Send events as OSC messages to HOST:PORT.
 
-    The address is ``/kineme/Repetition`` and so on; the arguments are the attributes of the event
-    in the order of its JSON.
+    The address is ``/kineme/`` and the name of the event; the arguments are the attributes of the
+    event in the order of its JSON.
     """
     with require_extra("python-osc", "osc"):
         from pythonosc.udp_client import SimpleUDPClient
@@ -89,7 +89,7 @@ def open_osc(target: str) -> Iterator[Send]:
 
 @contextmanager
 def open_websocket(port: int) -> Iterator[Send]:
-    """Send events as JSON to all who are connected to a port of this machine."""
+    """Send events as JSON to all clients that are connected to a port of this machine."""
     import asyncio
 
     with require_extra("websockets", "websocket"):
@@ -97,7 +97,7 @@ def open_websocket(port: int) -> Iterator[Send]:
     loop = asyncio.new_event_loop()
 
     async def start() -> Server:
-        # None: programs that are no web pages name no origin
+        # None: programs other than browsers send no origin.
         return await serve(ServerConnection.wait_closed, HOST, port, origins=[None, OWN_PAGES])
 
     try:

@@ -1,6 +1,6 @@
-"""Where rows come from: lines of text, a recording that is replayed, Lab Streaming Layer, OSC.
+"""Sources of rows: lines of text, a replayed recording, Lab Streaming Layer, OSC.
 
-A source yields `Rows`, empty ones while nothing comes.
+A source yields `Rows`, which are empty while nothing arrives.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ from kineme.recordings.times import UNITS_OF_TIME, as_seconds, find_time_unit, i
 
 T = TypeVar("T")
 WAIT_S = 0.2
-"""Seconds after which a source says that nothing came."""
+"""Seconds after which a source yields empty rows if nothing arrives."""
 AHEAD = 1000
-"""Lines that are read ahead, at most."""
+"""Largest number of lines that are read ahead."""
 PIECE_S = 0.1
 """Seconds of a recording that are replayed at once."""
 TIMED_ROWS = 50
-"""Rows from which the rate of a source is taken that does not tell it."""
+"""Number of rows from which the rate of a source is measured if it does not state it."""
 FOUND_S = 10.0
-"""Seconds for which a stream of LSL is looked for."""
+"""Seconds to wait for an LSL stream."""
 BONE = "/VMC/Ext/Bone/Pos"
 UNUSED = ("/OK", "/T", "/Apply")
-"""Ends of OSC addresses that carry no measurement."""
+"""Endings of OSC addresses that carry no measurement."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Rows (rows, channels), their seconds if they have any, and remarks on them."""
+    """Rows (rows, channels), their times in seconds if known, and remarks for the user."""
 
     values: Floats
     seconds: Floats | None = None
@@ -51,16 +51,16 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """Rows that come, and what is known of them.
+    """A source of rows.
 
     Attributes
     ----------
     fps : float
-        0 if it does not tell; see `measure_rate`.
+        Frames per second; 0 if unknown, see `measure_rate`.
     channels : tuple of str
     rows : iterator of Rows
     skeleton : Skeleton, optional
-        Of a motion, whose channels are x, y and z of its joints.
+        Skeleton, if the channels are x, y and z of its joints.
     """
 
     fps: float
@@ -70,7 +70,7 @@ class Source:
 
 
 def replay(recording: Motion | Signals, speed: float = 1.0) -> Source:
-    """Return a recording as a source, so many times as fast as it was; 0: without any wait."""
+    """Return a recording as a source at a multiple of its speed; 0: without waiting."""
     skeleton = recording.skeleton if isinstance(recording, Motion) else None
     values = recording.values if isinstance(recording, Signals) else recording.positions
     frames = np.array(values, np.float64).reshape(len(values), -1)
@@ -96,8 +96,8 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
     """Return lines of CSV or JSON as a source.
 
     The first line of a CSV names the channels, or is a row of numbers. Each line of JSON is an
-    object of numbers by channel, or a list of them. ``columns`` are the channels to take, by
-    patterns. Lines that are no such row are left out with a remark.
+    object of numbers by channel, or a list of numbers. ``columns`` are patterns of the channels to
+    use. Invalid lines are dropped with a remark.
     """
     queue: Queue[str | None] = Queue(AHEAD)
 
@@ -125,7 +125,7 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
 
 
 def _drain(queue: Queue[T]) -> list[T]:
-    """Return all that is in a queue; wait a little if nothing is."""
+    """Return all items in a queue; wait up to `WAIT_S` for the first."""
     found: list[T] = []
     try:
         found.append(queue.get(timeout=WAIT_S))
@@ -137,7 +137,7 @@ def _drain(queue: Queue[T]) -> list[T]:
 
 
 class _Parser:
-    """What the first line tells of the others."""
+    """Parser of lines; their layout is that of the first line."""
 
     def __init__(self, first: str, columns: Sequence[str]) -> None:
         self.is_json = first.lstrip()[:1] in ("{", "[")
@@ -163,7 +163,7 @@ class _Parser:
         self.unit = None if self.time is None else find_time_unit(self.names[self.time])
 
     def parse(self, lines: Sequence[str]) -> Rows:
-        """Return the rows in lines."""
+        """Parse lines into rows."""
         rows, seconds, wrong = [], [], 0
         for line in lines:
             if not line.strip():
@@ -189,7 +189,7 @@ class _Parser:
         return json.loads(line) if self.is_json else next(csv.reader([line]))
 
     def _seconds(self, cell: Any) -> float:
-        """Return a time in seconds; a number without a unit as it is."""
+        """Return a time in seconds; numbers without a unit are unchanged."""
         try:
             return _number(cell) / UNITS_OF_TIME[self.unit or "s"]
         except ValueError:
@@ -216,7 +216,7 @@ def receive_lsl(name: str) -> Source:
     Raises
     ------
     ParameterError
-        There is none.
+        There is no such stream.
     MissingDependencyError
         pylsl is not installed.
     """
@@ -253,8 +253,8 @@ def receive_lsl(name: str) -> Source:
 def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
     """Return OSC messages, such as those of VMC, as a source.
 
-    Messages of different addresses are one row, until an address comes again. Of the bones of VMC
-    the rotations are taken. The channels are those of the first whole row.
+    Messages with different addresses form one row, until an address repeats. Bones of VMC
+    contribute their rotations. The channels are those of the first complete row.
     """
     with require_extra("python-osc", "osc"):
         from pythonosc.dispatcher import Dispatcher
@@ -279,7 +279,7 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
     dispatcher.set_default_handler(take)
     server = BlockingOSCUDPServer((host, port), dispatcher)
     Thread(target=server.serve_forever, daemon=True).start()
-    queue.get()  # it may have begun within a row
+    queue.get()  # the first row may be incomplete
     first = queue.get()
     channels = tuple(first[1])
 
@@ -300,9 +300,9 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
 
 
 def measure_rate(source: Source) -> Source:
-    """Return the source with the rate of its first rows, by their times.
+    """Return the source with the rate measured from the times of its first rows.
 
-    Raises ParameterError if they have none, or are too few.
+    Raises ParameterError if there are no times, or too few rows.
     """
     begun: list[Rows] = []
     count = 0

@@ -1,4 +1,4 @@
-"""State of a stream, and as a file: an NPZ of its arrays, with everything else as JSON in it."""
+"""State of a stream, in memory and as a file: NPZ with its arrays, and the rest as JSON inside."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ Settings = dict[str, Any]
 
 
 @dataclass
-class Told:
-    """Activity that was announced last, and how many repetitions of it."""
+class Announced:
+    """The activity that was announced last, and how many of its repetitions were."""
 
     start: int = 0
     cluster: int = -1
@@ -33,19 +33,19 @@ class Told:
 
 @dataclass
 class StreamState:
-    """All that changes in a stream.
+    """Everything that changes in a stream.
 
     Attributes
     ----------
     intake, finals, past
-        Rows that are no frames yet, what is final, and the recent past.
+        Rows that are not frames yet, final segments, and the recent past.
     before : Look, optional
-        The last look.
-    told : Told
+        Result of the last segmentation of the recent past.
+    announced : Announced
     gap : int, optional
-        First frame of a gap that goes on.
+        First frame of the current gap.
     now, next_look : int
-        Frames so far, and how many there are when it is time to look.
+        Number of frames so far, and at which the recent past is segmented next.
     is_timed : bool, optional
         Whether rows have times; None before the first.
     is_finished : bool
@@ -55,7 +55,7 @@ class StreamState:
     finals: Finals
     past: RecentPast
     before: Look | None = None
-    told: Told = field(default_factory=Told)
+    announced: Announced = field(default_factory=Announced)
     gap: int | None = None
     now: int = 0
     next_look: int = 0
@@ -64,7 +64,7 @@ class StreamState:
 
 
 def save_state(state: StreamState, settings: Mapping[str, Any], path: str | PathLike[str]) -> None:
-    """Write a state, and what the stream was made with."""
+    """Write a state and the arguments of the stream."""
     past = state.past
     past.collect()
     intake = {each.name: getattr(state.intake, each.name) for each in fields(Intake)}
@@ -80,7 +80,7 @@ def save_state(state: StreamState, settings: Mapping[str, Any], path: str | Path
         "finals": asdict(state.finals),
         "start": past.start,
         "before": state.before,
-        "told": asdict(state.told),
+        "announced": asdict(state.announced),
         "numbers": {name: getattr(state, name) for name in NUMBERS},
     }
     text = np.frombuffer(json.dumps(content).encode(), np.uint8)
@@ -89,14 +89,14 @@ def save_state(state: StreamState, settings: Mapping[str, Any], path: str | Path
 
 
 def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamState], None]]:
-    """Return what the stream in a file was made with, and what brings another to its state."""
+    """Return the arguments of a saved stream, and a function that restores its state."""
     with translate_read_errors(path):
         try:
             with np.load(path, allow_pickle=False) as file:
                 arrays: dict[str, Any] = {name: file[name] for name in file.files}
             content = json.loads(arrays.pop("content").tobytes())
         except (ValueError, KeyError, AttributeError) as error:
-            raise ReadError(path, "is no stream that kineme saved") from error
+            raise ReadError(path, "is not a stream saved by kineme") from error
     if content.get("schema") != SCHEMA:
         raise ReadError(path, f"is of another version: {content.get('schema')!r:.40}")
 
@@ -118,7 +118,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
         }
         if content["before"] is not None:
             state.before = Look(*([Row(*row) for row in rows] for rows in content["before"]))
-        state.told = Told(**content["told"])
+        state.announced = Announced(**content["announced"])
         for name, value in content["numbers"].items():
             setattr(state, name, value)
 

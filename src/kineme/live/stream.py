@@ -1,4 +1,4 @@
-"""Streams: rows in, events out, while a recording is made."""
+"""Segment a recording while it is made: rows in, events out."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notic
 from kineme.live.finals import Finals, Look, Looks, Row
 from kineme.live.intake import Frames, Hole, Intake, Piece
 from kineme.live.looking import Layout, RecentPast, choose_options
-from kineme.live.state import StreamState, Told, load_state, save_state
+from kineme.live.state import Announced, StreamState, load_state, save_state
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import as_rate
@@ -26,38 +26,38 @@ from kineme.recordings.times import as_seconds
 from kineme.segments.segmentation import Segmentation
 
 PIECE = 1000
-"""Rows that are taken in at once, of many."""
+"""Rows that are processed at once if many are pushed."""
 PART_COUNTED = 0.75
-"""Share of the usual length from which the repetition that goes on is announced."""
+"""Share of the usual length at which the current repetition is announced."""
 
 
 class Stream:
-    """Segments rows while they come.
+    """Segment rows as they arrive.
 
     Parameters
     ----------
     fps : float
-        Frames per second of the stream. Rows with times are brought to this rate.
+        Frames per second of the stream. Rows with times are resampled to this rate.
     channels : sequence of str, optional
         Names of the channels of sensors.
     skeleton : Skeleton, optional
-        Of a body; rows are then the positions of its joints in metres, y up.
+        Skeleton of a body. Rows are then the positions of its joints in metres, y up.
     delay : float
-        Seconds after which what was found is final. A short one is sooner sure, and errs more.
+        Seconds after which a result is final. A shorter delay makes more errors.
     memory : float
-        Seconds of the recent past that are looked at.
+        Seconds of the recent past that are segmented each time.
     interval : float
-        Seconds from one look to the next.
+        Seconds between two segmentations of the recent past.
     known : (recording, segments), optional
-        An earlier result of the same channels or joints. Its clusters keep their numbers and labels
-        where they are recognised.
+        An earlier result with the same channels or joints. Clusters that are recognised keep
+        their numbers and labels.
     **options
-        As `kineme.segment` takes them: ``preset``, ``effectors``, ``emg``, constants of the preset.
+        Options of `kineme.segment`: ``preset``, ``effectors``, ``emg``, constants of the preset.
 
     Raises
     ------
     ParameterError
-        Neither channels nor a skeleton, or both; a value that an option does not take.
+        Neither channels nor a skeleton, or both; an invalid value of an option.
 
     Examples
     --------
@@ -121,25 +121,25 @@ class Stream:
         return f"<Stream of {what} at {self.fps:g} Hz, second {self._state.now / self.fps:.1f}>"
 
     def push(self, values: ArrayLike, times: ArrayLike | None = None) -> list[Event]:
-        """Add rows; return what is to be told.
+        """Add rows; return the new events.
 
         Parameters
         ----------
         values : (channels,), (rows, channels) or (rows, joints, 3) array_like
-            NaN where there is nothing.
+            NaN where a value is missing.
         times : (rows,) array_like, optional
-            When each row was taken: numbers in any unit since any beginning, dates, or texts.
-            Without, rows are frames.
+            Time of each row: numbers in any unit since any origin, dates, or texts.
+            Without times, rows are frames at `fps`.
 
         Returns
         -------
         list of Event
-            The same ones however many rows are pushed at a time.
+            They do not depend on how many rows are pushed at a time.
 
         Raises
         ------
         ParameterError
-            Rows of another shape, or times that are none; the stream goes on without them.
+            Rows of the wrong shape, or invalid times. The stream continues without them.
         """
         if self._state.is_finished:
             raise ParameterError("the stream was finished: make another one")
@@ -162,7 +162,7 @@ class Stream:
         return events
 
     def _as_rows(self, values: ArrayLike) -> Floats:
-        """Return rows (rows, values), NaN for what is not finite."""
+        """Return rows as a (rows, values) array, with NaN for every value that is not finite."""
         rows, n_values = as_floats(values, "rows"), self.layout.n_values
         joints = self.layout.skeleton and (self.layout.skeleton.n_joints, 3)
         if not rows.size:
@@ -173,7 +173,7 @@ class Stream:
         return np.where(np.isfinite(rows), rows, np.nan).reshape(-1, n_values)
 
     def finish(self) -> list[Event]:
-        """End the stream; return the last events, all of them final."""
+        """End the stream; return the last events, which are all final."""
         if self._state.is_finished:
             return []
         events = self._absorb(self._state.intake.finish())
@@ -193,17 +193,17 @@ class Stream:
         return self._state.is_finished
 
     def frames(self, first: int = 0) -> tuple[int, Floats]:
-        """Return the frames of the recent past from one on.
+        """Return the frames of the recent past from a given frame on.
 
         Parameters
         ----------
         first : int
-            Number of a frame of the stream.
+            Frame of the stream.
 
         Returns
         -------
         first : int
-            A later one where frames before it are forgotten.
+            The first frame that is returned: a later one if older frames were dropped.
         frames : (frames, values) array
             NaN where nothing was recorded.
 
@@ -223,7 +223,7 @@ class Stream:
 
     @property
     def segmentation(self) -> Segmentation:
-        """Return the table of what is final; the activity that goes on ends where it does.
+        """Return the segments that are final; the current activity ends at the last final frame.
 
         Raises ParameterError while nothing is final.
         """
@@ -246,7 +246,7 @@ class Stream:
         )
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all that the stream needs to go on, as one file.
+        """Write the state of the stream to one file.
 
         Raises WriteError if it cannot be written.
         """
@@ -269,9 +269,9 @@ class Stream:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """Return the stream in a file, which goes on as if it had never stopped.
+        """Return the stream that `save` wrote; it continues where it was.
 
-        Raises ReadError if the file is none of a stream.
+        Raises ReadError if the file holds no stream.
         """
         settings, fill = load_state(path)
         options = options_from_json(SegmentOptions, settings.pop("options"))
@@ -284,7 +284,7 @@ class Stream:
         return max(1, round(seconds * self.fps))
 
     def _absorb(self, pieces: Sequence[Piece]) -> list[Event]:
-        """Take frames and holes in, and look whenever it is time to."""
+        """Add frames and holes; segment the recent past whenever the interval is over."""
         events: list[Event] = []
         for piece in pieces:
             if isinstance(piece, str):
@@ -311,7 +311,7 @@ class Stream:
                 self._state.next_look = self._state.now + self._frames(self.interval)
 
     def _skip(self, hole: Hole, events: list[Event]) -> None:
-        """Leave a hole behind that is longer than the recent past."""
+        """Skip a hole that is longer than the recent past."""
         events += self._settle()
         self._watch_gaps(np.ones(1, np.bool_), events)
         self._state.now += hole.n_frames
@@ -321,7 +321,7 @@ class Stream:
         self._state.next_look = self._state.now + self._frames(self.interval)
 
     def _watch_gaps(self, missing: Masks, events: list[Event]) -> None:
-        """Tell when gaps begin, and when they are over."""
+        """Add events for gaps that begin or end."""
         edges = np.flatnonzero(np.diff(missing, prepend=self._state.gap is not None))
         for edge in edges.tolist():
             if missing[edge]:
@@ -338,7 +338,7 @@ class Stream:
             self._state.gap = None
 
     def _look(self) -> list[Event]:
-        """Look at the recent past; return what became final, and what is new."""
+        """Segment the recent past; return events for what became final and what is new."""
         look = self._state.past.look(self._state.finals)
         horizon = self._state.now - self._frames(self.delay)
         events = self._advance(look, self._state.before, horizon)
@@ -348,14 +348,14 @@ class Stream:
         return events
 
     def _settle(self) -> list[Event]:
-        """Make final all that there is."""
+        """Make everything final."""
         events: list[Event] = []
         if self._state.now > self._state.finals.frontier:
             events = self._advance(self._state.past.look(self._state.finals), None, self._state.now)
         over = len(self._state.finals.activities)
         events += self._state.finals.close(self._state.now, self._state.now / self.fps)
         self._keep_examples(over)
-        self._state.told = Told()
+        self._state.announced = Announced()
         return events
 
     def _advance(self, look: Look, before: Look | None, horizon: int) -> list[Event]:
@@ -371,23 +371,23 @@ class Stream:
                 self._state.past.keep_example(row)
 
     def _announce(self, look: Look, events: list[Event]) -> None:
-        """Tell what goes on, as far as it was not told."""
-        finals, told, current = self._state.finals, self._state.told, look.activities[-1]
+        """Add provisional events for the current activity that were not announced before."""
+        finals, announced, current = self._state.finals, self._state.announced, look.activities[-1]
         at_s, label = self._state.now / self.fps, finals.labels.get(current.cluster, "")
         begin_s = current.start / self.fps
-        if current.cluster != told.cluster:
-            if told.cluster >= 0:
+        if current.cluster != announced.cluster:
+            if announced.cluster >= 0:
                 ended = ActivityEnded(
                     at_s=at_s,
                     state="provisional",
-                    start_s=told.start / self.fps,
+                    start_s=announced.start / self.fps,
                     stop_s=begin_s,
-                    cluster=told.cluster,
-                    repetitions=told.n_repetitions,
-                    label=finals.labels.get(told.cluster, ""),
+                    cluster=announced.cluster,
+                    repetitions=announced.n_repetitions,
+                    label=finals.labels.get(announced.cluster, ""),
                 )
                 events.append(ended)
-            told = self._state.told = Told(current.start, current.cluster)
+            announced = self._state.announced = Announced(current.start, current.cluster)
             if current.cluster >= 0:
                 started = ActivityStarted(
                     at_s=at_s,
@@ -406,12 +406,12 @@ class Stream:
         if len(coming) + n_final < 2:  # a single one may be the activity itself
             return
         for number, row in enumerate(coming, n_final + 1):
-            if number > told.n_repetitions:
+            if number > announced.n_repetitions:
                 events.append(finals.repetition(row, number, at_s, state="provisional"))
-        told.n_repetitions = max(told.n_repetitions, n_final + len(coming))
+        announced.n_repetitions = max(announced.n_repetitions, n_final + len(coming))
 
     def _remember(self, recording: Motion | Signals, segments: Segmentation) -> None:
-        """Take examples and labels of the clusters of an earlier result."""
+        """Store examples and labels of the clusters of an earlier result."""
         check_type(segments, Segmentation, "known", "kineme.segment(recording) gives one")
         skeleton = self.layout.skeleton
         values = recording.values if isinstance(recording, Signals) else recording.positions
@@ -434,24 +434,24 @@ class Stream:
 
 
 def as_keywords(options: SegmentOptions) -> dict[str, Any]:
-    """Return options as a stream takes them."""
+    """Return options as keyword arguments of `Stream`."""
     own = {name: value for name, value in vars(options).items() if name != "constants"}
     return {**own, **options.constants}
 
 
 def _as_numbers(times: ArrayLike) -> Floats:
-    """Return times as numbers: dates and texts in seconds, numbers in whatever unit they have."""
+    """Return times as numbers: dates and texts in seconds, numbers unchanged."""
     given = np.atleast_1d(np.asarray(times))
     try:
         if given.dtype.kind in "iuf":
             return given.astype(np.float64)
         return np.asarray(as_seconds(given)[0], np.float64)
     except (ValueError, TypeError) as error:
-        raise ParameterError(f"the times are none: {error}") from None
+        raise ParameterError(f"invalid times: {error}") from None
 
 
 def _drop_incomplete(rows: list[Row], now: int) -> list[Row]:
-    """Return repetitions without the one that goes on, unless it lasts about as long as others."""
+    """Return repetitions without the current one, unless it is about as long as the others."""
     if not rows or rows[-1].stop < now:
         return rows
     lengths = [float(row.stop - row.start) for row in rows[:-1]]
