@@ -12,7 +12,7 @@ from kineme.studio.http import bodies
 
 
 def test_a_request_that_does_not_go_on_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bodies, "SLOWEST", 0.05)
+    monkeypatch.setattr(bodies, "CHUNK_TIMEOUT_S", 0.05)
     pieces: list[dict[str, Any]] = [{"type": "http.request", "body": b"{", "more_body": True}]
 
     async def receive() -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""``kineme transfer``: labels from a knowledge base for the primitives of recordings."""
+"""``kineme transfer``: label the primitives of recordings from a knowledge base."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def transfer(
 
     bases = []
     for path in knowledge:
-        with failures.caught(path):
+        with failures.catch_errors(path):
             bases.append(KnowledgeBase.load(path))
     failures.exit()
     base = KnowledgeBase.merged(*bases)
@@ -87,7 +87,7 @@ def transfer(
     if threshold is not None:
         options["threshold"] = threshold
     for path, table in zip(batch.paths, tables, strict=True):
-        with batch.caught(path):
+        with batch.catch_errors(path):
             check_writable(table)
             with batch.progress(path) as stage:
                 stage("reading")
@@ -108,10 +108,10 @@ def _label_segments(
     options: dict[str, Any],
     stage: Progress,
 ) -> Segmentation:
-    """Return the segments of a recording, labelled."""
+    """Segment a recording and return its segments with labels."""
     from kineme.transfer import transfer_features, transfer_labels
 
-    found = load_or_find_segments(motion, None, segment_options, stage)
+    segments = load_or_find_segments(motion, None, segment_options, stage)
     stage("labels")
     features = transfer_features(motion, effectors=segment_options.effectors)
-    return transfer_labels(found, features, base, **options)
+    return transfer_labels(segments, features, base, **options)

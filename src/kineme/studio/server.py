@@ -1,4 +1,4 @@
-"""Server: a socket of this machine, a token, one line with the address, and a clean end."""
+"""Server: a local socket, an access token, the printed address, and a clean shutdown."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.security import DEVELOPMENT, Guard, HeadersInTime, make_token
+from kineme.studio.http.security import DEVELOPMENT, Guard, HeaderTimeoutProtocol, make_token
 
 if TYPE_CHECKING:
     from kineme.formats import ReadOptions
@@ -27,18 +27,18 @@ if TYPE_CHECKING:
 
 HOST = "127.0.0.1"
 PORT = 8750
-TRIES = 20
-"""Ports after the first that are tried if it is in use."""
-PATIENCE = 2
-"""Seconds that requests have to end in after Ctrl+C."""
-PAGE_FIRST = 5.0
-"""Seconds that a page has to list a folder in before code is made ready beside it."""
-HEAD_START = 10.0
-"""Seconds before the code of the published methods, which are rarely used, is made ready."""
+PORT_ATTEMPTS = 20
+"""Number of ports that are tried, from `PORT` on."""
+SHUTDOWN_S = 2
+"""Time that running requests get after Ctrl+C."""
+PAGE_WAIT_S = 5.0
+"""Time that a page gets to list a folder before compiled code is loaded."""
+PUBLISHED_DELAY_S = 10.0
+"""Delay before the code of the published methods is loaded, since they are rarely used."""
 
 
 class Server(uvicorn.Server):
-    """A server that ends the streams of news first when it is told to stop."""
+    """Server that ends the event streams first when it shuts down."""
 
     def __init__(self, config: uvicorn.Config, hub: Hub):
         super().__init__(config)
@@ -76,7 +76,7 @@ def serve(
         announce(address)
         if browser:
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
-        # The browser starts meanwhile; its first request waits in the socket.
+        # Import after the browser was started; its first request waits in the socket.
         from kineme.studio.app import create_app
         from kineme.studio.folder import Folder
         from kineme.studio.http.bodies import remove_abandoned_drafts
@@ -107,7 +107,7 @@ def serve(
 
 
 def make_server_config(app: Guard) -> uvicorn.Config:
-    """Return how an application is served: plain HTTP, and nothing said of it."""
+    """Return the server settings: plain HTTP on this machine, without logs."""
     return uvicorn.Config(
         app,
         log_level=logging.ERROR,
@@ -115,21 +115,21 @@ def make_server_config(app: Guard) -> uvicorn.Config:
         server_header=False,
         ws="none",
         proxy_headers=False,
-        timeout_graceful_shutdown=PATIENCE,
-        http=HeadersInTime,
+        timeout_graceful_shutdown=SHUTDOWN_S,
+        http=HeaderTimeoutProtocol,
     )
 
 
 def open_socket(port: int | None) -> socket.socket:
-    """Return a socket of this machine alone; ParameterError where the port is in use, or not one.
+    """Return a listening socket on this machine; ParameterError if the port is in use or invalid.
 
-    None is the first free port from 8750, 0 any.
+    ``port`` None takes the first free port from 8750 on, 0 any free port.
     """
     if port is not None and not 0 <= port < 2**16:
         raise ParameterError(f"the port is a number from 0 to 65535, not {port}")
-    for number in range(PORT, PORT + TRIES) if port is None else [port]:
+    for number in range(PORT, PORT + PORT_ATTEMPTS) if port is None else [port]:
         opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-        if os.name == "posix":  # elsewhere it would let two servers share a port
+        if os.name == "posix":  # on Windows it would let two servers share a port
             opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             opened.bind((HOST, number))
@@ -139,24 +139,23 @@ def open_socket(port: int | None) -> socket.socket:
             reason = error.strerror
             continue
         return opened
-    ports = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
+    ports = f"{PORT} to {PORT + PORT_ATTEMPTS - 1} are" if port is None else f"{port} is"
     raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
 
 
 def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:
-    """Open the only recording, which every page shows, and load or build the compiled code.
+    """Open the recording of a folder with only one, and load or build the compiled code.
 
-    What fails once the server has ended is not said: an interpreter that ends lets nobody start
-    threads.
+    Exceptions during shutdown are ignored: the interpreter cannot start threads then.
     """
     try:
         names = list(recordings.folder.recordings())
         if len(names) == 1:
             recordings.prepare(names)
         else:
-            hub.listened.wait(PAGE_FIRST)
+            hub.has_listener.wait(PAGE_WAIT_S)
         load_compiled_code(ended)
-    except KinemeError:  # it will be said where it matters
+    except KinemeError:  # the request for it will report it
         return
     except Exception:
         if not ended.is_set():
@@ -164,7 +163,7 @@ def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> Non
 
 
 def load_compiled_code(ended: threading.Event) -> None:
-    """Show and segment the bundled recording; by the default preset first."""
+    """Display and segment the bundled recording, by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read_motion
     from kineme.methods.presets import DEFAULT, PUBLISHED
@@ -174,6 +173,6 @@ def load_compiled_code(ended: threading.Event) -> None:
     motion = read_motion(bundled_recording())
     make_page_data(motion)
     segment(motion, preset=DEFAULT)
-    if not ended.wait(HEAD_START):
+    if not ended.wait(PUBLISHED_DELAY_S):
         for name in PUBLISHED:
             segment(motion, preset=name)

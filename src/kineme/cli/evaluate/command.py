@@ -1,4 +1,4 @@
-"""Options of ``kineme evaluate``, and which of its kinds of run they ask for."""
+"""Options of ``kineme evaluate``, and the choice of what to evaluate."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def evaluate(
 ) -> None:
     """Score segments of a file, folder or benchmark against labels."""
     failures = Failures()
-    with failures.caught(what):
+    with failures.catch_errors(what):
         _check_output(output)
         names = [*split_names(*(method or ()))]
         if what != BENCHMARK and Path(what).is_dir():
@@ -194,7 +194,7 @@ def _output_records(
 
 
 def _load_benchmark() -> Callable[..., list[dict[str, Any]]]:
-    """Return what runs the benchmark: it comes with a package of its own, which names it."""
+    """Return the function that runs the benchmark, from the package that registers it."""
     from importlib.metadata import entry_points
 
     for point in entry_points(group="kineme.benchmarks", name=BENCHMARK):
@@ -206,7 +206,7 @@ def _load_benchmark() -> Callable[..., list[dict[str, Any]]]:
 
 
 def _check_output(output: Path | None) -> None:
-    """WriteError before the work for what could not be written after it."""
+    """Raise WriteError for an output that cannot be written, before any work is done."""
     if output is None:
         return
     from kineme.evaluation.score import OUTPUTS

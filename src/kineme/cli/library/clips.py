@@ -1,4 +1,4 @@
-"""``kineme library split`` and ``coverage``: clips of all recordings, and what there is of them."""
+"""``kineme library split`` and ``coverage``: clips of all recordings, and their variety."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ def split(
         with open_library(folder) as library:
             typer.echo(library.split(cluster, recordings))
         return
-    place = output or Path(f"{folder.name}_loops")
+    target = output or Path(f"{folder.name}_loops")
     with open_library(folder) as library:
-        clips = library.loops(place, best=best, per=per, **clip_options)
-        typer.echo(f"{format_count(len(clips), 'clip')} in {place}")
+        clips = library.loops(target, best=best, per=per, **clip_options)
+        typer.echo(f"{format_count(len(clips), 'clip')} in {target}")
 
 
 def coverage(folder: Folder, json: Json = False) -> None:
@@ -61,8 +61,8 @@ def coverage(folder: Folder, json: Json = False) -> None:
     with open_library(folder) as library:
         covered = library.coverage()
         if json:
-            for each in covered:
-                typer.echo(dumps(each._asdict()))
+            for row in covered:
+                typer.echo(dumps(row._asdict()))
             return
         from rich.text import Text
 
@@ -72,18 +72,18 @@ def coverage(folder: Folder, json: Json = False) -> None:
         table = make_table(
             "cluster", "label", "direction", "clips", "seconds", "m/s", "turn °", "starts", "stops"
         )
-        for each in covered:
-            turns = [f"{each.left_deg:.0f} left"] * (each.left_deg >= 1)
-            turns += [f"{each.right_deg:.0f} right"] * (each.right_deg >= 1)
+        for row in covered:
+            turns = [f"{row.left_deg:.0f} left"] * (row.left_deg >= 1)
+            turns += [f"{row.right_deg:.0f} right"] * (row.right_deg >= 1)
             table.add_row(
-                format_cluster(each.cluster),
-                Text(each.label),
-                each.direction,
-                str(each.clips),
-                f"{each.seconds:.1f}",
-                f"{each.slowest_m_s:.1f}-{each.fastest_m_s:.1f}",
+                format_cluster(row.cluster),
+                Text(row.label),
+                row.direction,
+                str(row.clips),
+                f"{row.seconds:.1f}",
+                f"{row.slowest_m_s:.1f}-{row.fastest_m_s:.1f}",
                 ", ".join(turns),
-                str(each.starts),
-                str(each.stops),
+                str(row.starts),
+                str(row.stops),
             )
         Console(highlight=False).print(table)

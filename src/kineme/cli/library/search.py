@@ -1,4 +1,4 @@
-"""``kineme library search``: where recordings are like an example."""
+"""``kineme library search``: find movements that are similar to an example."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _SPAN = re.compile(r"(?P<name>.+)@(?P<start>[0-9.]+)-(?P<stop>[0-9.]+)")
 SPAN = "RECORDING[@START-STOP]"
-SOUGHT = "What is sought"
+QUERY = "What is sought"
 
 
 def search(
@@ -28,34 +28,34 @@ def search(
     like: Annotated[
         list[str] | None,
         option(
-            SOUGHT,
+            QUERY,
             "An example: a recording, or the name of one in the library, and the seconds of "
             "it that count. May be given again: what is like any of them is found.",
             metavar=SPAN,
         ),
     ] = None,
     start: Annotated[
-        float, option(SOUGHT, "Where a single --like starts.", metavar="SECONDS")
+        float, option(QUERY, "Where a single --like starts.", metavar="SECONDS")
     ] = 0.0,
     stop: Annotated[
-        float | None, option(SOUGHT, "Where it stops.", metavar="SECONDS", show_default="its end")
+        float | None, option(QUERY, "Where it stops.", metavar="SECONDS", show_default="its end")
     ] = None,
     cluster: Annotated[
         str | None,
         option(
-            SOUGHT,
+            QUERY,
             "Search for what is typical of a cluster, by its number or name.",
             metavar="NAME",
         ),
     ] = None,
     unlike: Annotated[
         list[str] | None,
-        option(SOUGHT, "Leave out what is more like this; may be given again.", metavar=SPAN),
+        option(QUERY, "Leave out what is more like this; may be given again.", metavar=SPAN),
     ] = None,
     mirror: Annotated[
         bool,
         option(
-            SOUGHT,
+            QUERY,
             "Bodies: search for it with left and right exchanged, too.",
             "--mirror/--no-mirror",
         ),
@@ -132,12 +132,12 @@ def search(
 
 
 def _parse_example(text: str) -> Example:
-    """Return a recording and its span, as typed; one whose name looks like that is itself."""
-    found = None if Path(text).exists() else _SPAN.fullmatch(text)
-    if found is None:
+    """Parse ``RECORDING@START-STOP``; an existing file of that name is taken as a whole."""
+    match = None if Path(text).exists() else _SPAN.fullmatch(text)
+    if match is None:
         return _make_example(text, 0.0, None)
     try:
-        return _make_example(found["name"], float(found["start"]), float(found["stop"]))
+        return _make_example(match["name"], float(match["start"]), float(match["stop"]))
     except ValueError as error:
         raise typer.BadParameter(f"{text!r} is not {SPAN}") from error
 
