@@ -20,5 +20,5 @@ def test_a_request_that_does_not_go_on_is_given_up(monkeypatch: pytest.MonkeyPat
             await asyncio.sleep(60)
         return pieces.pop()
 
-    with pytest.raises(bodies.TooSlowError, match="nothing came for 0.05 s"):
+    with pytest.raises(bodies.TooSlowError, match="no data arrived for 0.05 s"):
         asyncio.run(bodies.read_body(Request({"type": "http"}, receive)))

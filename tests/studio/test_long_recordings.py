@@ -61,7 +61,7 @@ def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatc
     assert shown.finding
     assert [row.kind for row in shown.segmentation.segments] == ["transition"]
     split = EditRequest(revision=shown.revision, edit=Split(level="activity", frame=100))
-    with pytest.raises(ParameterError, match="still being found"):
+    with pytest.raises(ParameterError, match="still being segmented"):
         recordings.edit(name, split)
     wanted.set()
     assert told.get(timeout=600) == (name, shown.revision + 1)
@@ -149,7 +149,7 @@ def test_a_large_file_shows_some_of_its_poses_while_it_is_read(large_take):
     assert few.motion.sample_fps == pytest.approx(60 / 15)
     poses = recordings.poses(name, few.motion.n_samples)
     split = EditRequest(revision=few.revision, edit=Split(level="activity", frame=100))
-    with pytest.raises(ParameterError, match="still being found"):
+    with pytest.raises(ParameterError, match="still being segmented"):
         recordings.edit(name, split)
     wanted.set()
     assert told.get(timeout=600)[0] == name

@@ -179,7 +179,7 @@ def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
     asked = ["studio", "--no-browser", str(duet.folder), "--person", "all"]
     done = CliRunner().invoke(app, asked)
     assert done.exit_code == 1
-    assert "--person all is for files" in done.stderr
+    assert "--person all needs file names" in done.stderr
 
 
 def test_names_that_files_cannot_hold() -> None:

@@ -29,7 +29,7 @@ def main() -> None:
             raise
         # The flush at exit must not fail again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.stderr.write(f"error: what is printed cannot be written: {error.strerror}\n")
+        sys.stderr.write(f"error: output cannot be written: {error.strerror}\n")
         sys.exit(1)
 
 

@@ -100,10 +100,9 @@ def convert(
 ) -> None:
     """Convert labels or recordings to another format.
 
-    The suffixes say what is read and written: .bvh, .amc, .glb, .trc, .csv and .npz hold
-    recordings; .fbx is read only.
-    Signals keep the columns of their file, or those that --columns names. For labels that hold
-    seconds only, --fps is the frame rate of their recording.
+    The suffixes select the formats: .bvh, .amc, .glb, .trc, .csv and .npz hold recordings; .fbx can
+    only be read. Signals keep the columns of their file, or those in --columns. For labels with
+    times in seconds only, --fps is the frame rate of their recording.
     """
     if len(files) < 2:
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")

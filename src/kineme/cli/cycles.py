@@ -65,7 +65,7 @@ def cycles(
         str | None,
         option(
             MEASUREMENT,
-            "What to measure, as in knee_*,trunk_lean; see kineme info --channels.",
+            "Channels to measure, such as knee_*,trunk_lean; see kineme info --channels.",
             metavar="NAME,NAME,…",
         ),
     ] = None,
@@ -82,7 +82,7 @@ def cycles(
         Literal["linear", "landmarks", "warp"],
         option(
             MEASUREMENT,
-            "Bring curves in step: linear, landmarks or warp.",
+            "Align curves: linear, landmarks or warp.",
             metavar="HOW",
             show_default=False,
         ),
@@ -101,7 +101,7 @@ def cycles(
     ] = False,
     common: Annotated[
         bool,
-        option(MEASUREMENT, "Tables (--segments) number their clusters in common.", "--common"),
+        option(MEASUREMENT, "Cluster numbers in --segments tables are shared.", "--common"),
     ] = False,
     segments: SegmentTable = None,
     recursive: Recursive = False,
@@ -122,7 +122,7 @@ def cycles(
     if compare is not None and len(batch.paths) != 2 and read_options.person != ALL:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     if common and segments is None:
-        reason = "is for tables whose clusters have numbers in common: give them with --segments"
+        reason = "needs tables that share cluster numbers: give them with --segments"
         raise typer.BadParameter(reason, param_hint="--common")
     parts: list[_Part] = []
     batch.tables("--segments", segments)  # fail early if there are none

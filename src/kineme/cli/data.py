@@ -55,7 +55,7 @@ def data(
 ) -> None:
     """Download public recordings.
 
-    What broke off is continued; what is there already is checked and kept.
+    Interrupted downloads are resumed; existing files are checked and kept.
 
     For example: kineme data cmu 86 --trials 1,2
     """

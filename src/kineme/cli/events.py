@@ -50,24 +50,26 @@ def events(
         option(OUTPUT, f"Write the spans from each event to the next as labels: {TABLES}."),
     ] = None,
     c3d: Annotated[
-        Path | None, option(OUTPUT, "Of a C3D: write a copy of it that has the events, too.")
+        Path | None, option(OUTPUT, "Write a copy of a C3D file with the events.")
     ] = None,
     left: Annotated[
         str | None,
         option(
             FEET,
-            "Channels of the left foot, as in lf_gyr_*: three axes of its gyroscope, or the "
-            "upright force under it. By their names by default.",
+            "Channels of the left foot, such as lf_gyr_*: three axes of its gyroscope, or the "
+            "vertical force under it; by default found by name.",
             metavar="NAME",
         ),
     ] = None,
-    right: Annotated[str | None, option(FEET, "Those of the right foot.", metavar="NAME")] = None,
+    right: Annotated[
+        str | None, option(FEET, "Channels of the right foot.", metavar="NAME")
+    ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
     """Find foot contacts and measure the gait.
 
-    From the positions of heel and toe, from gyroscopes at the feet, or from the force under them.
+    Uses the positions of heel and toe, gyroscopes on the feet, or the force under them.
     """
     from kineme.cycles.events import foot_events, strides
     from kineme.cycles.events import gait as gait_of

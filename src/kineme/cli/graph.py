@@ -39,18 +39,20 @@ def graph(
         float,
         option(
             METHOD,
-            "Metres by which joints may be apart, on average, where one primitive is "
-            "followed by another.",
+            "Largest mean distance of joints in metres where one primitive is followed by another.",
         ),
     ] = 0.08,
     window: Annotated[
-        float, option(METHOD, "Seconds that are compared and blended there.", show_default="0.33")
+        float,
+        option(
+            METHOD, "Seconds that are compared and blended at a transition.", show_default="0.33"
+        ),
     ] = 1 / 3,
     keep_dead_ends: Annotated[
         bool,
         option(
             METHOD,
-            "Keep primitives after which nothing, or not all, can follow.",
+            "Keep primitives that lead to a dead end.",
             "--keep-dead-ends",
         ),
     ] = False,
@@ -59,8 +61,8 @@ def graph(
 ) -> None:
     """Find primitives that can follow each other.
 
-    Primitives are single movements, such as a step or a jump. What is written is a motion graph,
-    of which `kineme synthesize` makes new motion.
+    Primitives are single movements, such as a step or a jump. The output is a motion graph, from
+    which `kineme synthesize` makes new motion.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments, read_options.person or "")

@@ -34,7 +34,7 @@ def label(
         Path,
         option(
             INPUT,
-            "Their labels: a segment table, or a label file of another program; of several "
+            "Labels: a segment table, or a label file of another program; of several "
             "recordings a folder, or a path with {name} in it.",
             metavar="TABLE",
         ),
@@ -48,10 +48,10 @@ def label(
 ) -> None:
     """Add labelled primitives to a knowledge base.
 
-    Primitives are single movements, such as a step or a jump. A knowledge base is a file of them
-    with their names, by which `kineme transfer` labels other recordings. Where the labels name
-    whole activities only, the recording is cut into primitives first. What the knowledge base
-    held of a recording is replaced.
+    Primitives are single movements, such as a step or a jump. A knowledge base is a file of named
+    primitives, from which `kineme transfer` labels other recordings. If the labels name whole
+    activities only, the recording is segmented into primitives first. Earlier entries of a
+    recording are replaced.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--labels", labels, read_options.person or "")

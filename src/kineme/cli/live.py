@@ -49,7 +49,7 @@ def live(
     segment_options: SegmentOptions,
     outputs: dict[str, Any],
     replay: Annotated[Path | None, option(INPUT, "Replay this recording.")] = None,
-    speed: Annotated[float, option(INPUT, "So many times as fast; 0: without a wait.")] = 1.0,
+    speed: Annotated[float, option(INPUT, "Speed factor of --replay; 0: no delay.")] = 1.0,
     lsl: Annotated[
         str | None,
         option(INPUT, "Take an LSL stream, by name or type.", metavar="NAME"),
@@ -58,12 +58,12 @@ def live(
         int | None,
         option(INPUT, "Take OSC, such as VMC, at this UDP port.", metavar="PORT"),
     ] = None,
-    osc_host: Annotated[str, option(INPUT, "The address for that, 0.0.0.0 for any.")] = "127.0.0.1",
+    osc_host: Annotated[str, option(INPUT, "Address for --osc; 0.0.0.0 for any.")] = "127.0.0.1",
     delay: Annotated[
-        float, option(METHOD, "Seconds after which what was found is final.", min=0.1)
+        float, option(METHOD, "Seconds after which segments are final.", min=0.1)
     ] = 5.0,
     interval: Annotated[
-        float, option(METHOD, "Seconds from one look at the recent past to the next.", min=0.1)
+        float, option(METHOD, "Seconds between two analyses of the recent past.", min=0.1)
     ] = 2.0,
     output: Annotated[
         Path | None,
@@ -71,11 +71,11 @@ def live(
     ] = None,
     record: Annotated[
         Path | None,
-        option(OUTPUT, "Keep the rows: NAME.journal.csv grows, NAME.parquet is there at the end."),
+        option(OUTPUT, "Save the rows in NAME.journal.csv, at the end in NAME.parquet."),
     ] = None,
     recover: Annotated[
         Path | None,
-        option(OUTPUT, "Make a Parquet file of a journal that a killed run left, and end."),
+        option(OUTPUT, "Convert the journal of a killed run to Parquet, then exit."),
     ] = None,
     page: Annotated[
         bool, option(OUTPUT, "Show it in the browser, until Ctrl+C.", "--page")
@@ -85,8 +85,8 @@ def live(
 ) -> None:
     """Segment and count while a recording is made.
 
-    Rows come as lines of CSV or JSON on standard input, unless another source is given. What is
-    found at once is provisional, and final after --delay. Ctrl+C ends the recording.
+    Rows are read as CSV or JSON from standard input, unless another source is given. Results are
+    provisional at first and final after --delay. Ctrl+C ends the recording.
 
     For example: sensor | kineme live --fps 100 --record take
     """

@@ -47,9 +47,8 @@ def pose(
 ) -> None:
     """Estimate the poses of people in videos.
 
-    The poses of VIDEO are kept in VIDEO.poses.parquet beside it, where other commands take them
-    from: kineme segment VIDEO. What was interrupted goes on where it ended. Everything happens on
-    this machine.
+    The poses of VIDEO are saved in VIDEO.poses.parquet beside it, where other commands find them:
+    kineme segment VIDEO. An interrupted run is resumed. Everything happens on this machine.
 
     For example: kineme pose squats.mp4 --output poses.parquet
     """

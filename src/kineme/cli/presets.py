@@ -31,8 +31,8 @@ def presets(
     """List the presets, or the constants of one.
 
     A preset is a method with a value for each of its constants. `kineme segment --preset NAME`
-    takes another, `--set NAME=VALUE` changes a constant. To a file or pipe, constants are written
-    one on each line, with tabs.
+    selects another preset, `--set NAME=VALUE` changes a constant. In a file or pipe, each constant
+    is one line with tabs.
     """
     if name is None:
         width = max(map(len, PRESETS))

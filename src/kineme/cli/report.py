@@ -40,7 +40,7 @@ def report(
 ) -> None:
     """Write a web page that plays a recording and its segments.
 
-    One file with everything in it: it needs neither a server nor a network.
+    The page is a single file that needs neither a server nor a network.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")

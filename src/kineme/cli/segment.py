@@ -74,10 +74,10 @@ def segment(
 ) -> None:
     """Cut recordings into activities and repeated primitives.
 
-    An activity is one kind of movement for a while, such as walking; a transition leads from one
-    to the next. Primitives are the movements that an activity repeats, such as each double step.
-    What is alike has the same cluster number. With --person all each of the people in a recording
-    is segmented, and results are called after them.
+    An activity is one kind of movement for a while, such as walking; a transition leads from one to
+    the next. Primitives are the movements that an activity repeats, such as each double step.
+    Segments with the same cluster number are the same movement. With --person all, each person in a
+    recording is segmented separately; names of results include the person.
 
     For example: kineme segment walk.bvh --output walk.csv --plot walk.png
     """

@@ -96,7 +96,7 @@ def split(
     for name in ("sheet", "motion_matching"):
         if clip_options[name] is not None and len(batch.paths) > 1:
             hint = f"--{name.replace('_', '-')}"
-            raise typer.BadParameter("is of one recording only", param_hint=hint)
+            raise typer.BadParameter("takes one recording only", param_hint=hint)
     for path, folder in zip(batch.paths, folders, strict=True):
         if read_options.take == ALL and folder.suffix and not folder.is_dir():
             # All takes of a file become animations of one output file.

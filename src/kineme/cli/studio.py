@@ -57,9 +57,8 @@ def studio(
 ) -> None:
     """See and correct segments in the browser.
 
-    The page is served on this machine alone; presets and their constants are chosen there.
-    Corrections are kept in NAME.segments.json beside each recording, from one edit to the next.
-    Ctrl+C ends it.
+    The page is served on this machine only; presets and constants are selected there. Corrections
+    are saved in NAME.segments.json beside each recording after every edit. Ctrl+C stops the server.
     """
     failures = Failures()
     with failures.catch_errors("studio"):
@@ -74,7 +73,9 @@ def studio(
         library = None
         if recordings is None and (root / HEAD).is_file():
             if are_given(context, OPTIONS):
-                raise ParameterError(f"{root} is a library, read as it was built: no such options")
+                raise ParameterError(
+                    f"{root} is a library, which is read as it was built: leave out these options"
+                )
             from kineme.studio.library import ShownLibrary
 
             library = ShownLibrary(root)
@@ -93,7 +94,7 @@ def studio(
 def _split_people(recordings: list[Path] | None, options: ReadOptions) -> None:
     """Make each person in the named files a separate recording."""
     if recordings is None:
-        raise ParameterError("--person all is for files: name them, or choose in the page")
+        raise ParameterError("--person all needs file names: give them, or choose in the page")
     from kineme.studio.folder import Folder
     from kineme.studio.open_recordings import OpenRecordings
     from kineme.studio.storage.sidecars import read_saved_options

@@ -12,7 +12,7 @@ from kineme.cli.messages import Failures, show_progress
 from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
-CONTENT = "What is to be played"
+CONTENT = "New motion"
 
 
 def synthesize(
@@ -25,7 +25,7 @@ def synthesize(
         option(
             CONTENT,
             "Labels or cluster numbers in order, as in walk,run*3,jump; "
-            "with --path those that may be played, without counts.",
+            "with --path the allowed ones, without counts.",
             metavar="NAME*COUNT,…",
         ),
     ] = None,
@@ -33,22 +33,21 @@ def synthesize(
         str | None,
         option(
             CONTENT,
-            "A line on the floor to follow, metres, as in 0,0;3,0;3,3.",
+            "Line on the floor to follow, in metres, such as 0,0;3,0;3,3.",
             metavar="X,Z;X,Z;…",
         ),
     ] = None,
     tolerance: Annotated[
-        float, option(CONTENT, "Metres that the figure may get away from that line.")
+        float, option(CONTENT, "Largest distance from that line in metres.")
     ] = 0.5,
     duration: Annotated[
         float | None,
         option(
             CONTENT,
-            "Seconds of any primitives that can follow each other, drawn by chance, in place "
-            "of actions.",
+            "Seconds of motion from randomly drawn primitives, instead of actions.",
         ),
     ] = None,
-    seed: Annotated[int, option(CONTENT, "Another number draws other primitives.", min=0)] = 0,
+    seed: Annotated[int, option(CONTENT, "Seed of the random draw.", min=0)] = 0,
     quiet: Quiet = False,
 ) -> None:
     """Make new motion from a motion graph.

@@ -26,8 +26,8 @@ CONFIDENCE_NOTE = "sure %: how probable it is that the number of repetitions is 
 TEXT_COLUMNS = ("kind", "cluster", "label", "recording", "example")
 """Columns without numbers, aligned left."""
 _NOTHING_FOUND = (
-    "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
-    "seconds --set min_action=0.5 or --preset krueger2017 may tell more"
+    "no activity found: nothing stays similar or repeats for long enough; for a recording of a few "
+    "seconds --set min_action=0.5 or --preset krueger2017 may find more"
 )
 
 

@@ -43,13 +43,14 @@ def transfer(
         float | None,
         option(
             METHOD,
-            "How different a movement may be from one that is known, from 0 to 2; lower "
-            "gives fewer labels, more of them right.",
+            "Largest distance to a known movement, 0 to 2; lower "
+            "gives fewer but more reliable labels.",
             show_default="0.85",
         ),
     ] = None,
     spread: Annotated[
-        bool, option(METHOD, "Give all of a cluster the label that most of it got.", "--spread")
+        bool,
+        option(METHOD, "Give a whole cluster the label of most of its primitives.", "--spread"),
     ] = False,
     output: Annotated[
         Path | None,

@@ -96,7 +96,7 @@ def write_report(
             data.binary,
             tiles,
             _make_curves(recording, data),
-            CycleCurves(lambda: source).report(segmentation, others),
+            CycleCurves(lambda: source).make_report(segmentation, others),
             keypoints,
         )
         draft.write_text(page, encoding="utf-8")

@@ -97,7 +97,7 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
     )
     if not any(len(sides) > 1 for sides in labelled.values()):
         reason = f": {failures[0]}" if failures else ""
-        raise ParameterError(f"there is no recording of which two of them have labels{reason}")
+        raise ParameterError(f"no recording has labels by two of them{reason}")
     result = annotator_agreement(labelled)
     ids = {text: entry.id for path, entry in listed.items() for text in (str(path), path.name)}
     return Agreement(
@@ -157,7 +157,7 @@ def _select_annotators(recordings: OpenRecordings, chosen: Sequence[str]) -> lis
     """Return the annotators with these ids; numbers are added to names that occur twice."""
     available = find_annotators(recordings)
     if not set(chosen) <= available.keys():
-        raise UnknownError("one of these people has no labels any more; look who there is now")
+        raise UnknownError("one of these people has no labels any more: reload the list")
     annotators: dict[str, Annotator] = {}
     for annotator in (available[name] for name in dict.fromkeys(chosen)):
         name, number = annotator.name, 2

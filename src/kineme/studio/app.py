@@ -114,12 +114,14 @@ def _answer_disconnect(_: Request, __: Exception) -> Response:
 
 def _answer_http_error(_: Request, error: Exception) -> Response:
     status = error.status_code if isinstance(error, HTTPException) else 500
-    reason = "this address takes other methods" if status == 405 else "there is nothing here"
+    reason = (
+        "this address does not accept this method" if status == 405 else "there is nothing here"
+    )
     return _make_failure(reason, status)
 
 
 def _answer_unexpected_error(_: Request, __: Exception) -> Response:
-    return _make_failure("the server failed; its terminal says how", 500)
+    return _make_failure("the server failed: see its terminal for details", 500)
 
 
 def _make_failure(reason: str, status: int) -> Response:

@@ -118,7 +118,7 @@ def make_clip_archive(
     """Return name and bytes of a ZIP with a motion file for each of these rows of the table."""
     table, stem = opened.table, _choose_stem(opened)
     if not rows or not all(0 <= row < len(table) for row in rows):
-        raise ParameterError("choose the segments to write: some of these are not in the table")
+        raise ParameterError("choose the segments to export: some of these are not in the table")
     clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
     archive = _write_to_bytes(stem, lambda to: write_clips(clips, to / stem, loops=loops))
     return _name_download(stem, "loops" if loops else "clips", archive)

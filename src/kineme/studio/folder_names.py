@@ -24,7 +24,9 @@ def rename_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> Table
     ParameterError if the cluster had no name before.
     """
     if not sent.before:
-        raise ParameterError("the cluster had no name before, by which others would be known")
+        raise ParameterError(
+            "the cluster had no name before: only named clusters can be renamed elsewhere"
+        )
     changed, left = 0, []
     for name, listed in recordings.folder.recordings().items():
         table_path = find_table_path(listed)

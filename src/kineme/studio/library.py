@@ -106,7 +106,7 @@ class ShownLibrary:
             if self._tables is None:
                 self._tables = LibraryTables(library)
             tables = self._tables
-        return tables.of(path)
+        return tables.find_table(path)
 
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
         """Return the options for reading and segmenting its recordings."""
@@ -197,7 +197,7 @@ class ShownLibrary:
             else None
         )
         if cluster is None:
-            raise ParameterError(f"cluster {sent.cluster} is none of the library")
+            raise ParameterError(f"cluster {sent.cluster} is not a cluster of the library")
         self.edit(CallCluster(cluster=cluster, name=sent.label))
         recordings.refresh_tables()
         return self.update_tables(recordings, names=False)

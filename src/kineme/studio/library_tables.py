@@ -59,7 +59,7 @@ class LibraryTables:
             if not is_remote(path)
         }
 
-    def of(self, path: Path) -> Segmentation | None:
+    def find_table(self, path: Path) -> Segmentation | None:
         """Return the table of the recording in a file; None if the library has none."""
         facts = self._facts.get(path.absolute())
         if facts is None or facts[0] not in self._rows:
@@ -88,9 +88,9 @@ class LibraryTables:
 
 
 def match_library_clusters(table: Segmentation, library_table: Segmentation) -> dict[int, int]:
-    """Return the library cluster of each cluster of a table, where there is one.
+    """Match the clusters of a table to those of the library; return numbers by cluster.
 
-    It is the one in which most frames of the cluster lie.
+    A match is the library cluster in which most frames of the cluster lie.
     """
     votes: dict[int, Counter[int]] = {}
     for rows, library_rows in (

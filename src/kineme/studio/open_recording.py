@@ -43,8 +43,8 @@ from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 Found = tuple[Segmentation, list[str]]
 FIRST_WAIT_S = 3.0
 """Time that a page waits for segments; the first segmentation also compiles code."""
-STILL_FINDING = "the segments are still being found: try again once they are"
-CHANGED = "the table was changed elsewhere meanwhile: look at it as it is now, and edit it again"
+STILL_FINDING = "the recording is still being segmented: try again later"
+CHANGED = "the table has been changed elsewhere: look at it, then edit it again"
 
 
 class ConflictError(Exception):

@@ -82,14 +82,15 @@ class OpenRecordings:
         present = self._open.get(name)
         if present is not None and not present.loaded.has_changed():
             return present
-        listed = self.listed(name)
+        listed = self.find_listed(name)
         with self._opening.setdefault(name, threading.Lock()):
+            # Another thread may have opened it meanwhile.
             present = self._open.get(name)
             if present is None or present.loaded.has_changed():
                 return self._open_recording(listed, present)
             return present
 
-    def listed(self, name: str) -> ListedRecording:
+    def find_listed(self, name: str) -> ListedRecording:
         """Return the recording with this id, opened or not; UnknownError if it is not listed."""
         return _find_or_raise(self.folder.recordings(), name, "recording")
 
@@ -113,7 +114,7 @@ class OpenRecordings:
         """Drop page data of the least recently used recordings."""
         with self._lock:
             self._recently_used[name] = None
-            # The first name is thus the one asked for longest ago.
+            # Keep the names in order of use, the oldest first.
             self._recently_used.move_to_end(name)
             while len(self._recently_used) > MAX_PICTURES:
                 oldest, _ = self._recently_used.popitem(last=False)
@@ -142,7 +143,7 @@ class OpenRecordings:
         """Return the sketch of a large recording, and start to read it; None if it is read."""
         if name in self._open:
             return None
-        listed = self.listed(name)
+        listed = self.find_listed(name)
         return self._sketcher.open(
             listed,
             lambda sketch: self._run_in_background(lambda: self._open_sketched(name, sketch)),
@@ -152,7 +153,7 @@ class OpenRecordings:
         """Read a recording that is shown as a sketch, then tell the pages to reload."""
         revision = SKETCH_REVISION + 1  # any new revision makes the page reload
         with suppress(KinemeError, UnknownError):
-            self._cache.read(self.listed(name))
+            self._cache.read(self.find_listed(name))
             if self._sketcher.forget_closed(sketch):
                 return
             opened = self.get(name)
@@ -239,7 +240,7 @@ class OpenRecordings:
         its own table, which stays as it is. Options that are not set keep the general value.
         KinemeError if the file cannot be read so; nothing changes then.
         """
-        listed = self.listed(name)
+        listed = self.find_listed(name)
         changed, person = self._reader.change_options(listed, options, everybody=everybody)
         entries = [
             entry for entry in self.folder.recordings().values() if entry.path == listed.path
@@ -299,5 +300,5 @@ class OpenRecordings:
 
 def _find_or_raise(files: dict[str, File], name: str, what: str) -> File:
     if name not in files:
-        raise UnknownError(f"there is no such {what}; it may have been taken away")
+        raise UnknownError(f"there is no such {what}; it may have been removed")
     return files[name]

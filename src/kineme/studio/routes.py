@@ -179,7 +179,7 @@ class Api:
         from kineme.transfer import KnowledgeBase
 
         if not sent.recordings:
-            raise ParameterError("choose the recordings whose names it is to know")
+            raise ParameterError("choose the recordings whose names go into the knowledge base")
         bases = []
         for name in sent.recordings:
             opened = self._recordings.get(name)
@@ -258,9 +258,9 @@ class Api:
         if other_id:
             other = self._recordings.get(other_id)
             others = other.loaded.cycle_curves(), other.table
-            message = curves.beside(opened.table, cluster, channel, *others)
+            message = curves.compare_with(opened.table, cluster, channel, *others)
         else:
-            message = curves.of(opened.table, cluster, channel)
+            message = curves.make_curves(opened.table, cluster, channel)
         if message is None:
             raise UnknownError("there are no such repetitions, or no such channel")
         return message
@@ -353,7 +353,7 @@ class Api:
         return loops.make_played_loop(self._get_opened(request), *_parse_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
-        path = find_video(self._recordings.listed(request.path_params["id"]).path)
+        path = find_video(self._recordings.find_listed(request.path_params["id"]).path)
         if path is None:
             raise UnknownError("there is no video of that name beside the recording")
         return FileResponse(path, media_type=VIDEO_TYPES.get(path.suffix.lower()))
@@ -361,7 +361,7 @@ class Api:
     def keypoints(self, request: Request) -> Response:
         picture = self._get_opened(request).loaded.picture()
         if picture is None:
-            raise UnknownError("these poses are not those of a video")
+            raise UnknownError("these poses do not come from a video")
         return Response(picture.binary, media_type=BINARY)
 
     def offset(self, request: Request, sent: VideoRequest) -> VideoRequest:
@@ -379,7 +379,7 @@ class Api:
     def estimate(self, _: Request, sent: PosesRequest) -> PosesProgress:
         if missing := lacks_estimator():
             raise ParameterError(missing)
-        listed = [self._recordings.listed(name) for name in sent.recordings]
+        listed = [self._recordings.find_listed(name) for name in sent.recordings]
         return self._poses.start(each for each in listed if needs_poses(each.path))
 
     async def stop_estimating(self, _: Request) -> Response:

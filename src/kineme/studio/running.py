@@ -30,7 +30,7 @@ STAGE_SHARES: Mapping[str, Mapping[str, float]] = {
 """Share of the total time by preset and stage, in order: medians over an hour of motion."""
 IDLE = Progress(stage="", share=None)
 READING = Progress(stage="reading the file", share=None)
-CANCELLING = Progress(stage="cancelled: it comes to its end", share=None)
+CANCELLING = Progress(stage="cancelled: stopping", share=None)
 
 
 class CancelledError(KinemeError):

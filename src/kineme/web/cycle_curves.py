@@ -110,7 +110,9 @@ class CycleCurves:
                     )
             return list(self._heads.values())
 
-    def of(self, table: Segmentation, cluster: int, channel: str = "") -> ClusterCurves | None:
+    def make_curves(
+        self, table: Segmentation, cluster: int, channel: str = ""
+    ) -> ClusterCurves | None:
         """Return the curves of a cluster.
 
         None if there are no such repetitions or no such channel. The default channel is the one
@@ -130,7 +132,7 @@ class CycleCurves:
                 group, name, MAX_CYCLES, _compute_means(group, ends=ends)[name], ends=ends
             )
 
-    def beside(
+    def compare_with(
         self,
         table: Segmentation,
         cluster: int,
@@ -144,7 +146,7 @@ class CycleCurves:
         """
         from kineme.cycles.comparison import compare_curves
 
-        message = self.of(table, cluster, channel)
+        message = self.make_curves(table, cluster, channel)
         if message is None or message.channel not in {head.name for head in other.channels()}:
             return message
         cycles, other_cycles = self._find_common_cycles(table, other, other_table)
@@ -172,7 +174,7 @@ class CycleCurves:
             ),
         )
 
-    def report(self, table: Segmentation, others: Sequence[Segmentation] = ()) -> ReportCurves:
+    def make_report(self, table: Segmentation, others: Sequence[Segmentation] = ()) -> ReportCurves:
         """Return curves of all clusters for a report, limited to what fits into the page.
 
         ``others`` are the tables at other details, ignored for long recordings.
@@ -381,7 +383,7 @@ def _measure_range(values: Floats) -> float:
 
 def _compute_means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
     """Return the mean curve of each channel."""
-    # The table has the points of the first channel, then those of the next.
+    # The table lists all points of a channel before those of the next one.
     tidy, points = group.mean_curves(ends=ends), group.curves.shape[2]
     return {
         channel: {name: tidy[name][place * points : (place + 1) * points] for name in tidy}

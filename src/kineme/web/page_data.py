@@ -62,7 +62,7 @@ def make_page_data(
         warned = [str(note) for note in recording.provenance.warnings]
         return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
     if fps is None:
-        raise ParameterError("an array does not tell its frame rate: give fps")
+        raise ParameterError("an array has no frame rate: give fps")
     matrix = compare_frames_of_signal(recording, fps)
     return PageData(len(np.asarray(recording)), float(fps), None, b"", matrix)
 

@@ -46,8 +46,8 @@ def evaluate(
         list[Path] | None,
         option(
             FOLDER,
-            "What people say of the recordings: a table with recording, start_s, stop_s, "
-            "label; or a folder of label files. Several: how far people agree.",
+            "Labels of the recordings: a table with recording, start_s, stop_s, "
+            "label; or a folder of label files. Repeat to measure agreement.",
             metavar="FILE|FOLDER",
         ),
     ] = None,
@@ -63,8 +63,7 @@ def evaluate(
         int | None,
         option(
             FOLDER,
-            "With --mapping folder: join the clusters of signals into so many; found out by "
-            "default.",
+            "With --mapping folder: number of clusters of signals; inferred by default.",
             metavar="N",
             min=1,
         ),
@@ -121,7 +120,7 @@ def evaluate(
     ] = None,
     figures: Annotated[
         Path | None,
-        option(BENCH, "Make the figures and tables of the paper anew.", metavar="FOLDER"),
+        option(BENCH, "Make the figures and tables of the paper.", metavar="FOLDER"),
     ] = None,
     output: Annotated[
         Path | None, option(OUTPUT, "Write all scores: .json or .csv.", "--output", "-o")
@@ -146,7 +145,7 @@ def evaluate(
                 run_people(Path(what), labels, output=output, as_json=as_json, quiet=quiet)
                 raise typer.Exit
             if clusters is not None and mapping != "folder":
-                raise typer.BadParameter("--clusters N is of --mapping folder")
+                raise typer.BadParameter("--clusters N needs --mapping folder")
             from kineme.cli.evaluate.folder import run_folder
 
             scored = run_folder(
@@ -164,7 +163,9 @@ def evaluate(
             )
             raise typer.Exit(0 if scored else 1)
         if constants:
-            raise typer.BadParameter("constants are of a folder of recordings", param_hint=SET)
+            raise typer.BadParameter(
+                "constants can be set for a folder of recordings only", param_hint=SET
+            )
         if what != BENCHMARK:
             if labels and not Path(what).exists():
                 raise ReadError(what, "there is no such folder")

@@ -48,7 +48,7 @@ def run_people(
     for failure in failures:
         typer.echo(escape_controls(failure), err=True)
     if not any(len(sides) > 1 for sides in labelled.values()):
-        raise ReadError(folder, "has no recording of which two people have labels")
+        raise ReadError(folder, "has no recording that two people labelled")
     result = annotator_agreement(labelled)
     if as_json:
         typer.echo(result.to_json())

@@ -69,7 +69,7 @@ def build(
         bool | None,
         option(
             INPUT,
-            "Whether to look into the folders of a folder, too.",
+            "Whether to include subfolders.",
             "--recursive/--flat",
             "-r",
             show_default="as the last time",
@@ -79,8 +79,8 @@ def build(
 ) -> None:
     """Segment a collection and index it for search.
 
-    What is there already is kept, and goes on where it ended. How recordings are read and
-    segmented stays as it was; where an option says otherwise, all are segmented anew.
+    Recordings in the library are kept, and an interrupted build is resumed. Options for reading and
+    segmenting stay as before; if one is changed, all recordings are segmented again.
     """
     failures = Failures()
     processes = jobs or count_threads()

@@ -38,8 +38,8 @@ def split(
     """Write the best loops of each cluster, or split a cluster in two.
 
     For example: kineme library split LIB --best 3 --per cluster -o loops. Near duplicates are left
-    out. With a cluster and recordings the segments of these move to a new cluster, whose number is
-    printed.
+    out. With a cluster and recordings, the segments in these recordings move to a new cluster,
+    whose number is printed.
     """
     if cluster is not None:
         if not recordings:
@@ -57,7 +57,7 @@ def split(
 
 
 def coverage(folder: Folder, json: Json = False) -> None:
-    """Show which directions, speeds and turns there are of each cluster."""
+    """Show the directions, speeds and turns in each cluster."""
     with open_library(folder) as library:
         covered = library.coverage()
         if json:

@@ -100,7 +100,7 @@ def query(
     ],
     json: Json = False,
 ) -> None:
-    """Ask a library in SQL, by DuckDB."""
+    """Query a library in SQL, by DuckDB."""
     with open_library(folder) as library:
         answer = library.query(sql)
         if json:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _SPAN = re.compile(r"(?P<name>.+)@(?P<start>[0-9.]+)-(?P<stop>[0-9.]+)")
 SPAN = "RECORDING[@START-STOP]"
-QUERY = "What is sought"
+QUERY = "Query"
 
 
 def search(
@@ -30,7 +30,7 @@ def search(
         option(
             QUERY,
             "An example: a recording, or the name of one in the library, and the seconds of "
-            "it that count. May be given again: what is like any of them is found.",
+            "it to compare. May be repeated: hits match any of them.",
             metavar=SPAN,
         ),
     ] = None,
@@ -44,19 +44,21 @@ def search(
         str | None,
         option(
             QUERY,
-            "Search for what is typical of a cluster, by its number or name.",
+            "Search for typical movements of a cluster, by number or name.",
             metavar="NAME",
         ),
     ] = None,
     unlike: Annotated[
         list[str] | None,
-        option(QUERY, "Leave out what is more like this; may be given again.", metavar=SPAN),
+        option(
+            QUERY, "Leave out hits that are more similar to this; may be repeated.", metavar=SPAN
+        ),
     ] = None,
     mirror: Annotated[
         bool,
         option(
             QUERY,
-            "Bodies: search for it with left and right exchanged, too.",
+            "Bodies: also search with left and right exchanged.",
             "--mirror/--no-mirror",
         ),
     ] = True,
@@ -64,13 +66,13 @@ def search(
         float | None,
         option(
             OUTPUT,
-            "Largest distance, from 0 to 2; lower finds less, more of it right.",
+            "Largest distance, 0 to 2; lower finds fewer, better hits.",
             show_default="0.85",
         ),
     ] = None,
-    top: Annotated[int, option(OUTPUT, "How many to find, at most.", min=1)] = 50,
+    top: Annotated[int, option(OUTPUT, "Largest number of hits.", min=1)] = 50,
     max_per_recording: Annotated[
-        int | None, option(OUTPUT, "How many in one recording, at most.", min=1)
+        int | None, option(OUTPUT, "Largest number of hits per recording.", min=1)
     ] = None,
     tag: Annotated[
         str | None,
@@ -98,9 +100,7 @@ def search(
     """
     examples = [_parse_example(text) for text in like or ()]
     if (start or stop is not None) and len(examples) != 1:
-        raise typer.BadParameter(
-            f"--start and --stop are of a single --like; give several as {SPAN}"
-        )
+        raise typer.BadParameter(f"--start and --stop need a single --like; give several as {SPAN}")
     if (start or stop is not None) and "@" not in (like or [""])[0]:
         examples = [_make_example(like[0] if like else "", start, stop)]
     if not examples and cluster is None:

@@ -34,9 +34,7 @@ FilesOfFormats = Annotated[
     list[Path],
     typer.Argument(metavar="FILES", help=f"Recordings, or folders of them: {RECORDINGS}."),
 ]
-Recursive = Annotated[
-    bool, option(INPUT, "Look into the folders of a folder, too.", "--recursive", "-r")
-]
+Recursive = Annotated[bool, option(INPUT, "Include subfolders.", "--recursive", "-r")]
 SegmentTable = Annotated[
     Path | None,
     option(

@@ -99,7 +99,9 @@ async def read_chunks(request: Request) -> AsyncIterator[bytes]:
         except StopAsyncIteration:
             return
         except TimeoutError:
-            raise TooSlowError(f"nothing came for {CHUNK_TIMEOUT_S:g} s: send it again") from None
+            raise TooSlowError(
+                f"no data arrived for {CHUNK_TIMEOUT_S:g} s: send it again"
+            ) from None
         yield chunk
 
 
@@ -171,7 +173,7 @@ class Upload:
                 return path
             if _move_if_free(self._draft, path):
                 return path
-        raise WriteError(self._root / self.name, "every name like it is taken")
+        raise WriteError(self._root / self.name, "cannot be stored: all similar names are in use")
 
     def _matches(self, path: Path) -> bool:
         same_size = path.stat().st_size == self._size

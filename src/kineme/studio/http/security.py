@@ -97,7 +97,7 @@ class Guard:
     def _find_refusal(self, scope: MutableMapping[str, Any]) -> str | None:
         """Return why a request is refused; None if it is allowed."""
         if scope["type"] != "http":
-            return "only plain HTTP is spoken here"
+            return "only plain HTTP is supported"
         headers = Headers(scope=scope)
         # Exactly one host header, with a name of this server.
         if headers.getlist("host") not in [[host] for host in self._hosts]:

@@ -98,7 +98,7 @@ def find_saved_table(
             return file, table, notes
         if not of_another(table):
             notes.append(f"{path.name} was left alone: it is the table of another recording")
-    raise WriteError(listed.path, "has no name left for its table")
+    raise WriteError(listed.path, "has no free file name for its table")
 
 
 def list_default_table_paths(listed: ListedRecording) -> list[Path]:
