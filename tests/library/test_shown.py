@@ -141,8 +141,8 @@ def test_hits_are_named_alone_in_the_tables_beside_their_recordings(client, fold
     told = client.post("/api/library/names", json=wanted).json()
     assert told["named"] == 2
     assert [said.split(": ")[1] for said in told["left"]] == [
-        "no segment lies there",
-        "its file is not there",
+        "there is no segment",
+        "its file is missing",
     ]
     named = {hit["name"] for hit in search(client, WALK).json()["hits"][:2]}
     assert named == {"limps"}

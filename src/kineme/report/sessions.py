@@ -39,12 +39,13 @@ MAX_PANELS = {1: 6, 2: 3, 3: 3, 4: 3}
 MAX_PAIRS = {1: 6, 2: 5, 3: 4, 4: 4}
 """Pairs of left and right channels by the number of groups."""
 TIMES = ("duration_s", "cadence_per_min")
+"""Measures at the top of each table."""
 MEASURE_NAMES = {"duration_s": "duration (s)", "cadence_per_min": "repetitions per minute"}
 MISSING = "–"
 EXPLANATION = (
-    "Differences are the second less the first; their bounds hold the true one with a "
-    "confidence of 95 % (by Welch's t), each number by itself: of twenty that did not change, "
-    "one will seem to have."
+    "Differences are the second session minus the first. Their bounds contain the true difference "
+    "with 95 % confidence (Welch's t), for each number separately: about one in twenty unchanged "
+    "numbers will appear changed."
 )
 STYLE = """
 @page { size: A4; margin: 11mm 13mm; }
@@ -217,7 +218,7 @@ def _format_numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
         ]  # fmt: skip
         lines.append(f"<tr{' class=clear' if clear else ''}>{_format_cells(cells)}</tr>")
     heads = ["", *sheet.names, "difference", "95 %", "changed"]
-    counts = " → ".join(_format_group_count(each, group) for each in sheet.sessions)
+    counts = " → ".join(_format_group_count(cycles, group) for cycles in sheet.sessions)
     duration = _find_row(sheet, group, "duration_s")
     used = " and ".join(f"{duration[f'{session}_n']:.0f}" for session in ("first", "second"))
     return (
@@ -254,7 +255,7 @@ def _format_pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
         f'<i style="color: {SECOND}"></i>{second}</p>\n<div class="curves">\n'
         + "\n".join(figures)
         + '\n</div>\n<p class="quiet">Mean ± standard deviation over the cycle, in per cent. A bar '
-        "below: there the bounds of the difference leave out 0.</p>"
+        "below marks where the bounds of the difference exclude 0.</p>"
     )
 
 
@@ -323,7 +324,7 @@ def _format_footer(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
     if len(groups) > MAX_GROUPS:
         omitted.append(f"{format_count(len(groups) - MAX_GROUPS, 'group')} with fewer repetitions")
     if channels > n_channels:
-        omitted.append(f"{format_count(channels - n_channels, 'channel')} that changed less surely")
+        omitted.append(f"{format_count(channels - n_channels, 'channel')} with less clear changes")
     more = f"Not shown: {', '.join(omitted)}; a table has them (--compare NAME.csv). "
     return f"{more if omitted else ''}Made by kineme {__version__}."
 

@@ -46,9 +46,9 @@ def export_download(opened: OpenRecording, kind: str, level: Level | None) -> tu
     """
     loaded, table, stem = opened.loaded, opened.table, _choose_stem(opened)
     if kind == CLIPS:
-        motion, of_level = loaded.motion, level or "activity"
-        file = _write_to_bytes(stem, lambda to: split(motion, table, to / stem, level=of_level))
-        return _name_download(stem, _describe_content(kind, of_level), file)
+        motion, clip_level = loaded.motion, level or "activity"
+        file = _write_to_bytes(stem, lambda to: split(motion, table, to / stem, level=clip_level))
+        return _name_download(stem, _describe_content(kind, clip_level), file)
     if kind == REPORT:
         name = opened.listed.name
         own_recording = drop_other_people(loaded.recording)
@@ -99,16 +99,18 @@ def make_table_file(
     if label_format is None or label_format.write is None:
         raise ParameterError(f"there is no format {name!r:.40}")
     file = f"{stem}{label_format.written_suffix}"
-    of_level = None if label_format.holds == "all" else level
+    written_level = None if label_format.holds == "all" else level
 
     def write(to: Path) -> None:
         folder = to / label_format.folder
         folder.mkdir(exist_ok=True)
-        write_segments(segmentation, folder / file, format=name, level=of_level)
+        write_segments(segmentation, folder / file, format=name, level=written_level)
 
     # A format of one file may write its provenance to a second one, which is left out.
     content = _write_to_bytes(stem, write, None if label_format.several else file)
-    shown_level = "activity" if label_format.holds == "level" and of_level is None else of_level
+    shown_level = (
+        "activity" if label_format.holds == "level" and written_level is None else written_level
+    )
     return _name_download(stem, _describe_content(name, shown_level), content)
 
 

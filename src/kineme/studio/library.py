@@ -135,8 +135,8 @@ class ShownLibrary:
             folder=str(self._folder.absolute()),
             hours=library.hours,
             recordings=[
-                _describe_recording(name, Path(path), kind, lasts)
-                for name, path, kind, lasts in rows
+                _describe_recording(name, Path(path), vocabulary, duration_s)
+                for name, path, vocabulary, duration_s in rows
             ],
             clusters=_list_clusters(library),
             failed=library.failed,
@@ -237,18 +237,18 @@ class LibraryFolder(Folder):
 
     def __init__(self, library: ShownLibrary):
         super().__init__(_find_common_folder(library.files()), [])
-        self._shown = library
+        self._library = library
 
     def first_table(self, path: Path) -> Segmentation | None:
         """Return the library's table of a recording."""
-        return self._shown.find_table(path)
+        return self._library.find_table(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
         """Return the recordings whose files exist, by id.
 
         A library has only one person of a file.
         """
-        files = [path for path in self._shown.files() if path.is_file()]
+        files = [path for path in self._library.files() if path.is_file()]
         return {
             **{make_file_id(path): ListedRecording(path) for path in files},
             **super().recordings(),
@@ -341,13 +341,13 @@ def name_hits(
     for span, path in hits:
         where = f"{span.recording}, {span.start_s:.2f} to {span.stop_s:.2f} s"
         if path is None:
-            failures.append(f"{where}: its file is not there")
+            failures.append(f"{where}: its file is missing")
             continue
         try:
             opened = recordings.get(make_file_id(path))
             row = find_segment(opened.table, span.start_s, span.stop_s)
             if row is None:
-                failures.append(f"{where}: no segment lies there")
+                failures.append(f"{where}: there is no segment")
                 continue
             if row.label != name:
                 edit = NameSegment(level=row.level, frame=row.start_frame, label=name)

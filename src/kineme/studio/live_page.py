@@ -69,7 +69,7 @@ class LivePage:
         self._events: deque[LiveEvent] = deque(maxlen=MAX_EVENTS)
         self._samples: deque[list[float | None]] = deque(maxlen=round(CURVES_S * CURVE_FPS))
         self._pose: list[float | None] = []
-        self._heard, self._silent_s = monotonic(), 0.0
+        self._last_frame_s, self._silent_s = monotonic(), 0.0
         self._lock = threading.Lock()
 
     def add(self, events: Sequence[dict[str, Any]], first: int, frames: NDArray[Any]) -> None:
@@ -77,13 +77,14 @@ class LivePage:
         with self._lock:
             self._events += [LiveEvent(**{**EVENT_DEFAULTS, **event}) for event in events]
             self._n_events += len(events)
-            self._heard = monotonic() if len(frames) else self._heard
-            self._silent_s = monotonic() - self._heard
+            self._last_frame_s = monotonic() if len(frames) else self._last_frame_s
+            self._silent_s = monotonic() - self._last_frame_s
             if not len(frames):
                 return
-            if first > self.n_frames:
+            if first > self.n_frames:  # frames are missing in between
                 self._samples.clear()
             self.n_frames = first + len(frames)
+            # Every step-th frame of the stream, wherever these frames begin.
             sampled = frames[-first % self._step :: self._step]
             self._n_samples = -(-self.n_frames // self._step)
             if not self._head.bones:
@@ -124,6 +125,7 @@ def _get_last(items: deque[Any], n: int) -> list[Any]:
 
 def _project_pose(pose: NDArray[Any]) -> NDArray[Any]:
     """Return a pose (joints, 2) seen from half left: right and up, centred."""
+    # Rotate by 45 degrees about the vertical axis.
     right = (pose[:, 0] - pose[:, 2]) / np.sqrt(2)
     return np.round(np.column_stack([right - np.nanmean(right), pose[:, 1]]), 3)
 

@@ -36,10 +36,10 @@ if TYPE_CHECKING:
 
 MAX_CYCLES = 150
 """Curves drawn of a group; the mean is over all."""
-FARTHEST, MIN_CYCLES = 3, 6
-"""Number of drawn cycles that are always those farthest from the mean; `MIN_CYCLES` of a group are
-drawn in a report if they fit.
-"""
+FARTHEST = 3
+"""Cycles farthest from the mean that are always drawn."""
+MIN_CYCLES = 6
+"""Cycles of each group in a report for which room is reserved when channels are chosen."""
 MAX_DEFAULT_CHANNELS = 16
 """Channels measured by default, from which the one with the largest range is shown."""
 MAX_CHANNELS = 24
@@ -158,13 +158,13 @@ class CycleCurves:
         name, ends = message.channel, _has_only_ends(group) or _has_only_ends(others)
         first, second = self._add_channels(group, [name]), other._add_channels(others, [name])
         compared = compare_curves(first, second, ends=ends)
-        drawn_message = _make_message(
+        own_message = _make_message(
             first, name, MAX_CYCLES, _compute_means(first, ends=ends)[name], ends=ends
         )
         # One digit more than for single curves.
         digits = _choose_digits(_measure_range(first.curves)) + 1
         return structs.replace(
-            drawn_message,
+            own_message,
             beside=OtherSession(
                 n=int(compared["second_n"][0]),
                 total=len(others),
@@ -194,7 +194,7 @@ class CycleCurves:
                 for group in groups.values():
                     # A group that is the same at several details is sent once.
                     groups_by_key.setdefault(_make_group_key(group), group)
-                numbers = {spans: number for number, spans in enumerate(groups_by_key)}
+                numbers = {key: number for number, key in enumerate(groups_by_key)}
                 tables.append(
                     {str(k): numbers[_make_group_key(group)] for k, group in groups.items()}
                 )
@@ -363,16 +363,12 @@ def _sort_channels_by_range(group: Cycles, all_cycles: Cycles) -> list[str]:
     Ranges without a unit are relative to the range over all cycles.
     """
     means = _compute_means(group, ends=_has_only_ends(group))
-    extents = [
-        _measure_range(means[channel]["mean"])
-        / (
-            1
-            if unit
-            else _measure_range(all_cycles.curves[:, all_cycles.channels.index(channel)]) or 1
-        )
-        for channel, unit in zip(group.channels, group.units, strict=True)
-    ]
-    return [group.channels[place] for place in np.argsort(-np.array(extents), kind="stable")]
+    ranges = []
+    for channel, unit in zip(group.channels, group.units, strict=True):
+        curves = all_cycles.curves[:, all_cycles.channels.index(channel)]
+        scale = 1 if unit else _measure_range(curves) or 1
+        ranges.append(_measure_range(means[channel]["mean"]) / scale)
+    return [group.channels[i] for i in np.argsort(-np.array(ranges), kind="stable")]
 
 
 def _measure_range(values: Floats) -> float:
@@ -384,10 +380,10 @@ def _measure_range(values: Floats) -> float:
 def _compute_means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
     """Return the mean curve of each channel."""
     # The table lists all points of a channel before those of the next one.
-    tidy, points = group.mean_curves(ends=ends), group.curves.shape[2]
+    table, points = group.mean_curves(ends=ends), group.curves.shape[2]
     return {
-        channel: {name: tidy[name][place * points : (place + 1) * points] for name in tidy}
-        for place, channel in enumerate(group.channels)
+        channel: {name: table[name][i * points : (i + 1) * points] for name in table}
+        for i, channel in enumerate(group.channels)
     }
 
 
@@ -424,11 +420,7 @@ def _make_message(
             start_s=float(columns["start_s"][i]),
             stop_s=float(columns["stop_s"][i]),
             counts=bool(counts[i]),
-            note=""
-            if counts[i]
-            else EXCLUDED_BY_HAND
-            if i in by_hand
-            else _explain_exclusion(columns, i),
+            note="" if counts[i] else _explain_exclusion(columns, i),
             distance=None if np.isnan(distance[i]) else round(float(distance[i]), digits),
             values=_round_values(curves[i], digits),
         )
@@ -461,18 +453,16 @@ def _round_values(values: Floats, digits: int) -> list[float | None]:
     return [value if np.isfinite(value) else None for value in values.round(digits).tolist()]
 
 
-def _choose_digits(extent: float) -> int:
+def _choose_digits(value_range: float) -> int:
     """Return the number of decimals that gives `DIGITS` significant digits of this range."""
-    return DIGITS - 1 - floor(log10(extent)) if extent > 0 else DIGITS
+    return DIGITS - 1 - floor(log10(value_range)) if value_range > 0 else DIGITS
 
 
 def _choose_cycles(order: Sequence[int], max_cycles: int, required: set[int]) -> list[int]:
-    """Return ``most`` cycles at most: the farthest, those in ``kept``, a sample of the rest."""
+    """Return up to ``max_cycles``: the farthest, all ``required``, and a sample of the rest."""
     if len(order) <= max_cycles:
         return list(order)
-    first = [i for position, i in enumerate(order) if position < FARTHEST or i in required][
-        :max_cycles
-    ]
+    first = [i for i in order if i in order[:FARTHEST] or i in required][:max_cycles]
     rest, n = [i for i in order if i not in first], max_cycles - len(first)
     # An even sample over distances, since the rest is sorted by distance.
     others = {rest[i * len(rest) // n] for i in range(n)}
@@ -481,5 +471,9 @@ def _choose_cycles(order: Sequence[int], max_cycles: int, required: set[int]) ->
 
 def _explain_exclusion(columns: Columns, row: int) -> str:
     """Return why a cycle does not count in the mean."""
+    from kineme.cycles.table import BY_HAND
+
     excluded, place = str(columns["excluded"][row]), str(columns["place"][row])
+    if excluded == BY_HAND:
+        return EXCLUDED_BY_HAND
     return excluded or PLACE_NOTES.get(place, "something was not recorded")

@@ -151,8 +151,8 @@ def list_bones(motion: Motion) -> list[tuple[int, int]]:
     if motion.rotations is not None:
         return pairs
     names = skeleton.names
-    of_bodies = [(a, b) for a, b in pairs if PARENTS.get(names[b]) == names[a]]
-    return of_bodies or pairs
+    computed = [(a, b) for a, b in pairs if PARENTS.get(names[b]) == names[a]]
+    return computed or pairs
 
 
 def _measure_extent(positions: Floats, visible: NDArray[np.bool_]) -> float:

@@ -62,8 +62,8 @@ class Batch:
         self.paths: list[Path] = []
         if Path("-") in inputs and not Path("-").exists():
             raise typer.BadParameter(
-                "recordings are not read from standard input, for a file's name tells what it "
-                "is: save it as one, such as take.bvh or take.csv, and name that",
+                "recordings are not read from standard input, since the file name tells the "
+                "format: save it as take.bvh or take.csv, for example, and give that name",
                 param_hint="FILES",
             )
         with_motions = {path.parent for path in inputs if path.suffix.lower() == MOTION}
@@ -159,8 +159,8 @@ class Batch:
         except KinemeError as error:
             unwritten = isinstance(error, WriteError)  # not caused by the recording
             self._unwritten |= unwritten
-            say = print_error if unwritten or self._is_named(path) else print_skipped
-            self._messages.append((say, format_line(error, subject=path)))
+            report = print_error if unwritten or self._is_named(path) else print_skipped
+            self._messages.append((report, format_line(error, subject=path)))
         else:
             self._missing -= self._origins[make_absolute(path)]
 
@@ -180,8 +180,8 @@ class Batch:
 
         Exit with code 1 if anything named by the user gave no result, or a result was not written.
         """
-        for say, text in self._messages:
-            say(text)
+        for report, text in self._messages:
+            report(text)
         if self._missing or self._unwritten:
             raise typer.Exit(1)
 

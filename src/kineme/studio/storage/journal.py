@@ -194,15 +194,13 @@ class Journal:
             save(change.content)
         finally:
             if not self.folder.parent.is_symlink():
-                for folder in (
-                    self.folder,
-                    self.folder.parent,
-                ):  # removes only folders that are empty
+                # Removes only empty folders, after a failed first write.
+                for folder in (self.folder, self.folder.parent):
                     with suppress(OSError):
                         folder.rmdir()
         unused = self._record.steps.keys() - record.steps.keys()
         self._record, self._unsaved = record, {}
-        # Only once the new history is on the disk.
+        # Delete only after the new history is on the disk.
         for number in unused:
             delete_file(self._path(number))
 
