@@ -141,5 +141,5 @@ def _label_table(
     threshold = THRESHOLD if edit.threshold is UNSET else edit.threshold
     spread = False if edit.spread is UNSET else edit.spread
     base = KnowledgeBase.load(path)
-    named = loaded.label_table(table, base, threshold=threshold, spread=spread)
-    return Outcome(named, [named.provenance["notes"][-1]], replaced=True)
+    labelled = loaded.label_table(table, base, threshold=threshold, spread=spread)
+    return Outcome(labelled, [labelled.provenance["notes"][-1]], replaced=True)

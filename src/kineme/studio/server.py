@@ -68,10 +68,10 @@ def serve(
     """
     if development and port is None:
         port = PORT
-    with open_socket(port) as opened, suppress(KeyboardInterrupt):
-        number = opened.getsockname()[1]
+    with open_socket(port) as server_socket, suppress(KeyboardInterrupt):
+        actual_port = server_socket.getsockname()[1]
         token = make_token()
-        origin = DEVELOPMENT if development else f"http://{HOST}:{number}"
+        origin = DEVELOPMENT if development else f"http://{HOST}:{actual_port}"
         address = f"{origin}/?token={token}"
         announce(address)
         if browser:
@@ -90,7 +90,7 @@ def serve(
             create_app(
                 recordings,
                 token=token,
-                port=number,
+                port=actual_port,
                 hub=hub,
                 library=library,
                 development=development,
@@ -98,10 +98,10 @@ def serve(
         )
         ended = threading.Event()
         threading.Thread(
-            target=warm_up, args=[recordings, hub, ended], name="make ready", daemon=True
+            target=warm_up, args=[recordings, hub, ended], name="warm up", daemon=True
         ).start()
         try:
-            Server(config, hub).run(sockets=[opened])
+            Server(config, hub).run(sockets=[server_socket])
         finally:
             ended.set()
 
@@ -128,17 +128,17 @@ def open_socket(port: int | None) -> socket.socket:
     if port is not None and not 0 <= port < 2**16:
         raise ParameterError(f"the port is a number from 0 to 65535, not {port}")
     for number in range(PORT, PORT + PORT_ATTEMPTS) if port is None else [port]:
-        opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        server_socket = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         if os.name == "posix":  # on Windows it would let two servers share a port
-            opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            server_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            opened.bind((HOST, number))
-            opened.listen(128)
+            server_socket.bind((HOST, number))
+            server_socket.listen(128)
         except OSError as error:
-            opened.close()
+            server_socket.close()
             reason = error.strerror
             continue
-        return opened
+        return server_socket
     ports = f"{PORT} to {PORT + PORT_ATTEMPTS - 1} are" if port is None else f"{port} is"
     raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
 
