@@ -124,14 +124,14 @@ def cycles(
     if common and segments is None:
         reason = "needs tables that share cluster numbers: give them with --segments"
         raise typer.BadParameter(reason, param_hint="--common")
-    parts: list[_Part] = []
+    parts: list[_SegmentedRecording] = []
     batch.tables("--segments", segments)  # fail early if there are none
 
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             part = read_and_segment(path, options, table, segment_options, stage)
             found = channels_of(part[0], names) if len(batch.paths) > 1 else ()
-            parts.append(_Part(path, *part, tuple(channel.name for channel in found)))
+            parts.append(_SegmentedRecording(path, *part, tuple(channel.name for channel in found)))
 
     for path in batch.paths:
         batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
@@ -173,14 +173,16 @@ def cycles(
     failures.exit()
 
 
-class _Part(NamedTuple):
+class _SegmentedRecording(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
     channels: tuple[str, ...]
 
 
-def _keep_common_channels(parts: list[_Part], batch: Batch) -> list[_Part]:
+def _keep_common_channels(
+    parts: list[_SegmentedRecording], batch: Batch
+) -> list[_SegmentedRecording]:
     """Keep recordings with the most common set of channels; report the others."""
     counts = Counter(part.channels for part in parts)
     most_common = counts.most_common(1)[0][0] if counts else ()

@@ -76,9 +76,9 @@ def studio(
                 raise ParameterError(
                     f"{root} is a library, which is read as it was built: leave out these options"
                 )
-            from kineme.studio.library import ShownLibrary
+            from kineme.studio.library import StudioLibrary
 
-            library = ShownLibrary(root)
+            library = StudioLibrary(root)
             read_options, segment_options = library.options()
 
         def announce(address: str) -> None:

@@ -26,7 +26,7 @@ from kineme.web import STATIC
 from kineme.web.messages import Failure
 
 if TYPE_CHECKING:
-    from kineme.studio.library import ShownLibrary
+    from kineme.studio.library import StudioLibrary
 
 PAGE, LIBRARY_PAGE = "studio.html", "library.html"
 Handler = Callable[[Request, Exception], Response]
@@ -49,7 +49,7 @@ def create_app(
     token: str,
     port: int,
     hub: Hub,
-    library: ShownLibrary | None = None,
+    library: StudioLibrary | None = None,
     static: Path = STATIC,
     limit: int = MAX_UPLOAD,
     development: bool = False,
@@ -90,7 +90,7 @@ def create_app(
     return Guard(app, token=token, port=port, development=development)
 
 
-def make_library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
+def make_library_routes(library: StudioLibrary | None, recordings: OpenRecordings) -> list[Route]:
     """Return the routes of a library; none without one."""
     if library is None:
         return []

@@ -50,7 +50,7 @@ class Outcome:
     replaced: bool = False
 
 
-class Surroundings(Protocol):
+class FileLookup(Protocol):
     """Source of the files that an edit names."""
 
     def knowledge_base(self, name: str) -> Path:
@@ -64,7 +64,7 @@ def apply_edit(
     table: Segmentation,
     edit: Edit,
     loaded: LoadedRecording,
-    files: Surroundings,
+    files: FileLookup,
     version: Callable[[int], Segmentation],
 ) -> Outcome:
     """Return the table after an edit other than undo and redo; KinemeError if it cannot be applied.

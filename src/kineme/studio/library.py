@@ -78,7 +78,7 @@ Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
 
 
-class ShownLibrary:
+class StudioLibrary:
     """A library as pages see it; ReadError if it cannot be read."""
 
     def __init__(self, folder: Path):
@@ -235,7 +235,7 @@ class LibraryFolder(Folder):
 
     is_library = True
 
-    def __init__(self, library: ShownLibrary):
+    def __init__(self, library: StudioLibrary):
         super().__init__(_find_common_folder(library.files()), [])
         self._library = library
 

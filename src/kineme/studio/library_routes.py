@@ -15,7 +15,7 @@ from kineme.errors import KinemeError, ParameterError
 from kineme.library import Library
 from kineme.recordings import Motion, Signals
 from kineme.studio.http.bodies import make_route
-from kineme.studio.library import ShownLibrary
+from kineme.studio.library import StudioLibrary
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.recording_cache import Stamp, read_stamp
 from kineme.web.display import display_motion
@@ -43,7 +43,7 @@ MAX_CHANNELS, MAX_POINTS = 6, 120
 class LibraryApi:
     """Routes under ``/api/library``."""
 
-    def __init__(self, library: ShownLibrary, recordings: OpenRecordings):
+    def __init__(self, library: StudioLibrary, recordings: OpenRecordings):
         self._shown, self._recordings, self._figures = library, recordings, Figures()
 
     def routes(self) -> list[Route]:

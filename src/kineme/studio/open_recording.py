@@ -25,7 +25,7 @@ from kineme.segments import editing
 from kineme.segments.editing.carrying import count_names
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.edits import Surroundings, apply_edit
+from kineme.studio.edits import FileLookup, apply_edit
 from kineme.studio.loading import LoadedRecording, get_digest
 from kineme.studio.recording_cache import RecordingCache
 from kineme.studio.running import Run
@@ -157,7 +157,7 @@ class OpenRecording:
             )
             return message, is_reloaded
 
-    def edit(self, revision: int, edit: Edit, files: Surroundings, *, name: str = "") -> Edited:
+    def edit(self, revision: int, edit: Edit, files: FileLookup, *, name: str = "") -> Edited:
         """Apply an edit to the table of this revision, save it, and return the result.
 
         An edit with a known name is not applied again. ConflictError if the table has another
@@ -255,7 +255,7 @@ class OpenRecording:
             at = self._journal.versions()[number].at
         return Comparison(name=at, segmentation=make_segments_message(table), scores={})
 
-    def _apply(self, edit: Edit, files: Surroundings) -> tuple[Change, list[str]]:
+    def _apply(self, edit: Edit, files: FileLookup) -> tuple[Change, list[str]]:
         """Return the change that an edit makes, and notes for the user."""
         if isinstance(edit, Undo | Redo):
             undo = isinstance(edit, Undo)

@@ -22,7 +22,7 @@ from kineme.studio.http.security import DEVELOPMENT, Guard, HeaderTimeoutProtoco
 if TYPE_CHECKING:
     from kineme.formats import ReadOptions
     from kineme.methods.segmenter import SegmentOptions
-    from kineme.studio.library import ShownLibrary
+    from kineme.studio.library import StudioLibrary
     from kineme.studio.open_recordings import OpenRecordings
 
 HOST = "127.0.0.1"
@@ -58,7 +58,7 @@ def serve(
     port: int | None,
     browser: bool,
     announce: Callable[[str], None],
-    library: ShownLibrary | None = None,
+    library: StudioLibrary | None = None,
     development: bool = False,
 ) -> None:
     """Serve a folder, or some files of it, or a library, until Ctrl+C.
