@@ -32,7 +32,7 @@ from kineme.segments import editing
 from kineme.segments.editing.annotating import find_marked
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.storage.journal import Journal
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.sidecars import (
     list_recordings,
     list_sidecar_problems,
@@ -200,7 +200,9 @@ def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
 
     for fps in (59.0, 60.0):
         table = Segmentation.from_columns(truth.table.columns(), n_frames=truth.n_frames, fps=fps)
-        journal.write(journal.changed(table, None, replaced=True), saved.write_bytes, revision=1)
+        journal.write(
+            journal.make_change(table, None, replaced=True), saved.write_bytes, revision=1
+        )
 
 
 def _write_on(root: Path, path: Path) -> object:
@@ -262,7 +264,7 @@ def _open_studio(root: Path) -> object:
         return notes
     journal = Journal(file.path, table)
     kept = [journal.table(number) for number in journal.versions()]
-    before = journal.undone() if journal.can_undo else None
+    before = journal.make_undo() if journal.can_undo else None
     return kept, before, journal.knows("x")
 
 

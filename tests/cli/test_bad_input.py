@@ -168,7 +168,7 @@ def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path) -> None:
             check=False,
         )
     assert done.returncode == 1
-    assert done.stderr == "error: what is printed cannot be written: No space left on device\n"
+    assert done.stderr == "error: output cannot be written: No space left on device\n"
 
 
 def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:

@@ -152,7 +152,7 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
     assert float(row["border_f1"]) > 0.5
     wrong = kineme("evaluate", "found.json", "--against", annotations, "--trial", "86_01")
     assert wrong.returncode == 1
-    assert "speaks of 38.17 s, the result of 47.30 s" in wrong.stderr
+    assert "covers 38.17 s, the result 47.30 s" in wrong.stderr
 
 
 @pytest.mark.parametrize(

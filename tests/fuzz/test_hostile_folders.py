@@ -31,7 +31,7 @@ from kineme.studio.app import create_app
 from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.storage.listed import make_file_id
+from kineme.studio.storage.listed_recording import make_file_id
 
 pytestmark = [
     pytest.mark.slow,

@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 from kineme.library import Library
 from kineme.studio.app import create_app
 from kineme.studio.http.events import Hub
-from kineme.studio.library import Searches, ShownLibrary
+from kineme.studio.library import Searches, StudioLibrary
 from kineme.studio.open_recordings import OpenRecordings, SupersededError
 from kineme.web.library_messages import SearchRequest, Span
 
@@ -23,7 +23,7 @@ WALK = {"recording": "walk.bvh", "start_s": 0.5, "stop_s": 1.6}
 
 @pytest.fixture
 def client(folder: Path) -> Iterator[TestClient]:
-    shown, hub = ShownLibrary(folder), Hub()
+    shown, hub = StudioLibrary(folder), Hub()
     recordings = OpenRecordings(shown.as_folder(), hub.tell, *shown.options())
     app = create_app(recordings, token=TOKEN, port=PORT, hub=hub, library=shown)
     with TestClient(
@@ -141,8 +141,8 @@ def test_hits_are_named_alone_in_the_tables_beside_their_recordings(client, fold
     told = client.post("/api/library/names", json=wanted).json()
     assert told["named"] == 2
     assert [said.split(": ")[1] for said in told["left"]] == [
-        "no segment lies there",
-        "its file is not there",
+        "there is no segment",
+        "its file is missing",
     ]
     named = {hit["name"] for hit in search(client, WALK).json()["hits"][:2]}
     assert named == {"limps"}

@@ -87,4 +87,4 @@ def start(folder: Path) -> Iterator[Callable[..., Process]]:
 @pytest.fixture(autouse=True)
 def _segments_are_there(monkeypatch: pytest.MonkeyPatch) -> None:
     """Answers come with segments, though the first ones take longer while code is compiled."""
-    monkeypatch.setattr("kineme.studio.open_recording.SOON", 300.0)
+    monkeypatch.setattr("kineme.studio.open_recording.FIRST_WAIT_S", 300.0)

@@ -12,7 +12,7 @@ from kineme.studio.http import bodies
 
 
 def test_a_request_that_does_not_go_on_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bodies, "SLOWEST", 0.05)
+    monkeypatch.setattr(bodies, "CHUNK_TIMEOUT_S", 0.05)
     pieces: list[dict[str, Any]] = [{"type": "http.request", "body": b"{", "more_body": True}]
 
     async def receive() -> dict[str, Any]:
@@ -20,5 +20,5 @@ def test_a_request_that_does_not_go_on_is_given_up(monkeypatch: pytest.MonkeyPat
             await asyncio.sleep(60)
         return pieces.pop()
 
-    with pytest.raises(bodies.TooSlowError, match="nothing came for 0.05 s"):
+    with pytest.raises(bodies.TooSlowError, match="no data arrived for 0.05 s"):
         asyncio.run(bodies.read_body(Request({"type": "http"}, receive)))

@@ -26,7 +26,7 @@ from kineme.segments import editing
 from kineme.segments.history import LONGEST, History
 from kineme.studio import server
 from kineme.studio.folder import Folder
-from kineme.studio.http.bodies import FORGOTTEN, Upload, remove_abandoned_drafts
+from kineme.studio.http.bodies import DRAFT_LIFETIME_S, Upload, remove_abandoned_drafts
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
 
@@ -264,7 +264,7 @@ def test_what_a_killed_server_left_of_uploads_goes(tmp_path: Path) -> None:
     for path in (old, new, other):
         path.write_bytes(b"x")
     for path in (old, other):
-        os.utime(path, (time.time() - 2 * FORGOTTEN,) * 2)
+        os.utime(path, (time.time() - 2 * DRAFT_LIFETIME_S,) * 2)
     remove_abandoned_drafts(tmp_path)
     assert sorted(tmp_path.iterdir()) == [new, other]
 
@@ -274,7 +274,7 @@ def test_an_upload_that_pauses_for_hours_is_not_swept_by_another_server(tmp_path
     with Upload(tmp_path, "take.bvh") as upload:
         upload.write(b"HIERARCHY")
         (draft,) = tmp_path.iterdir()
-        os.utime(draft, (time.time() - 2 * FORGOTTEN,) * 2)
+        os.utime(draft, (time.time() - 2 * DRAFT_LIFETIME_S,) * 2)
         remove_abandoned_drafts(tmp_path)
         assert draft.exists()
         assert upload.finish().read_bytes() == b"HIERARCHY"
@@ -314,7 +314,7 @@ def test_what_fails_after_the_end_is_not_said(
     monkeypatch.setattr(server, "load_compiled_code", failing)
     documents = OpenRecordings(Folder(folder, None), lambda name, revision: None)
     hub, ended = Hub(), threading.Event()
-    hub.listened.set()
+    hub.has_listener.set()
     with pytest.raises(RuntimeError):
         server.warm_up(documents, hub, ended)
     ended.set()

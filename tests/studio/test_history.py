@@ -161,7 +161,7 @@ def test_a_history_that_cannot_be_read_is_no_obstacle_and_its_tables_stay(
 
 
 def test_the_history_is_plain_and_bounded(studio, folder: Path, monkeypatch) -> None:
-    monkeypatch.setattr(journal, "MOST_KEPT", 3)
+    monkeypatch.setattr(journal, "MAX_VERSIONS", 3)
     state = studio.recording()
     for _ in range(6):
         state = studio.done(

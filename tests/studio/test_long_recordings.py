@@ -24,8 +24,8 @@ from kineme.studio.downloads import export_download
 from kineme.studio.folder import Folder
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.reading import RecordingCache
-from kineme.studio.running import SHARES, Run
+from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.running import STAGE_SHARES, Run
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 from kineme.web.tables import make_table_change
@@ -55,13 +55,13 @@ def open_take(folder: Path) -> tuple[OpenRecordings, str, News]:
 
 def test_a_long_recording_is_shown_first_and_segmented_then(tmp_path, monkeypatch):
     wanted = held_back(monkeypatch)
-    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    monkeypatch.setattr("kineme.studio.loading.LONG_S", 1.0)
     recordings, name, told = open_take(tmp_path)
     shown = recordings.message(name)
     assert shown.finding
     assert [row.kind for row in shown.segmentation.segments] == ["transition"]
     split = EditRequest(revision=shown.revision, edit=Split(level="activity", frame=100))
-    with pytest.raises(ParameterError, match="still being found"):
+    with pytest.raises(ParameterError, match="still being segmented"):
         recordings.edit(name, split)
     wanted.set()
     assert told.get(timeout=600) == (name, shown.revision + 1)
@@ -77,8 +77,8 @@ def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_ther
     recordings, name, told = open_take(tmp_path)
     before = recordings.message(name).revision
     wanted = held_back(monkeypatch)
-    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
-    recordings.read_as(name, ReadOptions(fps=30))
+    monkeypatch.setattr("kineme.studio.loading.LONG_S", 1.0)
+    recordings.change_reading(name, ReadOptions(fps=30))
     assert told.get(timeout=600) == (name, before)  # one more once they are found
     assert recordings.message(name).finding
     wanted.set()
@@ -88,7 +88,7 @@ def test_a_long_recording_that_is_read_otherwise_says_when_its_segments_are_ther
 
 def test_segments_that_take_long_are_waited_for_by_files_and_not_by_pages(tmp_path, monkeypatch):
     wanted = held_back(monkeypatch)
-    monkeypatch.setattr("kineme.studio.open_recording.SOON", 0.1)
+    monkeypatch.setattr("kineme.studio.open_recording.FIRST_WAIT_S", 0.1)
     recordings, name, _ = open_take(tmp_path)
     assert recordings.message(name).finding
     threading.Timer(0.2, wanted.set).start()
@@ -101,7 +101,7 @@ def test_an_edit_of_found_segments_waits_for_a_server_that_finds_them_again(tmp_
     before, name, _ = open_take(tmp_path)
     seen = before.message(name)
     wanted = held_back(monkeypatch)
-    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    monkeypatch.setattr("kineme.studio.loading.LONG_S", 1.0)
     again = OpenRecordings(Folder(tmp_path), lambda *_: None)
     assert again.message(name).finding
     threading.Timer(0.2, wanted.set).start()
@@ -118,7 +118,7 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
         wanted.wait(60)
         raise ParameterError("no such constant")
 
-    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    monkeypatch.setattr("kineme.studio.loading.LONG_S", 1.0)
     monkeypatch.setattr(LoadedRecording, "first_table", fail)
     recordings, name, told = open_take(tmp_path)
     assert recordings.message(name).finding
@@ -131,8 +131,8 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
 def large_take(tmp_path, monkeypatch):
     """A recording that is read once ``wanted`` is set: its folder, id and news."""
     wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
+    monkeypatch.setattr("kineme.studio.sketches.LARGE_FILE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.MAX_POSES", 200)
     monkeypatch.setattr(
         RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
     )
@@ -149,7 +149,7 @@ def test_a_large_file_shows_some_of_its_poses_while_it_is_read(large_take):
     assert few.motion.sample_fps == pytest.approx(60 / 15)
     poses = recordings.poses(name, few.motion.n_samples)
     split = EditRequest(revision=few.revision, edit=Split(level="activity", frame=100))
-    with pytest.raises(ParameterError, match="still being found"):
+    with pytest.raises(ParameterError, match="still being segmented"):
         recordings.edit(name, split)
     wanted.set()
     assert told.get(timeout=600)[0] == name
@@ -201,8 +201,8 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     text = kineme.bundled_recording().read_text().splitlines()
     text[-7] = text[-7].replace(text[-7].split()[3], "x", 1)
     (tmp_path / "take.bvh").write_text("\n".join(text))
-    monkeypatch.setattr("kineme.studio.sketches.LARGE", 1000)
-    monkeypatch.setattr("kineme.studio.sketches.POSES", 200)
+    monkeypatch.setattr("kineme.studio.sketches.LARGE_FILE", 1000)
+    monkeypatch.setattr("kineme.studio.sketches.MAX_POSES", 200)
     recordings, name, told = open_take(tmp_path)
     assert recordings.message(name).finding
     assert told.get(timeout=600)[0] == name
@@ -211,7 +211,7 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
 
 
 def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeypatch):
-    monkeypatch.setattr("kineme.studio.open_recordings.MOST_DRAWN", 2)
+    monkeypatch.setattr("kineme.studio.open_recordings.MAX_PICTURES", 2)
     for number in range(3):
         shutil.copy(kineme.bundled_recording(), tmp_path / f"take_{number}.bvh")
     recordings = OpenRecordings(Folder(tmp_path), lambda *_: None)
@@ -295,7 +295,7 @@ def test_an_answer_has_few_rows_whatever_the_length(tmp_path):
 
 def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event, threading.Event]:
     """Segmentations wait at the end of a stage; the events say that one has come, and may go on."""
-    there, wanted, stage = threading.Event(), threading.Event(), Run.stage
+    there, wanted, stage = threading.Event(), threading.Event(), Run.start_stage
 
     def waiting(run: Run, following: str) -> None:
         if run.progress().stage == name:
@@ -303,12 +303,12 @@ def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event
             wanted.wait(60)
         stage(run, following)
 
-    monkeypatch.setattr(Run, "stage", waiting)
+    monkeypatch.setattr(Run, "start_stage", waiting)
     return there, wanted
 
 
 def test_a_first_segmentation_that_is_cancelled_leaves_a_table_to_work_on(studio, monkeypatch):
-    monkeypatch.setattr("kineme.studio.loading.LONG", 1.0)
+    monkeypatch.setattr("kineme.studio.loading.LONG_S", 1.0)
     there, wanted = held_at(monkeypatch, "views")
     one = f"/api/recordings/{studio.id}"
     assert studio.get(f"{one}/progress").json() == {"stage": "", "share": None}
@@ -359,8 +359,10 @@ def test_a_segmentation_that_is_cancelled_ends_within_its_stage(studio, monkeypa
     monkeypatch.setattr(primitives, "find_repetitions", waiting)
     again = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}}
     stages: list[str] = []
-    stage = Run.stage
-    monkeypatch.setattr(Run, "stage", lambda run, name: stages.append(name) or stage(run, name))
+    stage = Run.start_stage
+    monkeypatch.setattr(
+        Run, "start_stage", lambda run, name: stages.append(name) or stage(run, name)
+    )
     with ThreadPoolExecutor() as pool:
         answer = pool.submit(studio.edit, before["revision"], "segment", **again)
         assert there.wait(60)
@@ -392,16 +394,16 @@ def test_how_far_a_segmentation_is_follows_from_its_stages_and_its_pace():
     seconds = 0.0
     run = Run("kineme", clock=lambda: seconds)
     assert run.progress().stage == ""
-    run.stage("features")
+    run.start_stage("features")
     assert run.progress().share == 0
     seconds = 4.0
-    run.stage("views")
+    run.start_stage("views")
     assert run.progress().share == pytest.approx(0.08)
     seconds = 5.0
     assert run.progress().share == pytest.approx(0.1)
     seconds = 50.0
     assert run.progress().share == pytest.approx(0.13)  # the stage takes longer than others
-    assert sum(SHARES["kineme"].values()) == pytest.approx(1)
+    assert sum(STAGE_SHARES["kineme"].values()) == pytest.approx(1)
     other = Run("of another package")
-    other.stage("thinking")
+    other.start_stage("thinking")
     assert (other.progress().stage, other.progress().share) == ("thinking", None)

@@ -15,7 +15,7 @@ from kineme.cli.app import app
 from kineme.cli.studio import _split_people
 from kineme.formats import ReadOptions
 from kineme.studio.storage import sidecars
-from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from people_files import write_people
 
 NAME = {"level": "activity", "frame": 0}
@@ -179,16 +179,16 @@ def test_everybody_can_be_asked_for_at_the_start(duet: Studio) -> None:
     asked = ["studio", "--no-browser", str(duet.folder), "--person", "all"]
     done = CliRunner().invoke(app, asked)
     assert done.exit_code == 1
-    assert "--person all is for files" in done.stderr
+    assert "--person all needs file names" in done.stderr
 
 
 def test_names_that_files_cannot_hold() -> None:
     odd = ListedRecording(Path("walk.c3d"), "A/../b c")
-    assert odd.called.name == "walk_A_.._b_c.c3d"
+    assert odd.person_path.name == "walk_A_.._b_c.c3d"
     assert odd.name == "walk.c3d · A/../b c"
     assert ListedRecording(Path("walk.json"), "1").name == "walk.json · person 1"
     assert odd.id != ListedRecording(Path("walk.c3d"), "A").id
     for person in ("é" * 500, "\ud800", "..."):
         long = ListedRecording(Path("walk.c3d"), person)
-        assert len(long.called.name.encode()) < 80
+        assert len(long.person_path.name.encode()) < 80
         assert long.id

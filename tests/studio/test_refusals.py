@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from studio_clients import PORT, TOKEN
 
 from kineme.errors import ParameterError
-from kineme.studio.http.bodies import LONGEST, make_safe_name
+from kineme.studio.http.bodies import MAX_NAME, make_safe_name
 from kineme.studio.http.security import DEVELOPMENT, HEADERS
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import EditRequest
@@ -151,7 +151,7 @@ def test_ids_and_addresses_name_no_files(studio, path) -> None:
         ("a\0b\n\u202e.bvh", "a_b__.bvh"),
         ("<img src=x onerror=alert(1)>.bvh", "_img src=x onerror=alert(1)_.bvh"),
         ("Gänge 3.bvh", "Gänge 3.bvh"),
-        ("a" * 999 + ".bvh", "a" * (LONGEST - 4) + ".bvh"),
+        ("a" * 999 + ".bvh", "a" * (MAX_NAME - 4) + ".bvh"),
     ],
 )
 def test_an_upload_gets_a_name_of_our_own_making(studio, name, kept) -> None:
@@ -175,7 +175,7 @@ def test_names_stay_in_the_folder_and_fit_on_any_disk(name: str) -> None:
     safe = make_safe_name(name)
     assert not set(safe) & set('/\\<>:"|?*\0')
     assert not safe.startswith(".")
-    assert len(safe.encode(errors="replace")) <= LONGEST + 1
+    assert len(safe.encode(errors="replace")) <= MAX_NAME + 1
     assert make_safe_name(safe) == safe
 
 

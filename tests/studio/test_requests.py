@@ -24,8 +24,8 @@ import kineme
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
-from kineme.studio.reading import RecordingCache
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
 from kineme.web.encoding import to_json
@@ -76,14 +76,14 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
     studio.get(f"/?token={TOKEN}&open=none&open={studio.id}")
-    monkeypatch.setattr("kineme.studio.reading.read_quietly", _unread)
+    monkeypatch.setattr("kineme.studio.recording_cache.read_quietly", _unread)
     assert studio.recording()["segmentation"]["segments"]
 
 
 @pytest.mark.parametrize("token", ["", "wrong"])
 def test_nothing_is_opened_ahead_without_the_token(studio, token, monkeypatch) -> None:
     studio.client.headers.pop("x-kineme-token")
-    monkeypatch.setattr("kineme.studio.reading.read_quietly", _unread)
+    monkeypatch.setattr("kineme.studio.recording_cache.read_quietly", _unread)
     assert studio.get(f"/?token={token}&open={studio.id}").status_code == 200
 
 
@@ -354,7 +354,7 @@ def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None
         both.wait()
         return path.name
 
-    monkeypatch.setattr("kineme.studio.reading.read_quietly", read_together)
+    monkeypatch.setattr("kineme.studio.recording_cache.read_quietly", read_together)
     cache = RecordingCache()
     with ThreadPoolExecutor(2) as threads:
         found = threads.map(cache.read, [ListedRecording(folder / each) for each in NAMES])

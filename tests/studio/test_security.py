@@ -27,9 +27,9 @@ async def _app(_: object, receive, send) -> None:
 
 @pytest.fixture
 def address(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[str, int]]:
-    monkeypatch.setattr(security, "WITHIN", 0.3)
+    monkeypatch.setattr(security, "HEADER_TIMEOUT_S", 0.3)
     config = uvicorn.Config(
-        _app, http=security.HeadersInTime, log_level="error", lifespan="off", ws="none"
+        _app, http=security.HeaderTimeoutProtocol, log_level="error", lifespan="off", ws="none"
     )
     server = uvicorn.Server(config)
     opened = socket.create_server(("127.0.0.1", 0))

@@ -64,7 +64,7 @@ def test_nobody_to_compare_is_said(labelled: Path, make_studio) -> None:
     studio: Studio = make_studio()
     people = {each["name"]: each["id"] for each in studio.get("/api/annotators").json()}
     for sent, status, text in (
-        ([people["anna"]], 400, "no recording of which two of them have labels"),
+        ([people["anna"]], 400, "no recording has labels by two of them"),
         (["nobody"], 404, "has no labels any more"),
         ([], 400, "no recording of which two"),
     ):

@@ -62,7 +62,7 @@ def test_a_page_shows_the_numbers_of_the_table(
     channel: str, measured: CycleCurves, written: dict[tuple[str, str], np.ndarray]
 ) -> None:
     for cluster, group in GROUPS.items():
-        same(measured.of(TRUTH, cluster, channel), written[group, channel])
+        same(measured.make_curves(TRUTH, cluster, channel), written[group, channel])
 
 
 def test_a_report_holds_the_same(
@@ -94,7 +94,7 @@ def test_channels_are_those_that_the_command_lists(measured: CycleCurves) -> Non
 
 def test_the_farthest_comes_first_and_what_does_not_count_says_why(measured: CycleCurves) -> None:
     cluster = next(row.cluster for row in TRUTH.primitives if row.kind == "primitive")
-    curves = measured.of(TRUTH, cluster)
+    curves = measured.make_curves(TRUTH, cluster)
     counted = [each for each in curves.cycles if each.counts]
     assert curves.cycles[: curves.n] == counted
     assert [each.distance for each in counted] == sorted(
@@ -114,30 +114,30 @@ def test_without_inner_repetitions_all_are_in_the_mean() -> None:
         "start_frame": [0, 0], "stop_frame": [MOTION.n_frames] * 2, "cluster": [-1, 0],
     }  # fmt: skip
     table = kineme.Segmentation.from_columns(columns, n_frames=MOTION.n_frames, fps=MOTION.fps)
-    curves = CycleCurves(lambda: MOTION).of(table, 0, "knee_l")
+    curves = CycleCurves(lambda: MOTION).make_curves(table, 0, "knee_l")
     assert (curves.ends, curves.n, curves.total) == (True, 1, 1)
     assert curves.sd == [None] * 101
 
 
 def test_an_edit_is_measured_anew(measured: CycleCurves) -> None:
     row = next(row for row in TRUTH.primitives if row.kind == "primitive")
-    before = measured.of(TRUTH, row.cluster, "knee_l")
+    before = measured.make_curves(TRUTH, row.cluster, "knee_l")
     columns = dict(TRUTH.table.columns())
     kept = [cluster if cluster != row.cluster else 99 for cluster in columns["cluster"]]
     edited = kineme.Segmentation.from_columns(
         {**columns, "cluster": kept}, n_frames=TRUTH.n_frames, fps=TRUTH.fps
     )
-    assert measured.of(edited, row.cluster, "knee_l") is None
-    after = measured.of(edited, 99, "knee_l")
+    assert measured.make_curves(edited, row.cluster, "knee_l") is None
+    after = measured.make_curves(edited, 99, "knee_l")
     assert after.mean == before.mean
 
 
 def test_what_people_left_out_is_in_no_mean_and_can_be_found(measured: CycleCurves) -> None:
     cluster = next(row.cluster for row in TRUTH.primitives if row.kind == "primitive")
-    before = measured.of(TRUTH, cluster, "knee_l")
+    before = measured.make_curves(TRUTH, cluster, "knee_l")
     farthest = before.cycles[0]
     table = exclude(TRUTH, [farthest.start_frame], excluded=True)
-    after = CycleCurves(lambda: MOTION).of(table, cluster, "knee_l")
+    after = CycleCurves(lambda: MOTION).make_curves(table, cluster, "knee_l")
     assert (after.n, after.total, after.left_out) == (before.n - 1, before.total, 1)
     found = next(each for each in after.cycles if each.start_frame == farthest.start_frame)
     assert (found.counts, found.note, found.values) == (
@@ -154,7 +154,7 @@ def test_another_session_is_the_one_that_the_command_compares_with() -> None:
     motions, tables = [each.motion for each in made], [each.truth for each in made]
     first, second = (CycleCurves(lambda motion=motion: motion) for motion in motions)
     cluster = next(row.cluster for row in tables[0].primitives if row.kind == "primitive")
-    found = first.beside(tables[0], cluster, "knee_l", second, tables[1])
+    found = first.compare_with(tables[0], cluster, "knee_l", second, tables[1])
     both = kineme.cycles(motions, tables, channels=["knee_l"])
     before = both.columns["recording"] == both.columns["recording"][0]
     compared = compare_curves(both.select(before), both.select(~before))
@@ -165,14 +165,14 @@ def test_another_session_is_the_one_that_the_command_compares_with() -> None:
     assert found.beside.differs == differs.tolist()
     assert any(differs)
     unnamed = name_cluster(tables[1], tables[1].primitives.cluster.max(), "")
-    assert first.beside(tables[0], cluster, "knee_l", second, unnamed).beside is None
-    assert first.of(tables[0], cluster, "knee_l").beside is None
+    assert first.compare_with(tables[0], cluster, "knee_l", second, unnamed).beside is None
+    assert first.make_curves(tables[0], cluster, "knee_l").beside is None
 
 
 def test_what_is_not_there_is_none(measured: CycleCurves) -> None:
-    assert measured.of(TRUTH, 0, "tail_l") is None
-    assert measured.of(TRUTH, 1000) is None
-    assert measured.of(TRUTH, -1) is None
+    assert measured.make_curves(TRUTH, 0, "tail_l") is None
+    assert measured.make_curves(TRUTH, 1000) is None
+    assert measured.make_curves(TRUTH, -1) is None
 
 
 def test_signals_and_gaps() -> None:
@@ -181,7 +181,7 @@ def test_signals_and_gaps() -> None:
     signals = Signals(values, 100.0, gaps=[(1500, 1510)])
     table = kineme.segment(signals)
     cluster = next(row.cluster for row in table.primitives if row.cluster >= 0)
-    curves = CycleCurves(lambda: signals).of(table, cluster)
+    curves = CycleCurves(lambda: signals).make_curves(table, cluster)
     missing = [each for each in curves.cycles if None in each.values]
     assert missing
     assert not any(each.counts for each in missing)

@@ -60,11 +60,11 @@ def test_samples_lie_on_the_line_between_frames(fps: float) -> None:
 
 def test_long_recordings_get_a_coarser_step_then_fewer_poses() -> None:
     fine, data = display_motion(RECORDING)
-    coarse, less = display_motion(RECORDING, most_bytes=len(data) - 1)
+    coarse, less = display_motion(RECORDING, max_bytes=len(data) - 1)
     assert len(less) < len(data)
     assert 3 * fine.step < coarse.step < 0.001
     assert coarse.sample_fps == 30.0
-    slow, least = display_motion(RECORDING, most_bytes=len(less) // 3)
+    slow, least = display_motion(RECORDING, max_bytes=len(less) // 3)
     assert len(least) <= len(less) // 3
     assert slow.sample_fps < 30.0
     at = np.arange(slow.n_samples) * RECORDING.fps / slow.sample_fps

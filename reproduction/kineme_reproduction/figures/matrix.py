@@ -28,7 +28,7 @@ from kineme.methods.region_growing.neighbors import NeighborGraph
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.primitives import find_primitive_cuts
 from kineme.methods.region_growing.warping import label_components
-from kineme.plot.matrix import PIXELS, SHADES
+from kineme.plot.matrix import MAX_PIXELS, SHADES
 from kineme.segments.colors import PALETTE
 from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
 from kineme_reproduction.trials import Trial
@@ -183,7 +183,7 @@ def _component_colors(labels: NDArray[np.float64]) -> NDArray[np.float64]:
     return image
 
 
-def draw_neighbors(graph: NeighborGraph, pixels: int = PIXELS) -> NDArray[np.float32]:
+def draw_neighbors(graph: NeighborGraph, pixels: int = MAX_PIXELS) -> NDArray[np.float32]:
     """Square picture of the graph: 1 where frames are equal, 0 where none are neighbours.
 
     Parameters

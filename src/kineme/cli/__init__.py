@@ -1,16 +1,15 @@
 """Command line: ``kineme segment``, ``kineme info``, ``kineme demo``.
 
-Exit codes: 0; 1 for bad input, with one sentence on standard error; 2 for a
-command that makes no sense; 130 after Ctrl-C. With several files, one that
-fails does not stop the others.
+Exit codes: 0; 1 for bad input, with one sentence on standard error; 2 for invalid usage; 130 after
+Ctrl+C. If one of several files fails, the others are still processed.
 """
 
 import errno
 import os
 import sys
 
-FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
-"""Why what is printed cannot be written, where it goes to a file."""
+WRITE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
+"""Errors on writing output to a file that are reported without a traceback."""
 
 
 def main() -> None:
@@ -19,18 +18,18 @@ def main() -> None:
         try:
             _run()
         finally:
-            # Where Ctrl+C fell into a string that was being executed (dataclasses do so), Python
-            # ends by the signal under ``-m``, whatever exit code it is given. Executing another
-            # string makes it forget that.
+            # If Ctrl+C arrives while `exec` runs a string (as dataclasses do), ``python -m`` ends
+            # by the signal and ignores the exit code. Executing another string resets this.
             exec("")  # noqa: S102
             sys.stdout.flush()
     except KeyboardInterrupt:
         sys.exit(130)
     except OSError as error:
-        if error.errno not in FULL:
+        if error.errno not in WRITE_ERRORS:
             raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the last flush
-        sys.stderr.write(f"error: what is printed cannot be written: {error.strerror}\n")
+        # The flush at exit must not fail again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.stderr.write(f"error: output cannot be written: {error.strerror}\n")
         sys.exit(1)
 
 

@@ -1,4 +1,4 @@
-"""Application: its commands, and the options of ``kineme`` itself."""
+"""The application: its commands, and the options of ``kineme`` itself."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ COMMANDS = (
     "graph",
     "synthesize",
 )
-"""Each the function of its name in the module of its name, in the order of the help."""
+"""Commands in the order of the help; each is a function in the module of its name."""
 
 app = typer.Typer(
     name="kineme",

@@ -1,4 +1,4 @@
-"""``kineme convert``: segments or recordings from one format to another."""
+"""``kineme convert``: convert segments or recordings to another format."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _check_format(name: str | None) -> str | None:
 
 
 def _is_recording(path: Path) -> bool:
-    """Return whether a file is a recording and no labels, by its suffix and how it begins."""
+    """Return whether a file is a recording rather than labels, by its suffix and content."""
     from kineme.formats.listing import holds_recording
 
     suffix = path.suffix.lower()
@@ -41,7 +41,7 @@ def _is_recording(path: Path) -> bool:
 
 
 def _is_channel_table(path: Path) -> bool:
-    """Whether a text file is a table of channels: these name columns, labels begin with a time."""
+    """Return whether a text file is a table of channels; labels begin with a time instead."""
     from kineme.errors import ReadError
     from kineme.formats.dialects import hold_channels, recognise_table
     from kineme.formats.files import load
@@ -100,10 +100,9 @@ def convert(
 ) -> None:
     """Convert labels or recordings to another format.
 
-    The suffixes say what is read and written: .bvh, .amc, .glb, .trc, .csv and .npz hold
-    recordings; .fbx is read only.
-    Signals keep the columns of their file, or those that --columns names. For labels that hold
-    seconds only, --fps is the frame rate of their recording.
+    The suffixes select the formats: .bvh, .amc, .glb, .trc, .csv and .npz hold recordings; .fbx can
+    only be read. Signals keep the columns of their file, or those in --columns. For labels with
+    times in seconds only, --fps is the frame rate of their recording.
     """
     if len(files) < 2:
         raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
@@ -116,36 +115,36 @@ def convert(
         raise typer.BadParameter(
             f"name the file of each, such as '{folder}/{{name}}{suffix}'", param_hint="TO"
         )
-    places = batch.files("TO", target) if several else [target]
-    for path, place in zip(batch.paths, places, strict=True):
-        with batch.caught(path):
-            if place.exists():
-                raise WriteError(place, "is there already: remove it or name another file")
+    targets = batch.files("TO", target) if several else [target]
+    for path, target_path in zip(batch.paths, targets, strict=True):
+        with batch.catch_errors(path):
+            if target_path.exists():
+                raise WriteError(target_path, "is there already: remove it or name another file")
             if several:
-                make_parent_folder(place)
+                make_parent_folder(target_path)
             is_table = read_options.columns is not None
             if from_format is None and (is_table or _is_recording(path)):
-                _convert_recording(read_options, path, place)
+                _convert_recording(read_options, path, target_path)
             else:
                 segments = read_segments(
                     path, format=from_format, fps=read_options.fps, n_frames=frames
                 )
-                write_segments(segments, place, format=to_format, level=level)
+                write_segments(segments, target_path, format=to_format, level=level)
                 if not quiet and level is None:
-                    _note_missing_primitives(segments, place, to_format)
+                    _note_missing_primitives(segments, target_path, to_format)
             if not quiet:
-                typer.echo(f"{path} written as {place}")
+                typer.echo(f"{path} written as {target_path}")
     batch.exit()
 
 
-def _note_missing_primitives(segments: Segmentation, place: Path, name: str | None) -> None:
-    """Say on standard error what a file of one level does not hold."""
+def _note_missing_primitives(segments: Segmentation, path: Path, name: str | None) -> None:
+    """Note on standard error that a file of one level lacks the primitives."""
     from kineme.labels.registry import find_write_format
 
-    label_format, primitives = find_write_format(place, name), segments.primitives
+    label_format, primitives = find_write_format(path, name), segments.primitives
     if len(primitives) and label_format.holds == "level":
         typer.echo(
-            f"note: {place} holds the activities alone, without the "
+            f"note: {path} holds the activities alone, without the "
             f"{format_count(len(primitives), 'segment')} of the level primitive: --level primitive "
             "writes these instead",
             err=True,

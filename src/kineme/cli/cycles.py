@@ -1,4 +1,4 @@
-"""``kineme cycles``: each repetition measured, summed up and as mean curves."""
+"""``kineme cycles``: measure each repetition, with summaries and mean curves."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from kineme.cli.messages import Failures
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import EVERYTHING, READING, Quiet
+from kineme.cli.options.reading import ALL, READING, Quiet
 from kineme.cli.segment import read_and_segment
 from kineme.errors import ParameterError
 from kineme.formats import read_analog
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from kineme.recordings import Motion, Signals
     from kineme.segments.segmentation import Segmentation
 
-MEASURED = "Measured"
+MEASUREMENT = "Measured"
 FAR, UNSURE = "far", "unsure"
-SHOWN = 4
-"""Channels whose ranges are shown."""
-PLAIN = 1e-3, 1e5
-"""From where to where numbers are told without a power of ten."""
-IN_A_COLUMN = 4
-"""Axes of a picture, one below the other; of more there are two columns, left beside right."""
+MAX_CHANNELS = 4
+"""Channels whose ranges are printed."""
+PLAIN_RANGE = 1e-3, 1e5
+"""Numbers outside this range are printed in scientific notation."""
+AXES_PER_COLUMN = 4
+"""Axes in one column of a plot; above, there are two columns, left and right."""
 
 
 @add_options(READING | SEGMENTING)
@@ -64,15 +64,15 @@ def cycles(
     channels: Annotated[
         str | None,
         option(
-            MEASURED,
-            "What to measure, as in knee_*,trunk_lean; see kineme info --channels.",
+            MEASUREMENT,
+            "Channels to measure, such as knee_*,trunk_lean; see kineme info --channels.",
             metavar="NAME,NAME,…",
         ),
     ] = None,
     anchor: Annotated[
         str | None,
         option(
-            MEASURED,
+            MEASUREMENT,
             'Where a cycle begins: "knee_r max", "knee_r > 40", left_foot_strike, '
             "or an event of the file; by default at equal phase.",
             metavar="EVENT",
@@ -81,8 +81,8 @@ def cycles(
     align: Annotated[
         Literal["linear", "landmarks", "warp"],
         option(
-            MEASURED,
-            "Bring curves in step: linear, landmarks or warp.",
+            MEASUREMENT,
+            "Align curves: linear, landmarks or warp.",
             metavar="HOW",
             show_default=False,
         ),
@@ -90,17 +90,18 @@ def cycles(
     exclude: Annotated[
         list[str] | None,
         option(
-            MEASURED,
+            MEASUREMENT,
             "Leave a row out of means by its number, or all far from the mean (far), or of "
             "uncertain start (unsure).",
             metavar="ROW|RULE",
         ),
     ] = None,
     ends: Annotated[
-        bool, option(MEASURED, "Count first and last repetitions, too.", "--ends")
+        bool, option(MEASUREMENT, "Count first and last repetitions, too.", "--ends")
     ] = False,
     common: Annotated[
-        bool, option(MEASURED, "Tables (--segments) number their clusters in common.", "--common")
+        bool,
+        option(MEASUREMENT, "Cluster numbers in --segments tables are shared.", "--common"),
     ] = False,
     segments: SegmentTable = None,
     recursive: Recursive = False,
@@ -113,83 +114,92 @@ def cycles(
     from kineme.cli.tables import show_written
     from kineme.cli.terminal import Console
     from kineme.cycles import channels_of, compare_sides, write_cycles, write_table
-    from kineme.cycles.measure import cycles as measured
+    from kineme.cycles.measure import cycles as measure_cycles
 
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
-    if compare is not None and len(batch.paths) != 2 and read_options.person != EVERYTHING:
+    if compare is not None and len(batch.paths) != 2 and read_options.person != ALL:
         raise typer.BadParameter("takes two recordings", param_hint="--compare")
     if common and segments is None:
-        reason = "is for tables whose clusters have numbers in common: give them with --segments"
+        reason = "needs tables that share cluster numbers: give them with --segments"
         raise typer.BadParameter(reason, param_hint="--common")
-    parts: list[_Part] = []
-    batch.tables("--segments", segments)  # whether there are any
+    parts: list[_SegmentedRecording] = []
+    batch.tables("--segments", segments)  # fail early if there are none
 
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             part = read_and_segment(path, options, table, segment_options, stage)
             found = channels_of(part[0], names) if len(batch.paths) > 1 else ()
-            parts.append(_Part(path, *part, tuple(channel.name for channel in found)))
+            parts.append(_SegmentedRecording(path, *part, tuple(channel.name for channel in found)))
 
     for path in batch.paths:
-        batch.each_person(path, read_options, read_one, tables=("--segments", segments))
+        batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
     parts = _keep_common_channels(parts, batch)
-    recordings, tables = [each.recording for each in parts], [each.segments for each in parts]
+    recordings, tables = [part.recording for part in parts], [part.segments for part in parts]
     failures = Failures()
     if recordings:
-        with failures.caught(""):
+        with failures.catch_errors(""):
             analog = _read_analog_channels(batch.paths, recordings, read_options) if names else []
             if sides is not None:
                 names = _choose_channels(recordings, names)
-            found = measured(
+            result = measure_cycles(
                 recordings, tables, channels=names, anchor=anchor, beside=analog, common=common,
                 align=align,
             )  # fmt: skip
-            found = _exclude_cycles(found, exclude or [])
+            result = _exclude_cycles(result, exclude or [])
             # The cycles of each recording that has some.
-            owners = found.columns["recording"]
+            owners = result.columns["recording"]
             named = dict.fromkeys(owners.tolist()) if compare is not None else ()
-            sessions = [found.select(owners == name) for name in named]
+            sessions = [result.select(owners == name) for name in named]
             if output is not None:
-                write_cycles(found, output, ends=ends)
+                write_cycles(result, output, ends=ends)
             if plot is not None:
-                _draw(found, sessions, plot, ends=ends, sides=sides is not None)
+                _draw(result, sessions, plot, ends=ends, sides=sides is not None)
             if compare is not None:
                 _compare(sessions, compare, ends=ends)
             if sides is not None:
-                write_table(compare_sides(found, ends=ends), sides)
+                write_table(compare_sides(result, ends=ends), sides)
             if not quiet:
-                chosen, given = channels is not None, segments is not None
-                _show(found, sessions, chosen=chosen, ends=ends, given=given)
+                _show(
+                    result,
+                    sessions,
+                    has_channels=channels is not None,
+                    ends=ends,
+                    has_table=segments is not None,
+                )
                 show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
     failures.exit()
 
 
-class _Part(NamedTuple):
+class _SegmentedRecording(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
     channels: tuple[str, ...]
 
 
-def _keep_common_channels(parts: list[_Part], batch: Batch) -> list[_Part]:
-    """Those that have the channels that most have; the others are left out, and this is said."""
-    counts = Counter(each.channels for each in parts)
-    most = counts.most_common(1)[0][0] if counts else ()
-    for each in parts:
-        if each.channels != most:
-            other = ", ".join(sorted({*most} ^ {*each.channels})[:4])
-            reason = f"does not have the channels of the others ({other}): choose with --channels"
-            batch.leave_out(each.path, reason)
-    return [each for each in parts if each.channels == most]
+def _keep_common_channels(
+    parts: list[_SegmentedRecording], batch: Batch
+) -> list[_SegmentedRecording]:
+    """Keep recordings with the most common set of channels; report the others."""
+    counts = Counter(part.channels for part in parts)
+    most_common = counts.most_common(1)[0][0] if counts else ()
+    for part in parts:
+        if part.channels != most_common:
+            differences = ", ".join(sorted({*most_common} ^ {*part.channels})[:4])
+            reason = (
+                f"does not have the channels of the others ({differences}): choose with --channels"
+            )
+            batch.leave_out(part.path, reason)
+    return [part for part in parts if part.channels == most_common]
 
 
 def _read_analog_channels(
     paths: list[Path], recordings: list[Motion | Signals], options: ReadOptions
 ) -> list[Signals]:
-    """Channels in the file of a single body, such as force plates, which may be measured, too."""
+    """Return the analog channels in the file of a single motion, such as force plates."""
     from kineme.recordings import Motion
 
     if len(paths) > 1 or not isinstance(recordings[0], Motion):
@@ -201,7 +211,7 @@ def _read_analog_channels(
 def _check_targets(
     output: Path | None, plot: Path | None, compare: Path | None, sides: Path | None
 ) -> None:
-    """typer.BadParameter for a file that could not be written, before any work is done."""
+    """Raise typer.BadParameter for files that cannot be written, before any work is done."""
     from kineme.cli.options.targets import PICTURES
     from kineme.cycles.export import SUFFIXES
     from kineme.report.page import SUFFIXES as PAGES
@@ -235,7 +245,7 @@ def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:
 
 
 def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
-    """Write what changed from the first recording to the second: numbers, curves beside them."""
+    """Write the changes from the first recording to the second, and curves beside them."""
     from kineme.cycles import compare_curves, compare_sessions, write_table
     from kineme.report.page import SUFFIXES as PAGES
     from kineme.report.sessions import write_sessions
@@ -254,7 +264,7 @@ def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
 def _choose_channels(
     recordings: list[Motion | Signals], names: list[str] | None
 ) -> list[str] | None:
-    """Return the channels to measure, and when each foot stands if all recordings tell it."""
+    """Return the channels to measure, with foot contacts if all recordings have them."""
     from kineme.cycles.channels import channels_of, make_contact_channels
 
     stances = [[each.name for each in make_contact_channels(recording)] for recording in recordings]
@@ -265,7 +275,7 @@ def _choose_channels(
 
 
 def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sides: bool) -> None:
-    """One picture: axes for each channel, for each of a pair of sides, or for two sessions."""
+    """Draw one plot with axes per channel, per pair of sides, or per channel of two sessions."""
     from matplotlib.figure import Figure
 
     from kineme._util.files import atomic_write
@@ -285,72 +295,90 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
         columns = len(groups)
     else:
         panels, columns = [(plot_curves, (cycles, channel)) for channel in channels], 1
-    if columns == 1 and len(panels) > IN_A_COLUMN:
+    if columns == 1 and len(panels) > AXES_PER_COLUMN:
         columns = 2
     rows = -(-len(panels) // columns)
     figure = Figure(figsize=(1.5 + 4.5 * columns, 1 + 2.5 * rows), layout="constrained")
-    for number, (draw, what) in enumerate(panels, 1):
+    for number, (draw, arguments) in enumerate(panels, 1):
         axes = figure.add_subplot(rows, columns, number)
         if draw is plot_sessions:
-            _, channel, group = what
+            _, channel, group = arguments
             unit = cycles.units[channels.index(channel)]
-            draw(*what, unit=unit, ax=axes)
+            draw(*arguments, unit=unit, ax=axes)
             axes.set_title(group, loc="left", fontsize="medium")
             names = [str(each.columns["recording"][0]) for each in sessions]
             axes.legend(axes.lines[:2], names, frameon=False)
         else:
-            draw(*what, ends=ends, ax=axes)
+            draw(*arguments, ends=ends, ax=axes)
             if draw is plot_curves and number > 1 and (legend := axes.get_legend()):
-                legend.remove()  # all have that of the first
+                legend.remove()  # all axes have the same legend
     with atomic_write(path) as draft:
         figure.savefig(draft)
 
 
-def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, given: bool) -> None:
-    """Print a line for each group, of two sessions for each of both, and the notes."""
+def _show(
+    cycles: Cycles, sessions: list[Cycles], *, has_channels: bool, ends: bool, has_table: bool
+) -> None:
+    """Print a line per group (per session and group for two sessions), and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import OF_COUNTS, PER_CENT, format_per_cent, keep_if_filled, make_table
+    from kineme.cli.tables import (
+        CONFIDENCE,
+        CONFIDENCE_NOTE,
+        format_per_cent,
+        keep_if_filled,
+        make_table,
+    )
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    shown = cycles.channels[:SHOWN] if chosen else _choose_shown_channels(cycles, ends=ends)
+    shown_channels = (
+        cycles.channels[:MAX_CHANNELS]
+        if has_channels
+        else _choose_shown_channels(cycles, ends=ends)
+    )
     units = dict(zip(cycles.channels, cycles.units, strict=True))
-    ranges = [f"{name} range {units[name]}".strip() for name in shown]
-    first = ["recording"] if sessions else []
-    names = "label", "cycles", PER_CENT, "n", "duration s", "sd", "cv %", "per min"
-    table = make_table(*first, *names, *ranges)
-    without: list[str] = []
-    for each in sessions or [cycles]:
-        values = _tabulate_measures(each, ends=ends)
-        name = [str(each.columns["recording"][0])] if sessions else []
-        for group in each.groups:
+    ranges = [f"{name} range {units[name]}".strip() for name in shown_channels]
+    session_column = ["recording"] if sessions else []
+    names = "label", "cycles", CONFIDENCE, "n", "duration s", "sd", "cv %", "per min"
+    table = make_table(*session_column, *names, *ranges)
+    without_inner: list[str] = []
+    for session in sessions or [cycles]:
+        values = _tabulate_measures(session, ends=ends)
+        name = [str(session.columns["recording"][0])] if sessions else []
+        for group in session.groups:
             n, mean, sd, cv = values[group, "duration_s"]
             per_min = values[group, "cadence_per_min"][1]
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
-            cells += [_format_mean(*values[group, f"{channel}.range"][1:3]) for channel in shown]
-            count = int((each.columns["group"] == group).sum())
-            head = group, str(count), format_per_cent(each.count_confidence(group)), str(n)
+            cells += [
+                _format_mean(*values[group, f"{channel}.range"][1:3]) for channel in shown_channels
+            ]
+            count = int((session.columns["group"] == group).sum())
+            head = group, str(count), format_per_cent(session.count_confidence(group)), str(n)
             table.add_row(*name, *head, *(_format_cell(cell) for cell in cells))
             if n == 0:
-                without.append(group)
-    probable = keep_if_filled(table, PER_CENT)
+                without_inner.append(group)
+    has_confidence = keep_if_filled(table, CONFIDENCE)
     console.print(table)
-    if probable:
-        console.print(f"{OF_COUNTS}, of the least sure activity.")
-    of = "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
-    console.print(f"n, means: over {of}.")
-    if len(cycles.channels) > len(shown) > 0:
-        more = format_count(len(cycles.channels) - len(shown), "more channel")
+    if has_confidence:
+        console.print(f"{CONFIDENCE_NOTE}, of the least sure activity.")
+    kind = (
+        "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
+    )
+    console.print(f"n, means: over {kind}.")
+    if len(cycles.channels) > len(shown_channels) > 0:
+        more = format_count(len(cycles.channels) - len(shown_channels), "more channel")
         console.print(f"{more} measured: --output writes all, --channels chooses.")
     reasons = [reason for reason in cycles.columns["excluded"].tolist() if reason]
     for reason in dict.fromkeys(reasons):
         console.print(f"{format_count(reasons.count(reason), 'cycle')} left out: {reason}.")
-    if without and not ends:
-        groups = ", ".join(dict.fromkeys(without))
+    if without_inner and not ends:
+        groups = ", ".join(dict.fromkeys(without_inner))
         console.print(f"{groups}: no inner repetition; --ends counts the others.")
     if len(cycles) == 0:
-        why = "the segments given have no primitives" if given else "nothing repeats itself here"
+        why = (
+            "the segments given have no primitives" if has_table else "nothing repeats itself here"
+        )
         console.print(f"no repetition: {why}.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
@@ -359,7 +387,7 @@ def _show(cycles: Cycles, sessions: list[Cycles], *, chosen: bool, ends: bool, g
 def _tabulate_measures(
     cycles: Cycles, *, ends: bool
 ) -> dict[tuple[str, str], tuple[int, Any, Any, Any]]:
-    """Number, mean, deviation and its share of the mean, of each group and measure."""
+    """Return n, mean, standard deviation and coefficient of variation by group and measure."""
     summary = cycles.summary(ends=ends)
     rows = zip(
         *(summary[name].tolist() for name in ("group", "measure", "n", "mean", "sd", "cv")),
@@ -369,35 +397,35 @@ def _tabulate_measures(
 
 
 def _choose_shown_channels(cycles: Cycles, *, ends: bool) -> list[str]:
-    """Return the channels to show: those that go farthest in a group, with the other side of each.
+    """Return the channels to print: those with the largest range in a group, and their other side.
 
-    Of several units, which cannot be compared, the first ones.
+    Channels with different units cannot be compared; the first ones are printed then.
     """
     from kineme.cycles.comparison import pair_sides
 
     if len(set(cycles.units)) > 1:
-        return [*cycles.channels[:SHOWN]]
+        return [*cycles.channels[:MAX_CHANNELS]]
     values = _tabulate_measures(cycles, ends=ends)
     pairs = pair_sides(cycles.channels)
     opposite = dict(pairs) | {right: left for left, right in pairs}
 
-    def extent(channel: str) -> float:
+    def find_range(channel: str) -> float:
         means = [values[group, f"{channel}.range"][1] for group in cycles.groups]
         return max((mean for mean in means if isfinite(mean)), default=0.0)
 
-    farthest = sorted(cycles.channels, key=extent, reverse=True)
-    names = dict.fromkeys(side for name in farthest for side in (name, opposite.get(name, name)))
-    return sorted([*names][:SHOWN], key=cycles.channels.index)
+    by_range = sorted(cycles.channels, key=find_range, reverse=True)
+    names = dict.fromkeys(side for name in by_range for side in (name, opposite.get(name, name)))
+    return sorted([*names][:MAX_CHANNELS], key=cycles.channels.index)
 
 
 def _format_mean(mean: float, sd: float) -> str:
-    """Both with as many digits after the point as the mean is told with."""
-    if isfinite(mean) and mean and not PLAIN[0] <= abs(mean) < PLAIN[1]:
+    """Return mean ± standard deviation, with as many decimals as the mean needs."""
+    if isfinite(mean) and mean and not PLAIN_RANGE[0] <= abs(mean) < PLAIN_RANGE[1]:
         return f"{mean:.4g} ± {sd:.2g}"
     digits = max(1, 2 - floor(log10(abs(mean)))) if isfinite(mean) and mean else 1
     return f"{mean:.{digits}f} ± {sd:.{digits}f}"
 
 
 def _format_cell(cell: str) -> str:
-    """Return a cell; nothing where there is no number to tell."""
+    """Return a cell without missing numbers."""
     return "" if cell == "nan" else cell.replace(" ± nan", "").replace("nan", "")

@@ -1,4 +1,4 @@
-"""``kineme data``: public recordings, fetched into a cache."""
+"""``kineme data``: download public recordings into a cache."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def data(
 ) -> None:
     """Download public recordings.
 
-    What broke off is continued; what is there already is checked and kept.
+    Interrupted downloads are resumed; existing files are checked and kept.
 
     For example: kineme data cmu 86 --trials 1,2
     """
@@ -65,7 +65,7 @@ def data(
     failures = Failures()
     start = time.perf_counter()
     files: list[Fetched] = []
-    with failures.caught(f"subject {subject}"), _show_progress(quiet=quiet) as (shown, say):
+    with failures.catch_errors(f"subject {subject}"), _show_progress(quiet=quiet) as (shown, say):
         for file in fetch_subject(
             subject,
             numbers,
@@ -83,25 +83,25 @@ def data(
 
 
 def _parse_numbers(text: str | None) -> list[int] | None:
-    """``1,2,9-11`` as numbers."""
+    """Parse numbers and ranges such as ``1,2,9-11``."""
     if text is None:
         return None
-    found: list[int] = []
+    numbers: list[int] = []
     for part in text.split(","):
         first, _, last = part.strip().partition("-")
         try:
-            found += range(int(first), int(last or first) + 1)
+            numbers += range(int(first), int(last or first) + 1)
         except ValueError as error:
             reason = f"{part!r} is not a number or a range"
             raise typer.BadParameter(reason, param_hint="--trials") from error
-    if not found or min(found) < 1:
+    if not numbers or min(numbers) < 1:
         raise typer.BadParameter(f"{text!r} names no trial", param_hint="--trials")
-    return found
+    return numbers
 
 
 @contextmanager
 def _show_progress(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
-    """What shows the progress of a file, and what prints a line above it."""
+    """Yield a function that shows the progress of a file, and one that prints a line above it."""
     from rich import progress as rich_progress
 
     from kineme.cli.terminal import Console

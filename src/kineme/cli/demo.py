@@ -1,4 +1,4 @@
-"""``kineme demo``: table and picture of the recording that comes with the package."""
+"""``kineme demo``: segment the bundled recording."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def demo(
     path = bundled_recording()
     table, picture = (output / f"{path.stem}{suffix}" for suffix in (".csv", ".png"))
     failures = Failures()
-    with failures.caught(path):
+    with failures.catch_errors(path):
         check_target_folder(table)
         check_writable(table, picture)
         options = SegmentOptions()

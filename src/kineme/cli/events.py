@@ -1,4 +1,4 @@
-"""``kineme events``: when feet come down and leave the ground, and what that tells of a gait."""
+"""``kineme events``: find foot contacts and measure the gait."""
 
 from __future__ import annotations
 
@@ -50,24 +50,26 @@ def events(
         option(OUTPUT, f"Write the spans from each event to the next as labels: {TABLES}."),
     ] = None,
     c3d: Annotated[
-        Path | None, option(OUTPUT, "Of a C3D: write a copy of it that has the events, too.")
+        Path | None, option(OUTPUT, "Write a copy of a C3D file with the events.")
     ] = None,
     left: Annotated[
         str | None,
         option(
             FEET,
-            "Channels of the left foot, as in lf_gyr_*: three axes of its gyroscope, or the "
-            "upright force under it. By their names by default.",
+            "Channels of the left foot, such as lf_gyr_*: three axes of its gyroscope, or the "
+            "vertical force under it; by default found by name.",
             metavar="NAME",
         ),
     ] = None,
-    right: Annotated[str | None, option(FEET, "Those of the right foot.", metavar="NAME")] = None,
+    right: Annotated[
+        str | None, option(FEET, "Channels of the right foot.", metavar="NAME")
+    ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
     """Find foot contacts and measure the gait.
 
-    From the positions of heel and toe, from gyroscopes at the feet, or from the force under them.
+    Uses the positions of heel and toe, gyroscopes on the feet, or the force under them.
     """
     from kineme.cycles.events import foot_events, strides
     from kineme.cycles.events import gait as gait_of
@@ -89,32 +91,32 @@ def events(
         with batch.progress(path) as stage:
             stage("reading")
             recording = read(path, **vars(options))
-            found = foot_events(recording, left=left, right=right)
-            measures = gait_of(found, recording)
+            contacts = foot_events(recording, left=left, right=right)
+            measures = gait_of(contacts, recording)
         for target in filter(None, targets):
             target.parent.mkdir(exist_ok=True)
         table, measured, span, copy = targets
         if table is not None:
-            write_table(found.columns(), table)
+            write_table(contacts.columns(), table)
         if measured is not None:
             write_table(measures, measured)
-            each = measured.with_suffix(f".strides{measured.suffix}")
-            write_table(strides(found, recording), each)
-            targets = (*targets, each)
+            stride_path = measured.with_suffix(f".strides{measured.suffix}")
+            write_table(strides(contacts, recording), stride_path)
+            targets = (*targets, stride_path)
         if span is not None:
-            write_segments(found.segmentation(), span)
+            write_segments(contacts.segmentation(), span)
         if copy is not None:
-            write_events(path, copy, found.times, found.names)
+            write_events(path, copy, contacts.times, contacts.names)
         if not quiet:
-            _show(path, found, measures, [*targets])
+            _show(path, contacts, measures, [*targets])
 
     for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
-        batch.each_person(path, read_options, work, *targets)
+        batch.run_each_person(path, read_options, work, *targets)
     batch.exit()
 
 
 def _show(path: Path, events: Events, gait: Columns, written: list[Path | None]) -> None:
-    """Print how many events there are, and what they tell of the gait."""
+    """Print the number of events and the gait measures."""
     from rich.text import Text
 
     from kineme.cli.tables import make_table, show_written
@@ -138,5 +140,5 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
 
 
 def _format_mean(mean: float, deviation: float) -> str:
-    """Return a mean with its deviation; nothing where there is none."""
+    """Return a mean with its standard deviation, without missing numbers."""
     return f"{mean:.3f} ± {deviation:.3f}".replace(" ± nan", "").replace("nan", "")

@@ -1,4 +1,4 @@
-"""``kineme graph``: recordings in, a motion graph out."""
+"""``kineme graph``: build a motion graph from recordings."""
 
 from __future__ import annotations
 
@@ -39,18 +39,20 @@ def graph(
         float,
         option(
             METHOD,
-            "Metres by which joints may be apart, on average, where one primitive is "
-            "followed by another.",
+            "Largest mean distance of joints in metres where one primitive is followed by another.",
         ),
     ] = 0.08,
     window: Annotated[
-        float, option(METHOD, "Seconds that are compared and blended there.", show_default="0.33")
+        float,
+        option(
+            METHOD, "Seconds that are compared and blended at a transition.", show_default="0.33"
+        ),
     ] = 1 / 3,
     keep_dead_ends: Annotated[
         bool,
         option(
             METHOD,
-            "Keep primitives after which nothing, or not all, can follow.",
+            "Keep primitives that lead to a dead end.",
             "--keep-dead-ends",
         ),
     ] = False,
@@ -59,59 +61,59 @@ def graph(
 ) -> None:
     """Find primitives that can follow each other.
 
-    Primitives are single movements, such as a step or a jump. What is written is a motion graph,
-    of which `kineme synthesize` makes new motion.
+    Primitives are single movements, such as a step or a jump. The output is a motion graph, from
+    which `kineme synthesize` makes new motion.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments, read_options.person or "")
     failures = Failures()
-    with failures.caught(output):
+    with failures.catch_errors(output):
         check_target_folder(output)
         check_writable(output, plot)
     failures.exit()
     motions: list[Motion] = []
-    found: list[Segmentation] = []
+    segmentations: list[Segmentation] = []
     for path, table in zip(batch.paths, tables, strict=True):
-        with batch.caught(path), batch.progress(path) as stage:
+        with batch.catch_errors(path), batch.progress(path) as stage:
             from kineme.synthesis import check_source
 
             stage("reading")
             motion = read_motion(path, **vars(read_options))
             check_source(motion, (motions or [motion])[0])
             stage("segments")
-            found.append(load_or_find_segments(motion, table, segment_options, stage))
+            segmentations.append(load_or_find_segments(motion, table, segment_options, stage))
             motions.append(motion)
     if not motions:
         batch.exit()
-    with failures.caught(output), show_progress(output.name, quiet=quiet) as stage:
+    with failures.catch_errors(output), show_progress(output.name, quiet=quiet) as stage:
         from kineme.synthesis import motion_graph, write_graph
 
         stage("jumps")
-        made = motion_graph(
-            motions, found, threshold=threshold, window=window, prune=not keep_dead_ends
+        result = motion_graph(
+            motions, segmentations, threshold=threshold, window=window, prune=not keep_dead_ends
         )
-        sources = tuple(replace(source, options=read_options) for source in made.sources)
-        made = replace(made, sources=sources)
-        write_graph(made, output)
+        sources = tuple(replace(source, options=read_options) for source in result.sources)
+        result = replace(result, sources=sources)
+        write_graph(result, output)
         if plot is not None:
             from kineme.plot.graph import plot_graph
 
-            plot_graph(made, plot)
+            plot_graph(result, plot)
         if not quiet:
-            _show(made)
+            _show(result)
     batch.exit()
     failures.exit()
 
 
-def _show(made: MotionGraph) -> None:
-    """One line per super-node: its nodes, and where one can go from them."""
+def _show(graph: MotionGraph) -> None:
+    """Print a line per super-node: its nodes, and the names that can follow."""
     from kineme.synthesis import find_following
 
-    for name, count in made.names.items():
-        onward = ", ".join(find_following(made, name)) or "nothing"
+    for name, count in graph.names.items():
+        onward = ", ".join(find_following(graph, name)) or "nothing"
         typer.echo(f"{name}: {format_count(count, 'primitive')}, then {onward}")
-    jumps = sum(edge.jump for edge in made.edges)
+    jumps = sum(edge.jump for edge in graph.edges)
     typer.echo(
-        f"{format_count(len(made.nodes), 'node')}, {format_count(len(made.edges), 'edge')}, "
+        f"{format_count(len(graph.nodes), 'node')}, {format_count(len(graph.edges), 'edge')}, "
         f"{format_count(jumps, 'jump')} among them."
     )

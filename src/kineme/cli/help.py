@@ -1,7 +1,7 @@
-"""Load commands when they are called, and fill registered names into their help.
+"""Load commands on demand, and insert registered names into their help.
 
-The names of formats and presets replace placeholders only when help is shown. Importing the
-registries takes time that a command without them should not spend.
+The names of formats and presets replace placeholders only when the help is shown, since importing
+the registries is slow.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from typer._click import Context, HelpFormatter
 
 RECORDINGS = "@recordings@"
-"""Placeholder for the names of the formats of recordings."""
+"""Placeholder for the names of recording formats."""
 LABELS = "@labels@"
-"""Placeholder for the names of the formats of labels."""
+"""Placeholder for the names of label formats."""
 TABLES = "@tables@"
-"""Placeholder for the suffixes by which tables are written."""
+"""Placeholder for the suffixes of tables that can be written."""
 PRESETS = "@presets@"
 """Placeholder for the names of the presets, the default one first."""
 
@@ -33,7 +33,7 @@ INPUT, READING_OPTIONS, METHOD, OUTPUT = "Input", "Reading options", "Method", "
 
 
 def option(group: str, text: str, *names: str, **more: Any) -> Any:
-    """Return an option in a group of the help, named after its parameter unless names are given."""
+    """Return an option in a group of the help; its name is that of the parameter by default."""
     return typer.Option(*names, help=text, rich_help_panel=group, **more)
 
 
@@ -47,7 +47,7 @@ class Command(TyperCommand):
         try:
             return super().parse_args(ctx, args)
         except typer.BadParameter as error:
-            error.message = error.message.removeprefix("Value error, ")  # what says so is in it
+            error.message = error.message.removeprefix("Value error, ")  # a prefix of typer
             raise
 
     def _check_constants(self, ctx: Context, args: Sequence[str]) -> None:
@@ -65,48 +65,48 @@ class Command(TyperCommand):
 
     def format_help(self, ctx: Context, formatter: HelpFormatter) -> None:
         """Show the help, with the registered names in place of their placeholders."""
-        for each in self.params:
-            each.help = _fill_names(each.help or "")  # type: ignore[attr-defined]
+        for parameter in self.params:
+            parameter.help = _fill_names(parameter.help or "")  # type: ignore[attr-defined]
         super().format_help(ctx, formatter)
 
 
-def make_lazy_group(homes: Mapping[str, str]) -> type[TyperGroup]:
-    """Return a class of command groups that import each command from its module when called."""
+def make_lazy_group(modules: Mapping[str, str]) -> type[TyperGroup]:
+    """Return a class of command groups that import each command when it is called."""
 
     class OnDemand(TyperGroup):
         def __init__(self, **attributes: Any) -> None:
-            super().__init__(**{**attributes, "commands": _Homes(homes)})
+            super().__init__(**{**attributes, "commands": _LazyCommands(modules)})
 
     return OnDemand
 
 
-class _Homes(Mapping[str, "_click.Command"]):
-    """Commands by name, imported when asked for."""
+class _LazyCommands(Mapping[str, "_click.Command"]):
+    """Commands by name, imported on access."""
 
-    def __init__(self, homes: Mapping[str, str]):
-        self._homes = dict(homes)
+    def __init__(self, modules: Mapping[str, str]):
+        self._modules = dict(modules)
 
     def __getitem__(self, name: str) -> _click.Command:
-        return _load_command(self._homes[name], name)
+        return _load_command(self._modules[name], name)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._homes)
+        return iter(self._modules)
 
     def __len__(self) -> int:
-        return len(self._homes)
+        return len(self._modules)
 
 
 @cache
 def _load_command(module: str, name: str) -> _click.Command:
     """Import a command or a group of commands."""
-    found = getattr(import_module(module), name)
-    if isinstance(found, typer.Typer):
-        return typer.main.get_command(found)
-    alone = typer.Typer(
+    command = getattr(import_module(module), name)
+    if isinstance(command, typer.Typer):
+        return typer.main.get_command(command)
+    app = typer.Typer(
         add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="markdown"
     )
-    alone.command(name, cls=Command)(found)
-    return typer.main.get_command(alone)
+    app.command(name, cls=Command)(command)
+    return typer.main.get_command(app)
 
 
 def _fill_names(text: str) -> str:

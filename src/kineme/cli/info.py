@@ -1,4 +1,4 @@
-"""``kineme info``: what a file is, and what had to be inferred about it."""
+"""``kineme info``: show what a file contains, and what was inferred about it."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from kineme.recordings import Motion, Signals
 
 Facts = dict[str, Any]
-IN_A_LINE = 12
-"""Channels that are told in a line; more get a list of their own."""
+CHANNELS_PER_LINE = 12
+"""Channels printed on one line; more are listed below."""
 
 
 @add_options({"effectors": Effectors} | READING)
@@ -44,7 +44,7 @@ def info(
     """Show the format, length, frame rate and joints of files."""
     batch = Batch(files, recursive=recursive)
     for path in batch.paths:
-        with batch.caught(path):
+        with batch.catch_errors(path):
             recording = read(path, **vars(read_options))
             facts = _collect_facts(recording, segment_options.effectors)
             if channels:
@@ -57,7 +57,7 @@ def info(
 
 
 def _collect_facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
-    """What is told of a recording, by name: of its file, then of its body or its channels."""
+    """Return facts about a recording by name: its file, then its body or channels."""
     from kineme.recordings import Motion
 
     source = recording.provenance
@@ -77,14 +77,19 @@ def _collect_facts(recording: Motion | Signals, effectors: Names | None) -> Fact
 
 
 def _list_measures(path: Path, recording: Motion | Signals, options: ReadOptions) -> list[Facts]:
-    """Return what can be measured in a recording: see `kineme.cycles.channels_of`."""
+    """Return the channels that can be measured; see `kineme.cycles.channels_of`."""
     from kineme.cycles.channels import channels_of
     from kineme.recordings import Motion
 
     analog = read_analog(path, options) if isinstance(recording, Motion) else None
     return [
-        {"name": each.name, "unit": each.unit, "group": each.group, "source": each.source}
-        for each in channels_of(recording, ["*"], beside=[] if analog is None else [analog])
+        {
+            "name": channel.name,
+            "unit": channel.unit,
+            "group": channel.group,
+            "source": channel.source,
+        }
+        for channel in channels_of(recording, ["*"], beside=[] if analog is None else [analog])
     ]
 
 
@@ -92,11 +97,12 @@ def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
     from kineme.features import PARTS, end_effectors
 
     skeleton = motion.skeleton
-    notes, named = facts["notes"], None
+    notes, effector_names = facts["notes"], None
     try:
-        found = end_effectors(motion, names=effectors)
-        named = {
-            part: skeleton.names[joint] for part, joint in zip(PARTS, found.indices, strict=True)
+        effector_joints = end_effectors(motion, names=effectors)
+        effector_names = {
+            part: skeleton.names[joint]
+            for part, joint in zip(PARTS, effector_joints.indices, strict=True)
         }
     except EndEffectorError as error:
         until = "until then segments come from the distances between points"
@@ -104,19 +110,19 @@ def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
     return facts | {
         "joints": [name for j, name in enumerate(skeleton.names) if j not in skeleton.end_sites],
         "end_sites": [skeleton.names[j] for j in sorted(skeleton.end_sites)],
-        "end_effectors": named,
+        "end_effectors": effector_names,
         "notes": notes,
     }
 
 
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
-    """Print the facts for people."""
+    """Print the facts."""
     from kineme.cli.tables import make_columns, show_facts
     from kineme.formats.points import BODY
     from kineme.recordings import Motion
 
     notes = [note for note in facts["notes"] if note not in recording.provenance.warnings]
-    if not joints:  # from which points each joint of the body is: of use to few
+    if not joints:  # the markers of each joint interest few users
         notes = [note for note in notes if not note.startswith(BODY)]
     length = (
         f"{format_count(facts['frames'], 'frame')} at {facts['fps']:g} Hz, {facts['seconds']:.2f} s"
@@ -131,19 +137,19 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             f"and {format_count(len(facts['end_sites']), 'end site')}",
             "end effectors": effectors or "not found",
         }
-        below = _build_tree(recording) if joints else None
+        details = _build_tree(recording) if joints else None
     else:
         names = facts["channels"]
-        many = len(names) > IN_A_LINE
+        is_long = len(names) > CHANNELS_PER_LINE
         lines = {
             "format": f"{facts['format']}, signals without a skeleton",
             "length": length,
-            "channels": f"{len(names)}, below" if many else f"{len(names)}: {', '.join(names)}",
+            "channels": f"{len(names)}, below" if is_long else f"{len(names)}: {', '.join(names)}",
         }
-        below = make_columns(names) if many else None
+        details = make_columns(names) if is_long else None
     if "measures" in facts:
-        below = _tabulate_measures(facts["measures"])
-    show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=below)
+        details = _tabulate_measures(facts["measures"])
+    show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=details)
 
 
 def _tabulate_measures(measures: list[Facts]) -> Any:
@@ -152,8 +158,8 @@ def _tabulate_measures(measures: list[Facts]) -> Any:
     table = make_table("channel", "unit", "group", "from")
     for column in table.columns:
         column.justify = "left"
-    for each in measures:
-        table.add_row(*map(str, each.values()))
+    for measure in measures:
+        table.add_row(*map(str, measure.values()))
     return table
 
 
@@ -162,9 +168,9 @@ def _build_tree(motion: Motion) -> Any:
     from rich.tree import Tree
 
     skeleton = motion.skeleton
-    trunk = Tree("", hide_root=True)
-    branches = {-1: trunk}
+    tree = Tree("", hide_root=True)
+    branches = {-1: tree}
     for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
         style = "dim" if joint in skeleton.end_sites else ""
         branches[joint] = branches[parent].add(Text(name, style=style))
-    return trunk
+    return tree

@@ -1,4 +1,4 @@
-"""``kineme label``: the labelled primitives of recordings into a knowledge base."""
+"""``kineme label``: add labelled primitives of recordings to a knowledge base."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def label(
         Path,
         option(
             INPUT,
-            "Their labels: a segment table, or a label file of another program; of several "
+            "Labels: a segment table, or a label file of another program; of several "
             "recordings a folder, or a path with {name} in it.",
             metavar="TABLE",
         ),
@@ -48,10 +48,10 @@ def label(
 ) -> None:
     """Add labelled primitives to a knowledge base.
 
-    Primitives are single movements, such as a step or a jump. A knowledge base is a file of them
-    with their names, by which `kineme transfer` labels other recordings. Where the labels name
-    whole activities only, the recording is cut into primitives first. What the knowledge base
-    held of a recording is replaced.
+    Primitives are single movements, such as a step or a jump. A knowledge base is a file of named
+    primitives, from which `kineme transfer` labels other recordings. If the labels name whole
+    activities only, the recording is segmented into primitives first. Earlier entries of a
+    recording are replaced.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--labels", labels, read_options.person or "")
@@ -59,16 +59,16 @@ def label(
     from kineme.transfer import KnowledgeBase
 
     bases = []
-    with failures.caught(knowledge):
+    with failures.catch_errors(knowledge):
         bases += [KnowledgeBase.load(knowledge)] if knowledge.exists() else []
     failures.exit()
     added: dict[Path, KnowledgeBase] = {}
     for path, table in zip(batch.paths, tables, strict=True):
-        with batch.caught(path), batch.progress(path) as stage:
+        with batch.catch_errors(path), batch.progress(path) as stage:
             stage("reading")
             motion = read_motion(path, **vars(read_options))
             added[path] = _label_primitives(motion, table, segment_options, stage)
-    with failures.caught(knowledge):
+    with failures.catch_errors(knowledge):
         if added:
             merged = KnowledgeBase.merged(*bases, *added.values())
             merged.save(knowledge)
@@ -81,7 +81,7 @@ def label(
 def _label_primitives(
     motion: Motion, labels: Path | None, options: SegmentOptions, stage: Progress
 ) -> KnowledgeBase:
-    """Return the primitives of a recording, called as its labels say."""
+    """Return a knowledge base of the labelled primitives of a recording."""
     from kineme.transfer import KnowledgeBase, name_primitives
 
     table = load_or_find_segments(motion, labels, options, stage)
@@ -91,9 +91,9 @@ def _label_primitives(
 
 
 def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None:
-    """One line per recording: what it added."""
+    """Print what each recording added."""
     for path, base in added.items():
-        what = ", ".join(f"{name} {count}" for name, count in base.counts().items())
+        counts = ", ".join(f"{name} {count}" for name, count in base.counts().items())
         typer.echo(
-            f"{knowledge}: {what} from {path.name}; {format_count(total, 'primitive')} in all"
+            f"{knowledge}: {counts} from {path.name}; {format_count(total, 'primitive')} in all"
         )

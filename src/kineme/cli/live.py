@@ -1,4 +1,4 @@
-"""``kineme live``: rows in while they are recorded, activities and counts out."""
+"""``kineme live``: segment a stream and count repetitions while it is recorded."""
 
 from __future__ import annotations
 
@@ -34,21 +34,22 @@ if TYPE_CHECKING:
     from kineme.live.sources import Source
     from kineme.live.stream import Stream
 
-SENDING = {
+OUTPUT_OPTIONS = {
     name: Annotated[output.type | None, option(OUTPUT, output.help, metavar=output.metavar)]
     for name, output in OUTPUTS.items()
 }
-SHOWN = 6
-"""Activities that are over, of which the terminal shows the last."""
+"""Options of the registered outputs for events."""
+MAX_PAST = 6
+"""Finished activities that the terminal shows."""
 
 
-@add_options(READING | SEGMENTING, outputs=SENDING)
+@add_options(READING | SEGMENTING, outputs=OUTPUT_OPTIONS)
 def live(
     read_options: ReadOptions,
     segment_options: SegmentOptions,
     outputs: dict[str, Any],
     replay: Annotated[Path | None, option(INPUT, "Replay this recording.")] = None,
-    speed: Annotated[float, option(INPUT, "So many times as fast; 0: without a wait.")] = 1.0,
+    speed: Annotated[float, option(INPUT, "Speed factor of --replay; 0: no delay.")] = 1.0,
     lsl: Annotated[
         str | None,
         option(INPUT, "Take an LSL stream, by name or type.", metavar="NAME"),
@@ -57,12 +58,12 @@ def live(
         int | None,
         option(INPUT, "Take OSC, such as VMC, at this UDP port.", metavar="PORT"),
     ] = None,
-    osc_host: Annotated[str, option(INPUT, "The address for that, 0.0.0.0 for any.")] = "127.0.0.1",
+    osc_host: Annotated[str, option(INPUT, "Address for --osc; 0.0.0.0 for any.")] = "127.0.0.1",
     delay: Annotated[
-        float, option(METHOD, "Seconds after which what was found is final.", min=0.1)
+        float, option(METHOD, "Seconds after which segments are final.", min=0.1)
     ] = 5.0,
     interval: Annotated[
-        float, option(METHOD, "Seconds from one look at the recent past to the next.", min=0.1)
+        float, option(METHOD, "Seconds between two analyses of the recent past.", min=0.1)
     ] = 2.0,
     output: Annotated[
         Path | None,
@@ -70,11 +71,11 @@ def live(
     ] = None,
     record: Annotated[
         Path | None,
-        option(OUTPUT, "Keep the rows: NAME.journal.csv grows, NAME.parquet is there at the end."),
+        option(OUTPUT, "Save the rows in NAME.journal.csv, at the end in NAME.parquet."),
     ] = None,
     recover: Annotated[
         Path | None,
-        option(OUTPUT, "Make a Parquet file of a journal that a killed run left, and end."),
+        option(OUTPUT, "Convert the journal of a killed run to Parquet, then exit."),
     ] = None,
     page: Annotated[
         bool, option(OUTPUT, "Show it in the browser, until Ctrl+C.", "--page")
@@ -84,17 +85,17 @@ def live(
 ) -> None:
     """Segment and count while a recording is made.
 
-    Rows come as lines of CSV or JSON on standard input, unless another source is given. What is
-    found at once is provisional, and final after --delay. Ctrl+C ends the recording.
+    Rows are read as CSV or JSON from standard input, unless another source is given. Results are
+    provisional at first and final after --delay. Ctrl+C ends the recording.
 
     For example: sensor | kineme live --fps 100 --record take
     """
     from kineme.live.journal import Journal, recover_journal
 
     sources = {"--replay": replay, "--lsl": lsl, "--osc": osc}
-    given = [name for name, value in sources.items() if value is not None]
-    if len(given) > 1:
-        raise typer.BadParameter("one source at a time", param_hint=" / ".join(given))
+    given_sources = [name for name, value in sources.items() if value is not None]
+    if len(given_sources) > 1:
+        raise typer.BadParameter("one source at a time", param_hint=" / ".join(given_sources))
     try:
         if recover is not None:
             typer.echo(f"wrote {recover_journal(recover)}")
@@ -102,17 +103,17 @@ def live(
         check_writable(output)
         source = _open_source(replay, speed, lsl, (osc, osc_host), read_options)
         stream = _make_stream(source, segment_options, delay, interval)
-        kept = None if record is None else Journal(record, source.channels, source.fps)
+        journal = None if record is None else Journal(record, source.channels, source.fps)
         with ExitStack() as opened:
             opening = [OUTPUTS[name].open(value) for name, value in outputs.items()]
             opening += [_open_page(stream)] if page else []
             sends = [opened.enter_context(each) for each in opening]
             with (
-                nullcontext() if kept is None else closing(kept),
+                nullcontext() if journal is None else closing(journal),
                 _open_printer(json=json, quiet=quiet) as show,
             ):
-                is_stopped = _push_all(source, stream, kept, [*sends, show])
-            _write(stream, output, kept, quiet=json or quiet)
+                is_stopped = _push_all(source, stream, journal, [*sends, show])
+            _write(stream, output, journal, quiet=json or quiet)
             if page and not is_stopped:
                 _wait_for_interrupt()
     except KinemeError as error:
@@ -120,7 +121,9 @@ def live(
         raise typer.Exit(1) from error
 
 
-def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Sequence[Send]) -> bool:
+def _push_all(
+    source: Source, stream: Stream, journal: Journal | None, sends: Sequence[Send]
+) -> bool:
     """Send the events of all rows until the source ends; return whether Ctrl+C ended it."""
 
     def tell(events: Sequence[Event]) -> None:
@@ -128,7 +131,7 @@ def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Seque
             send(events)
 
     try:
-        for rows in source.rows if kept is None else kept.write_ahead(source.rows):
+        for rows in source.rows if journal is None else journal.write_ahead(source.rows):
             for remark in rows.remarks:
                 print_skipped(remark)
             tell(stream.push(rows.values, rows.seconds))
@@ -139,20 +142,20 @@ def _push_all(source: Source, stream: Stream, kept: Journal | None, sends: Seque
     return False
 
 
-def _write(stream: Stream, output: Path | None, kept: Journal | None, *, quiet: bool) -> None:
-    """Write the segments, and say which files are there now."""
+def _write(stream: Stream, output: Path | None, journal: Journal | None, *, quiet: bool) -> None:
+    """Write the segments and print the written files."""
     if output is not None:
         from kineme.labels import write_segments
 
         write_segments(stream.segmentation, output)
     if not quiet:
-        for path in filter(None, (kept and kept.target, output)):
+        for path in filter(None, (journal and journal.target, output)):
             typer.echo(f"wrote {path}")
 
 
 @contextmanager
 def _open_page(stream: Stream) -> Iterator[Send]:
-    """Open a page in the browser; yield what brings it up to date."""
+    """Open a page in the browser; yield the function that updates it."""
     from kineme.studio.live_page import LivePage, serve_page
 
     skeleton = stream.layout.skeleton
@@ -174,17 +177,17 @@ def _wait_for_interrupt() -> None:
 
 
 def _open_source(
-    replayed: Path | None,
+    replay: Path | None,
     speed: float,
     lsl: str | None,
     osc: tuple[int | None, str],
     options: ReadOptions,
 ) -> Source:
-    """Return the source that was chosen, with its rate."""
+    """Return the selected source, with its frame rate."""
     from kineme.live import sources
 
-    if replayed is not None:
-        return sources.replay(read(replayed, **vars(options)), speed)
+    if replay is not None:
+        return sources.replay(read(replay, **vars(options)), speed)
     if lsl is not None:
         source = sources.receive_lsl(lsl)
     elif osc[0] is not None:
@@ -211,7 +214,7 @@ def _make_stream(source: Source, options: SegmentOptions, delay: float, interval
 
 @contextmanager
 def _open_printer(*, json: bool, quiet: bool) -> Iterator[Send]:
-    """Show events as lines of JSON, as a view that changes in a terminal, or as lines of text."""
+    """Yield a function that prints events as JSON, as a live table in a terminal, or as text."""
     if json or quiet or not sys.stdout.isatty():
         yield _print_json if json else partial(_print_lines, quiet=quiet)
         return
@@ -273,15 +276,15 @@ def _format_name(event: ActivityStarted | ActivityEnded) -> str:
 
 @dataclass
 class View:
-    """What the terminal shows: what goes on, and what was before."""
+    """Live table in the terminal: the present activity and the last finished ones."""
 
     name: str = "–"
     count: int = 0
     stops: list[float] = field(default_factory=list)
-    over: list[ActivityEnded] = field(default_factory=list)
+    past: list[ActivityEnded] = field(default_factory=list)
 
     def add(self, event: Event) -> None:
-        """Take an event in."""
+        """Update the view with an event."""
         if isinstance(event, ActivityStarted) and not event.is_final:
             self.name, self.count, self.stops = _format_name(event), 0, []
         elif isinstance(event, Repetition) and not event.is_final:
@@ -289,23 +292,23 @@ class View:
             self.stops = [*self.stops[-4:], event.stop_s]
         elif isinstance(event, ActivityEnded):
             if event.is_final:
-                self.over = [*self.over[-SHOWN + 1 :], event]
+                self.past = [*self.past[-MAX_PAST + 1 :], event]
             if not event.is_final or event.stop_s >= event.at_s:  # or the recording has ended
                 self.name, self.count, self.stops = "–", 0, []
 
     @property
     def tempo(self) -> float:
-        """Return the last repetitions in a minute; 0 where there are too few."""
+        """Repetitions per minute over the last ones; 0 if there are too few."""
         if len(self.stops) < 2 or self.stops[-1] <= self.stops[0]:
             return 0.0
         return 60 * (len(self.stops) - 1) / (self.stops[-1] - self.stops[0])
 
     def table(self) -> Table:
-        """Return what is shown."""
+        """Return the table to show."""
         from kineme.cli.tables import make_table
 
         table = make_table("activity", "from s", "to s", "repetitions", "a minute")
-        for event in self.over:
+        for event in self.past:
             row = _format_name(event), f"{event.start_s:.1f}", f"{event.stop_s:.1f}"
             table.add_row(*row, str(event.repetitions), "", style="dim")
         tempo = f"{self.tempo:.0f}" if self.tempo else ""

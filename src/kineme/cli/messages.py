@@ -1,4 +1,4 @@
-"""What goes to standard error: errors, warnings, progress."""
+"""Messages on standard error: errors, warnings, progress."""
 
 from __future__ import annotations
 
@@ -12,18 +12,19 @@ import typer
 from kineme._util.parallel import announce_to
 from kineme.errors import KinemeError, KinemeWarning
 
-PATIENCE = 1.0  # seconds before progress is shown
+PROGRESS_DELAY_S = 1.0
+"""Time before progress is shown."""
 
 
 class Failures:
-    """Counts and reports what failed, so that the command can end with one sentence of it."""
+    """Count and print failures, so that the command can end with an exit code."""
 
     def __init__(self) -> None:
         self.count = 0
 
     @contextmanager
-    def caught(self, subject: object) -> Iterator[None]:
-        """Report a failure in the block as one line that names ``subject``."""
+    def catch_errors(self, subject: object) -> Iterator[None]:
+        """Print an error in the block as one line that names ``subject``."""
         try:
             yield
         except KinemeError as error:
@@ -31,27 +32,27 @@ class Failures:
             print_error(format_line(error, subject=subject))
 
     def exit(self) -> None:
-        """End with code 1 if anything failed."""
+        """Exit with code 1 if anything failed."""
         if self.count:
             raise typer.Exit(1)
 
 
 def shorten_warnings() -> None:
-    """Show every KinemeWarning, and any warning as one line without its source."""
+    """Show every KinemeWarning, and print any warning as one line without its source."""
     warnings.simplefilter("always", KinemeWarning)
     warnings.showwarning = _show_warning
 
 
 @contextmanager
 def show_progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
-    """A function to name the stage at work; shown on a terminal once a second has passed."""
+    """Yield a function that shows the current stage on a terminal, after a second."""
     from kineme.cli.terminal import Console
 
     status = Console(stderr=True).status(str(what))
     if quiet or not status.console.is_terminal:
         yield _ignore_stage
         return
-    timer = threading.Timer(PATIENCE, status.start)
+    timer = threading.Timer(PROGRESS_DELAY_S, status.start)
     timer.daemon = True
     timer.start()
     try:
@@ -64,21 +65,21 @@ def show_progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None
 
 
 def _ignore_stage(_: str) -> None:
-    """Says nothing."""
+    """Ignore the stage."""
 
 
 def print_error(text: str) -> None:
-    """A line about what failed."""
+    """Print a line about a failure."""
     _print_message("error", text, typer.colors.RED)
 
 
 def print_skipped(text: str) -> None:
-    """A line about what was left out, though nobody had asked for it by name."""
+    """Print a line about something skipped that was not requested by name."""
     _print_message("skipped", text, typer.colors.YELLOW)
 
 
 def format_line(message: object, *, subject: object = "") -> str:
-    """Return a message without line breaks, and what it is about if that is not in it."""
+    """Return a message on one line, with its subject if the message does not contain it."""
     text = " ".join(str(message).split())
     return text if str(subject) in text else f"{subject}: {text}"
 

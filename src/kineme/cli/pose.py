@@ -1,4 +1,4 @@
-"""``kineme pose``: the poses of people in videos, as tables."""
+"""``kineme pose``: estimate the poses of people in videos."""
 
 from __future__ import annotations
 
@@ -47,9 +47,8 @@ def pose(
 ) -> None:
     """Estimate the poses of people in videos.
 
-    The poses of VIDEO are kept in VIDEO.poses.parquet beside it, where other commands take them
-    from: kineme segment VIDEO. What was interrupted goes on where it ended. Everything happens on
-    this machine.
+    The poses of VIDEO are saved in VIDEO.poses.parquet beside it, where other commands find them:
+    kineme segment VIDEO. An interrupted run is resumed. Everything happens on this machine.
 
     For example: kineme pose squats.mp4 --output poses.parquet
     """
@@ -65,7 +64,7 @@ def pose(
     if not batch.paths:
         print_error(f"there is no video in {', '.join(map(str, files))}")
     for path, table in zip(batch.paths, batch.targets("--output", output, ".parquet"), strict=True):
-        with batch.caught(path):
+        with batch.catch_errors(path):
             if table is not None:
                 make_parent_folder(table)
             with batch.progress(path):
@@ -80,18 +79,18 @@ def pose(
 def _estimate(
     path: Path, table: Path | None, estimator: str | None, model: Path | None
 ) -> dict[str, Any]:
-    """Return what was found in a video, and where it was written."""
+    """Estimate the poses of a video, write them, and return the facts to print."""
     from kineme.errors import ReadError
     from kineme.formats.keypoints.poses import read_poses
     from kineme.pose import estimate_poses
 
-    place = estimate_poses(path, table, estimator=estimator, model=model)
-    poses = read_poses(place)
+    target = estimate_poses(path, table, estimator=estimator, model=model)
+    poses = read_poses(target)
     if not len(poses.rows):
         raise ReadError(path, "nobody is found in any frame")
-    told = {name: poses.head[name] for name in ("estimator", "frames", "fps", "duration")}
+    facts = {name: poses.head[name] for name in ("estimator", "frames", "fps", "duration")}
     people = len(set(poses.rows["person"].tolist()))
-    return {"path": str(path), **told, "seen": poses.seen, "people": people, "poses": str(place)}
+    return {"path": str(path), **facts, "seen": poses.seen, "people": people, "poses": str(target)}
 
 
 def _describe_poses(facts: dict[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""``kineme presets``: what ``--preset`` can name, and what ``--set`` can change."""
+"""``kineme presets``: list presets and their constants."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from kineme.methods import Constant
 
-MOST = 20
-"""Characters of a column, beyond which only its own row is moved to the right."""
-BELOW = " " * 6
+MAX_WIDTH = 20
+"""Width of a column in characters; longer cells shift only their own row."""
+INDENT = " " * 6
 
 
 def presets(
@@ -31,8 +31,8 @@ def presets(
     """List the presets, or the constants of one.
 
     A preset is a method with a value for each of its constants. `kineme segment --preset NAME`
-    takes another, `--set NAME=VALUE` changes a constant. To a file or pipe, constants are written
-    one on each line, with tabs.
+    selects another preset, `--set NAME=VALUE` changes a constant. In a file or pipe, each constant
+    is one line with tabs.
     """
     if name is None:
         width = max(map(len, PRESETS))
@@ -44,40 +44,47 @@ def presets(
         chosen = resolve_preset(name)
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint="NAME") from error
-    constants = sorted(chosen.constants(), key=lambda each: each.fine)
+    constants = sorted(chosen.constants(), key=lambda constant: constant.fine)
     if not typer.get_text_stream("stdout").isatty():
         _write_rows(constants)
         return
     typer.echo(f"{chosen.name}: {chosen.help}")
     if chosen.unit != "any":
         typer.echo(f"Lengths are in {chosen.unit}.")
-    fine = [each for each in constants if each.fine]
+    fine = [constant for constant in constants if constant.fine]
     _show("Constants", constants[: len(constants) - len(fine)])
     if fine:
         _show("Finer constants, which hardly anybody needs to change", fine)
 
 
 def _write_rows(constants: Sequence[Constant]) -> None:
-    """A line for each constant, with tabs between the cells."""
+    """Print one line per constant with tab-separated cells."""
     typer.echo("constant\tvalue\tunit\trange\tdefault\tfine\tmeaning")
-    for each in constants:
-        cells = format_value(each.value), each.unit, each.allowed, _format_default(each)
-        typer.echo("\t".join((each.name, *cells, "fine" if each.fine else "", each.help)))
+    for constant in constants:
+        cells = (
+            format_value(constant.value),
+            constant.unit,
+            constant.allowed,
+            _format_default(constant),
+        )
+        typer.echo(
+            "\t".join((constant.name, *cells, "fine" if constant.fine else "", constant.help))
+        )
 
 
 def _show(title: str, constants: Sequence[Constant]) -> None:
-    """Two lines for each constant: what it is and may be, and below it what it means."""
+    """Print two lines per constant: name, value and range, then its meaning."""
     rows = [
         (
-            each.name,
-            f"{format_value(each.value)} {each.unit}",
-            each.allowed,
-            "" if each.value == each.default else _format_default(each),
+            constant.name,
+            f"{format_value(constant.value)} {constant.unit}",
+            constant.allowed,
+            "" if constant.value == constant.default else _format_default(constant),
         )
-        for each in constants
+        for constant in constants
     ]
     head = ("constant", "value", "may be", "otherwise")
-    widths = [min(max(map(len, column)), MOST) for column in zip(head, *rows, strict=True)]
+    widths = [min(max(map(len, column)), MAX_WIDTH) for column in zip(head, *rows, strict=True)]
 
     def line(cells: Sequence[str]) -> str:
         pairs = zip(cells, widths, strict=True)
@@ -86,11 +93,13 @@ def _show(title: str, constants: Sequence[Constant]) -> None:
     typer.secho(f"\n{title}:", bold=True)
     typer.echo(f"  {line(head)}")
     edge = shutil.get_terminal_size().columns
-    for row, each in zip(rows, constants, strict=True):
+    for row, constant in zip(rows, constants, strict=True):
         typer.secho(f"  {line(row)}", bold=True)
-        typer.echo(textwrap.fill(each.help, edge, initial_indent=BELOW, subsequent_indent=BELOW))
+        typer.echo(
+            textwrap.fill(constant.help, edge, initial_indent=INDENT, subsequent_indent=INDENT)
+        )
 
 
 def _format_default(constant: Constant) -> str:
-    """Return what the method has where a preset says nothing; empty where each preset has to."""
+    """Return the default of the method; empty if every preset must set the constant."""
     return "" if constant.default is MISSING else format_value(constant.default)

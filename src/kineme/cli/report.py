@@ -1,4 +1,4 @@
-"""``kineme report``: recordings in, pages to look at out."""
+"""``kineme report``: write pages that play recordings with their segments."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ def report(
 ) -> None:
     """Write a web page that plays a recording and its segments.
 
-    One file with everything in it: it needs neither a server nor a network.
+    The page is a single file that needs neither a server nor a network.
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
-    batch.tables("--segments", segments)  # whether there are any
+    batch.tables("--segments", segments)  # fail early if there are none
 
     def work(path: Path, options: ReadOptions, table: Path | None, page: Path) -> None:
         check_writable(page=page)
@@ -52,11 +52,13 @@ def report(
             recording, result = read_and_segment(path, options, table, segment_options, stage)
         from kineme.report.page import write_report
 
-        drawn = show_envelopes(recording, segment_options)
-        write_report(drawn, result, page, name=path.name, effectors=segment_options.effectors)
+        shown_recording = show_envelopes(recording, segment_options)
+        write_report(
+            shown_recording, result, page, name=path.name, effectors=segment_options.effectors
+        )
         if not quiet:
             typer.echo(page)
 
     for path, page in zip(batch.paths, pages, strict=True):
-        batch.each_person(path, read_options, work, page, tables=("--segments", segments))
+        batch.run_each_person(path, read_options, work, page, tables=("--segments", segments))
     batch.exit()

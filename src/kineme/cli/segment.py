@@ -1,4 +1,4 @@
-"""``kineme segment``: recordings in, tables and pictures out."""
+"""``kineme segment``: segment recordings; write tables and plots."""
 
 from __future__ import annotations
 
@@ -74,10 +74,10 @@ def segment(
 ) -> None:
     """Cut recordings into activities and repeated primitives.
 
-    An activity is one kind of movement for a while, such as walking; a transition leads from one
-    to the next. Primitives are the movements that an activity repeats, such as each double step.
-    What is alike has the same cluster number. With --person all each of the people in a recording
-    is segmented, and results are called after them.
+    An activity is one kind of movement for a while, such as walking; a transition leads from one to
+    the next. Primitives are the movements that an activity repeats, such as each double step.
+    Segments with the same cluster number are the same movement. With --person all, each person in a
+    recording is segmented separately; names of results include the person.
 
     For example: kineme segment walk.bvh --output walk.csv --plot walk.png
     """
@@ -97,12 +97,12 @@ def segment(
         print_segments(result, recording, level, [*targets], json=json, quiet=quiet)
 
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
-        batch.each_person(path, read_options, work, *targets)
+        batch.run_each_person(path, read_options, work, *targets)
     batch.exit()
 
 
 def _read_joined(paths: Sequence[Path], options: ReadOptions) -> Signals:
-    """Return the channels of several files on one clock."""
+    """Return the channels of several files, joined by time."""
     from kineme.errors import ReadError
     from kineme.recordings import Signals
     from kineme.recordings.samples import join_signals
@@ -123,7 +123,7 @@ def read_and_segment(
     segment_options: SegmentOptions,
     stage: Progress,
 ) -> tuple[Motion | Signals, Segmentation]:
-    """Return the recording in a file, and its segments as `load_or_find_segments` has them."""
+    """Return the recording in a file and its segments; see `load_or_find_segments`."""
     stage("reading")
     recording = read(path, **vars(read_options))
     return recording, load_or_find_segments(recording, table, segment_options, stage)
@@ -132,7 +132,7 @@ def read_and_segment(
 def load_or_find_segments(
     recording: Motion | Signals, table: Path | None, options: SegmentOptions, stage: Progress
 ) -> Segmentation:
-    """Return the segments in a table or label file; without one those that are found."""
+    """Return the segments in a table or label file; without one, segment the recording."""
     if table is None:
         with announce_compilation(stage):
             return segment_with_options(recording, options, progress=stage)[0]
@@ -148,7 +148,7 @@ def load_or_find_segments(
 
 
 def show_envelopes(recording: Motion | Signals, options: SegmentOptions) -> Motion | Signals:
-    """Return the recording as pages and pictures show it: muscle signals by their envelopes."""
+    """Return the recording for plots; muscle signals are replaced by their envelopes."""
     from kineme.recordings import Signals
 
     if not (options.emg and isinstance(recording, Signals)):
@@ -166,7 +166,7 @@ def write_results(
     picture: Path | None,
     page: Path | None = None,
 ) -> None:
-    """Write the table, the picture and the page, where wanted."""
+    """Write the table, the plot and the page, as far as requested."""
     if table is not None:
         from kineme.labels import write_segments
 
@@ -192,7 +192,7 @@ def print_segments(
     json: bool,
     quiet: bool,
 ) -> None:
-    """Print the segments as JSON, or as a table above the files that were written."""
+    """Print the segments as JSON, or as a table with the written files."""
     if json:
         from kineme.labels.json_table import as_object
 

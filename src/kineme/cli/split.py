@@ -1,4 +1,4 @@
-"""``kineme split``: recordings in, a folder of clips of each out."""
+"""``kineme split``: write each segment of recordings as a clip."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from kineme.cli.options.clips import CLIPS
 from kineme.cli.options.declare import add_options
 from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
 from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import EVERYTHING, READING, Quiet, expand_read_options
+from kineme.cli.options.reading import ALL, READING, Quiet, expand_read_options
 from kineme.cli.options.targets import make_parent_folder
 from kineme.cli.segment import read_and_segment
 from kineme.formats.options import ReadOptions
@@ -61,7 +61,7 @@ def split(
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
-    batch.tables("--segments", segments)  # whether there are any
+    batch.tables("--segments", segments)  # fail early if there are none
 
     def work(path: Path, options: ReadOptions, table: Path | None, folder: Path) -> None:
         write([find(path, options, table)], folder)
@@ -96,11 +96,11 @@ def split(
     for name in ("sheet", "motion_matching"):
         if clip_options[name] is not None and len(batch.paths) > 1:
             hint = f"--{name.replace('_', '-')}"
-            raise typer.BadParameter("is of one recording only", param_hint=hint)
+            raise typer.BadParameter("takes one recording only", param_hint=hint)
     for path, folder in zip(batch.paths, folders, strict=True):
-        if read_options.take == EVERYTHING and folder.suffix and not folder.is_dir():
-            # Takes of one file are animations of one file.
-            with batch.caught(path):
+        if read_options.take == ALL and folder.suffix and not folder.is_dir():
+            # All takes of a file become animations of one output file.
+            with batch.catch_errors(path):
                 tables = ("--segments", segments)
                 write(
                     [
@@ -110,5 +110,5 @@ def split(
                     folder,
                 )
             continue
-        batch.each_person(path, read_options, work, folder, tables=("--segments", segments))
+        batch.run_each_person(path, read_options, work, folder, tables=("--segments", segments))
     batch.exit()

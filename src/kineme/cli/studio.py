@@ -1,4 +1,4 @@
-"""``kineme studio``: a page to look at recordings and correct their segments."""
+"""``kineme studio``: view recordings and correct their segments in the browser."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from kineme.cli.help import OUTPUT, option
 from kineme.cli.messages import Failures
 from kineme.cli.options.declare import add_options, are_given
 from kineme.cli.options.method import Effectors
-from kineme.cli.options.reading import BODY, EVERYTHING
+from kineme.cli.options.reading import ALL, BODY
 from kineme.errors import ParameterError
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -57,27 +57,28 @@ def studio(
 ) -> None:
     """See and correct segments in the browser.
 
-    The page is served on this machine alone; presets and their constants are chosen there.
-    Corrections are kept in NAME.segments.json beside each recording, from one edit to the next.
-    Ctrl+C ends it.
+    The page is served on this machine only; presets and constants are selected there. Corrections
+    are saved in NAME.segments.json beside each recording after every edit. Ctrl+C stops the server.
     """
     failures = Failures()
-    with failures.caught("studio"):
+    with failures.catch_errors("studio"):
         root, recordings = _choose_folder(files or [Path()])
         from kineme.library.storage.layout import HEAD
         from kineme.studio.server import serve
 
-        if read_options.person == EVERYTHING:
+        if read_options.person == ALL:
             read_options = replace(read_options, person=None)
             _split_people(recordings, read_options)
 
         library = None
         if recordings is None and (root / HEAD).is_file():
             if are_given(context, OPTIONS):
-                raise ParameterError(f"{root} is a library, read as it was built: no such options")
-            from kineme.studio.library import ShownLibrary
+                raise ParameterError(
+                    f"{root} is a library, which is read as it was built: leave out these options"
+                )
+            from kineme.studio.library import StudioLibrary
 
-            library = ShownLibrary(root)
+            library = StudioLibrary(root)
             read_options, segment_options = library.options()
 
         def announce(address: str) -> None:
@@ -91,27 +92,29 @@ def studio(
 
 
 def _split_people(recordings: list[Path] | None, options: ReadOptions) -> None:
-    """Have each of the people in the files that were named be a recording of its own."""
+    """Make each person in the named files a separate recording."""
     if recordings is None:
-        raise ParameterError("--person all is for files: name them, or choose in the page")
+        raise ParameterError("--person all needs file names: give them, or choose in the page")
     from kineme.studio.folder import Folder
     from kineme.studio.open_recordings import OpenRecordings
     from kineme.studio.storage.sidecars import read_saved_options
 
-    present = OpenRecordings(Folder(Path(), recordings), lambda *_: None, options)
-    for listed in present.folder.recordings().values():
+    open_recordings = OpenRecordings(Folder(Path(), recordings), lambda *_: None, options)
+    for listed in open_recordings.folder.recordings().values():
         if not listed.person:
-            present.read_as(listed.id, read_saved_options(listed.path), everybody=True)
+            open_recordings.change_reading(
+                listed.id, read_saved_options(listed.path), everybody=True
+            )
 
 
-def _choose_folder(given: list[Path]) -> tuple[Path, list[Path] | None]:
-    """Return the folder, and the recordings where not all of it are wanted."""
-    for path in given:
+def _choose_folder(paths: list[Path]) -> tuple[Path, list[Path] | None]:
+    """Return the folder, and the files in it to open; None opens all of them."""
+    for path in paths:
         if not path.exists():
             raise ParameterError(f"{path}: there is no such file or folder")
-    if len(given) == 1 and given[0].is_dir():
-        return given[0], None
-    for path in given:
+    if len(paths) == 1 and paths[0].is_dir():
+        return paths[0], None
+    for path in paths:
         if path.is_dir():
             raise ParameterError(f"{path} is a folder: give one folder, or files")
-    return given[0].parent, list(dict.fromkeys(given))
+    return paths[0].parent, list(dict.fromkeys(paths))

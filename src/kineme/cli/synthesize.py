@@ -1,4 +1,4 @@
-"""``kineme synthesize``: a motion graph in, a new motion out."""
+"""``kineme synthesize``: make new motion from a motion graph."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from kineme.cli.messages import Failures, show_progress
 from kineme.cli.options.reading import Quiet
 from kineme.errors import ParameterError
 
-PLAYED = "What is to be played"
+CONTENT = "New motion"
 
 
 def synthesize(
@@ -23,30 +23,31 @@ def synthesize(
     actions: Annotated[
         str | None,
         option(
-            PLAYED,
+            CONTENT,
             "Labels or cluster numbers in order, as in walk,run*3,jump; "
-            "with --path those that may be played, without counts.",
+            "with --path the allowed ones, without counts.",
             metavar="NAME*COUNT,…",
         ),
     ] = None,
     path: Annotated[
         str | None,
         option(
-            PLAYED, "A line on the floor to follow, metres, as in 0,0;3,0;3,3.", metavar="X,Z;X,Z;…"
+            CONTENT,
+            "Line on the floor to follow, in metres, such as 0,0;3,0;3,3.",
+            metavar="X,Z;X,Z;…",
         ),
     ] = None,
     tolerance: Annotated[
-        float, option(PLAYED, "Metres that the figure may get away from that line.")
+        float, option(CONTENT, "Largest distance from that line in metres.")
     ] = 0.5,
     duration: Annotated[
         float | None,
         option(
-            PLAYED,
-            "Seconds of any primitives that can follow each other, drawn by chance, in place "
-            "of actions.",
+            CONTENT,
+            "Seconds of motion from randomly drawn primitives, instead of actions.",
         ),
     ] = None,
-    seed: Annotated[int, option(PLAYED, "Another number draws other primitives.", min=0)] = 0,
+    seed: Annotated[int, option(CONTENT, "Seed of the random draw.", min=0)] = 0,
     quiet: Quiet = False,
 ) -> None:
     """Make new motion from a motion graph.
@@ -56,30 +57,30 @@ def synthesize(
     if (actions is None and path is None) == (duration is None):
         raise typer.BadParameter("give --actions, --path or both, or --duration")
     failures = Failures()
-    with failures.caught(graph), show_progress(output.name, quiet=quiet) as stage:
+    with failures.catch_errors(graph), show_progress(output.name, quiet=quiet) as stage:
         stage("reading")
         from kineme import synthesis
         from kineme.formats import write
 
-        made = synthesis.read_graph(graph)
-        motions = synthesis.load_sources(made)
+        motion_graph = synthesis.read_graph(graph)
+        motions = synthesis.load_sources(motion_graph)
         stage("searching")
         start = None
         named = synthesis.parse_actions(actions) if actions is not None else []
         if path is not None:
             route, start = synthesis.line_route(
-                made,
+                motion_graph,
                 motions,
                 synthesis.parse_line(path),
                 actions=_drop_counts(named),
                 tolerance=tolerance,
             )
         elif named:
-            route = synthesis.action_route(made, named)
+            route = synthesis.action_route(motion_graph, named)
         else:
-            route = synthesis.random_route(made, duration or 0, seed)
+            route = synthesis.random_route(motion_graph, duration or 0, seed)
         stage("blending")
-        motion = synthesis.synthesize(made, motions, route, start=start)
+        motion = synthesis.synthesize(motion_graph, motions, route, start=start)
         write(motion, output)
         if not quiet:
             typer.echo(f"{motion.duration:.2f} s, {motion.provenance.notes[0]}: {output}")

@@ -1,4 +1,4 @@
-"""Segments, recordings and scores as tables for people, on a terminal, in a file or a pipe."""
+"""Print segments, recordings and scores as tables, on a terminal or to a file."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
 Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
-"""A title, and rows: a name and the cells beside it."""
+"""Title and rows; a row is a name and its cells."""
 
-PER_CENT = "sure %"
-OF_COUNTS = "sure %: how probable it is that the number of repetitions is right"
-WORDS = ("kind", "cluster", "label", "recording", "example")
-"""Columns that hold no numbers."""
+CONFIDENCE = "sure %"
+CONFIDENCE_NOTE = "sure %: how probable it is that the number of repetitions is right"
+TEXT_COLUMNS = ("kind", "cluster", "label", "recording", "example")
+"""Columns without numbers, aligned left."""
 _NOTHING_FOUND = (
-    "no activity found: nothing stays similar or repeats for long enough; of a recording of a few "
-    "seconds --set min_action=0.5 or --preset krueger2017 may tell more"
+    "no activity found: nothing stays similar or repeats for long enough; for a recording of a few "
+    "seconds --set min_action=0.5 or --preset krueger2017 may find more"
 )
 
 
 def show_facts(
     facts: Mapping[str, Any], lines: Mapping[str, object], *, below: RenderableType | None = None
 ) -> None:
-    """Print what is known of a recording: its name, these lines, its notes, what goes below."""
+    """Print facts about a recording: its path, these lines, its notes, and ``below``."""
     console = Console(highlight=False)
     grid = Table.grid(padding=(0, 2))
     rows = [*lines.items(), *(("note", note) for note in facts["notes"])]
@@ -44,7 +44,7 @@ def show_facts(
     console.print(Text(str(facts["path"]), style="bold"))
     if console.is_terminal:
         console.print(grid)
-    else:  # of which the grid would fill every line up to the longest
+    else:  # the grid would pad every line to the longest
         for name, value in rows:
             console.print(Text(f"{name:<{width}}  {value}"), soft_wrap=True)
     if below is not None:
@@ -59,9 +59,9 @@ def show_segments(
     written: Sequence[Path | None] = (),
     warned: Sequence[str] = (),
 ) -> None:
-    """Print one row per segment of a level, a summary, the notes and the files written.
+    """Print one row per segment of a level, a summary, the notes and the written files.
 
-    Notes that were ``warned`` of before are not said again.
+    Notes in ``warned`` were printed before and are skipped.
     """
     console = Console(highlight=False)
     source = segmentation.provenance["input"]["path"]
@@ -91,7 +91,7 @@ def show_written(console: Console, paths: Iterable[Path | None]) -> None:
 
 
 def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:
-    """Print scores by the columns that have them."""
+    """Print scores with one column per result."""
     from kineme.evaluation.score import explain_disagreement, score_rows
 
     show_table(title, list(columns), score_rows(columns), note=explain_disagreement(columns))
@@ -100,7 +100,7 @@ def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:
 def show_table(
     title: str, header: Sequence[str], sections: Sequence[Section], *, note: str = ""
 ) -> None:
-    """Print a column of names, one column per title in the header, rows in sections, a note."""
+    """Print rows in sections, with a column of names and one column per entry of the header."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     table.add_column("", no_wrap=True)
     for name in header:
@@ -118,7 +118,7 @@ def show_table(
 
 
 def _tabulate_activities(segmentation: Segmentation) -> Table:
-    """Activities and transitions with their repetitions counted."""
+    """Return a table of activities and transitions with their number of repetitions."""
     from kineme.cycles.table import compute_count_confidence
 
     table = make_table(
@@ -128,7 +128,7 @@ def _tabulate_activities(segmentation: Segmentation) -> Table:
         "stop s",
         "frames",
         "repetitions",
-        PER_CENT,
+        CONFIDENCE,
         "cluster",
         "label",
     )
@@ -144,22 +144,22 @@ def _tabulate_activities(segmentation: Segmentation) -> Table:
         table.add_row(*_format_span(number, row), *cells, style=_choose_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
         captions.append("(+n): primitives of the activity that are in other clusters, or in none")
-    if keep_if_filled(table, PER_CENT):
-        captions.append(OF_COUNTS)
+    if keep_if_filled(table, CONFIDENCE):
+        captions.append(CONFIDENCE_NOTE)
     table.caption, table.caption_justify = "\n".join(captions) or None, "left"
     keep_if_filled(table, "label")
     return table
 
 
 def format_per_cent(probability: float) -> str:
-    """Return a probability in per cent; nothing where there is none."""
+    """Return a probability in per cent; empty for nan."""
     return "" if isnan(probability) else f"{100 * probability:.0f}"
 
 
 def _format_repetitions(clusters: list[int], main: int) -> str:
-    """How many primitives are in the activity's cluster, else in the largest; how many are not."""
+    """Return the number of primitives in the main cluster, and of others as "(+n)"."""
     if main not in clusters:
-        # Most frequent of the clusters of its primitives.
+        # Take the most frequent cluster of the primitives.
         main = max(clusters, key=clusters.count, default=-1)
     count = clusters.count(main) if main >= 0 else 0
     others = len(clusters) - count
@@ -176,29 +176,29 @@ def _tabulate_primitives(segmentation: Segmentation) -> Table:
 
 
 def make_columns(names: Iterable[str]) -> RenderableType:
-    """Names side by side; in a file or a pipe each on a line of its own."""
+    """Return names side by side on a terminal, else one per line."""
     texts = [Text(name) for name in names]
     on_terminal = Console().is_terminal
     return Columns(texts, padding=(0, 2), column_first=True) if on_terminal else Group(*texts)
 
 
 def make_table(*names: str) -> Table:
-    """Return a table with these columns: words to the left, numbers to the right."""
+    """Return an empty table with these columns: text aligned left, numbers right."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for name in names:
-        words = name in WORDS
-        # Names that end in dots could be those of several recordings.
-        table.add_column(name, justify="left" if words else "right", overflow="fold")
+        is_text = name in TEXT_COLUMNS
+        # Fold instead of truncating: truncated names of recordings could be ambiguous.
+        table.add_column(name, justify="left" if is_text else "right", overflow="fold")
     return table
 
 
 def keep_if_filled(table: Table, name: str) -> bool:
-    """Leave out the column of this name if all of its cells are empty; whether it stays."""
-    at = [column.header for column in table.columns].index(name)
-    filled = any(table.columns[at].cells)
-    if not filled:
-        del table.columns[at]
-    return filled
+    """Remove the column with this name if it is empty; return whether it was kept."""
+    index = [column.header for column in table.columns].index(name)
+    is_filled = any(table.columns[index].cells)
+    if not is_filled:
+        del table.columns[index]
+    return is_filled
 
 
 def _format_span(number: int, row: Segment) -> tuple[str, ...]:
@@ -207,7 +207,7 @@ def _format_span(number: int, row: Segment) -> tuple[str, ...]:
 
 
 def format_cluster(cluster: int) -> RenderableType:
-    """Return a cluster with its colour; nothing for none."""
+    """Return a cluster number in its colour; empty for none."""
     return Text.assemble(("■ ", get_cluster_color(cluster)), str(cluster)) if cluster >= 0 else ""
 
 

@@ -1,7 +1,7 @@
-"""What is printed, on a terminal, in a file or a pipe.
+"""Console output to a terminal, a file or a pipe.
 
-Names of files, joints and labels may hold codes that would steer a terminal: they are spelled
-out. Only a terminal has an edge at which lines are broken.
+Names of files, joints and labels may contain control codes for terminals, which are escaped. Only
+on a terminal are lines wrapped.
 """
 
 from __future__ import annotations
@@ -14,29 +14,29 @@ import rich.console
 from rich.console import ConsoleOptions, RenderableType
 from rich.segment import Segment
 
-_STEERS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
-"""Controls but tab and line feed, and what turns the direction of text."""
-EDGELESS = 10_000
-"""Columns of a file or a pipe, which has no edge at which lines would have to be broken."""
+_CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+"""Control characters except tab and line feed, and characters that change text direction."""
+UNLIMITED_WIDTH = 10_000
+"""Width for files and pipes, so that lines are never wrapped."""
 
 
 class Console(rich.console.Console):
-    """A console of rich that spells out the control characters of texts.
+    """A console of rich that escapes control characters in texts.
 
-    What is no terminal gets every row of a table on a line of its own, however long.
+    Without a terminal, every row of a table is on one line, however long.
     """
 
     def __init__(self, *, width: int | None = None, **options: Any) -> None:
         super().__init__(width=width, **options)
         if width is None and not self.is_terminal:
-            self.width = EDGELESS
+            self.width = UNLIMITED_WIDTH
 
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> Iterable[Segment]:
-        """Return the segments of a renderable.
+        """Return the segments of a renderable with control characters escaped.
 
-        Rich's own control codes are segments of their own.
+        Rich's own control codes are separate segments and are kept.
         """
         for segment in super().render(renderable, options):
             text = segment.text if segment.control else escape_controls(segment.text)
@@ -44,11 +44,11 @@ class Console(rich.console.Console):
 
 
 def escape_controls(text: str) -> str:
-    """Return a text whose control characters, which could steer a terminal, are spelled out.
+    """Return a text with its control characters escaped.
 
     Examples
     --------
     >>> escape_controls("a" + chr(7) + "b") == "a" + chr(92) + "x07b"
     True
     """
-    return _STEERS.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+    return _CONTROLS.sub(lambda match: match[0].encode("unicode_escape").decode(), text)

@@ -1,4 +1,4 @@
-"""``kineme transfer``: labels from a knowledge base for the primitives of recordings."""
+"""``kineme transfer``: label the primitives of recordings from a knowledge base."""
 
 from __future__ import annotations
 
@@ -43,13 +43,14 @@ def transfer(
         float | None,
         option(
             METHOD,
-            "How different a movement may be from one that is known, from 0 to 2; lower "
-            "gives fewer labels, more of them right.",
+            "Largest distance to a known movement, 0 to 2; lower "
+            "gives fewer but more reliable labels.",
             show_default="0.85",
         ),
     ] = None,
     spread: Annotated[
-        bool, option(METHOD, "Give all of a cluster the label that most of it got.", "--spread")
+        bool,
+        option(METHOD, "Give a whole cluster the label of most of its primitives.", "--spread"),
     ] = False,
     output: Annotated[
         Path | None,
@@ -79,7 +80,7 @@ def transfer(
 
     bases = []
     for path in knowledge:
-        with failures.caught(path):
+        with failures.catch_errors(path):
             bases.append(KnowledgeBase.load(path))
     failures.exit()
     base = KnowledgeBase.merged(*bases)
@@ -87,7 +88,7 @@ def transfer(
     if threshold is not None:
         options["threshold"] = threshold
     for path, table in zip(batch.paths, tables, strict=True):
-        with batch.caught(path):
+        with batch.catch_errors(path):
             check_writable(table)
             with batch.progress(path) as stage:
                 stage("reading")
@@ -108,10 +109,10 @@ def _label_segments(
     options: dict[str, Any],
     stage: Progress,
 ) -> Segmentation:
-    """Return the segments of a recording, labelled."""
+    """Segment a recording and return its segments with labels."""
     from kineme.transfer import transfer_features, transfer_labels
 
-    found = load_or_find_segments(motion, None, segment_options, stage)
+    segments = load_or_find_segments(motion, None, segment_options, stage)
     stage("labels")
     features = transfer_features(motion, effectors=segment_options.effectors)
-    return transfer_labels(found, features, base, **options)
+    return transfer_labels(segments, features, base, **options)

@@ -1,4 +1,4 @@
-"""Pictures of segmentations, each on Axes of matplotlib that are given or made."""
+"""Plots of segmentations, drawn on given or new matplotlib Axes."""
 
 from kineme.plot.curves import plot_curves, plot_sessions, plot_sides
 from kineme.plot.matrix import plot_matrix, plot_segmentation

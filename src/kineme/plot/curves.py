@@ -1,4 +1,4 @@
-"""Mean curves of a channel, drawn: of groups, of two sessions, or of left and right."""
+"""Plot mean curves of a channel: of groups, two sessions, or left and right."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 FIRST, SECOND = "#777777", "#332288"
-"""Colours of two sessions; the first is dashed, too, so that paper without colour tells them."""
+"""Colours of two sessions; the first is also dashed, for prints without colour."""
 
 
 def plot_curves(
     cycles: Cycles, channel: str, *, ends: bool = False, ax: Axes | None = None
 ) -> Axes:
-    """Mean and standard deviation of a channel over the cycle, a line for each group.
+    """Draw mean and standard deviation of a channel over the cycle, one line per group.
 
     Parameters
     ----------
@@ -56,13 +56,13 @@ def plot_curves(
     if channel not in cycles.channels:
         raise ParameterError(f"no channel {channel!r}; there are {', '.join(cycles.channels)}")
     axes = ax if ax is not None else make_axes(6, 3.5)
-    numbers = zip(cycles.columns["group"].tolist(), cycles.columns["cluster"].tolist(), strict=True)
-    clusters = dict(numbers)
-    # Colours of clusters tell groups apart only if each group has a cluster of its own.
-    many = len(set(clusters.values())) == len(clusters)
-    for place, group in enumerate(cycles.groups):
+    pairs = zip(cycles.columns["group"].tolist(), cycles.columns["cluster"].tolist(), strict=True)
+    clusters = dict(pairs)
+    # Use cluster colours only if every group has its own cluster.
+    is_unique = len(set(clusters.values())) == len(clusters)
+    for number, group in enumerate(cycles.groups):
         curves = cycles.layout(channel, group, ends=ends)
-        color = get_cluster_color(clusters[group] if many else place)
+        color = get_cluster_color(clusters[group] if is_unique else number)
         _add_mean(axes, curves, color, f"{group} (n = {len(curves)})")
     _label_axes(axes, cycles, channel, channel)
     return axes
@@ -77,7 +77,7 @@ def plot_sides(
     ends: bool = False,
     ax: Axes | None = None,
 ) -> Axes:
-    """Mean and standard deviation of a left and a right channel over the same cycles of a group.
+    """Draw mean and standard deviation of a left and a right channel over a group's cycles.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def plot_sides(
 def plot_sessions(
     curves: Columns, channel: str, group: str, *, unit: str = "", ax: Axes | None = None
 ) -> Axes:
-    """Mean and standard deviation of a channel in two sessions, and where they surely differ.
+    """Draw mean and standard deviation of a channel in two sessions; mark clear differences.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def plot_sessions(
 
 
 def _add_mean(axes: Axes, curves: Floats, color: str, label: str, style: str = "-") -> None:
-    """Mean of curves, with their deviation; nothing where there are none."""
+    """Draw the mean of curves with its standard deviation; nothing without curves."""
     if len(curves) == 0:
         return
     sd = curves.std(axis=0, ddof=1) if len(curves) > 1 else None

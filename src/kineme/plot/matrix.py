@@ -1,10 +1,9 @@
-"""Self-similarity matrix of a recording, with the borders and clusters found in it.
+"""Plot the self-similarity matrix of a recording with its borders and clusters.
 
-Time runs to the right and downwards. A dark dot at (t, j) means that frame j
-looks like frame t: the darker, the nearer. Squares frame the activities, fine
-lines inside them the primitives. The bars along both edges are coloured by
-cluster; grey is what belongs to none. Similarities are those that the studio and
-reports show (`kineme.features.similarity`), at the zoom that fits the picture.
+Time runs to the right and downwards. A dark dot at (t, j) means that frame j is similar to frame t.
+Squares frame the activities; thin lines inside them separate primitives. The bars along both edges
+are coloured by cluster, grey without one. Similarities are those shown in the studio and reports
+(`kineme.features.similarity`), at the resolution that fits the plot.
 
 Source: Vögele, Krüger and Klein 2014, figure 2, and figure 1 of its supplement.
 """
@@ -37,13 +36,13 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
 SUFFIXES = (".png", ".pdf", ".svg")
-PIXELS = 1600  # a side at most
+MAX_PIXELS = 1600  # largest side of the matrix
 INK = "#1B1F2A"
 BORDER = "#C2571A"
 SHADES = LinearSegmentedColormap.from_list("similarity", ["#FFFFFF", "#B9C0CE", INK])
-NARROW = 0.004  # share of the picture below which borders would hide what they frame
+MIN_FRAMED = 0.004  # share of the plot; borders would hide narrower segments
 MAX_LEGEND = 16
-MAX_GAPS = 400  # bars; more are drawn without gaps between them
+MAX_GAPS = 400  # more bars than this are drawn without gaps
 
 
 def plot_matrix(
@@ -53,7 +52,7 @@ def plot_matrix(
     effectors: Names | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Return the matrix with frames around activities and primitives, seconds along both edges.
+    """Draw the matrix with frames around activities and primitives; axes are in seconds.
 
     Parameters
     ----------
@@ -61,7 +60,7 @@ def plot_matrix(
     recording : Motion or Signals
         The same recording.
     effectors : joints, optional
-        Of a motion, to take for head, hands and feet where names do not tell.
+        Joints of a motion to use as head, hands and feet if their names are unknown.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
 
@@ -72,7 +71,7 @@ def plot_matrix(
     Raises
     ------
     ParameterError
-        Something else than a segmentation and its recording.
+        The arguments are not a segmentation and its recording.
 
     Examples
     --------
@@ -91,7 +90,7 @@ def plot_matrix(
     seconds = segmentation.n_frames / segmentation.fps
     bar = 0.022 * seconds
     matrix = compare_frames(recording, effectors=effectors)
-    level = next(i for i, cells in enumerate(matrix.levels) if len(cells) <= PIXELS)
+    level = next(i for i, cells in enumerate(matrix.levels) if len(cells) <= MAX_PIXELS)
     axes.imshow(
         matrix.cells(level, slice(None), slice(None)),
         cmap=SHADES,
@@ -104,7 +103,7 @@ def plot_matrix(
     )
     _draw_borders(axes, segmentation)
     _draw_bars(axes, segmentation, bar)
-    # Room for the bars at the left and below.
+    # Leave room for the bars on the left and below.
     axes.set_xlim(-1.5 * bar, seconds)
     axes.set_ylim(seconds + 1.5 * bar, 0)
     axes.set_aspect("equal")
@@ -132,7 +131,7 @@ def plot_segmentation(
     effectors: Names | None = None,
     title: str | None = None,
 ) -> None:
-    """Write the picture that `plot_matrix` draws as PNG, PDF or SVG, by suffix.
+    """Write the plot of `plot_matrix` as PNG, PDF or SVG, by suffix.
 
     Parameters
     ----------
@@ -144,14 +143,14 @@ def plot_segmentation(
     effectors : joints, optional
         As for `plot_matrix`.
     title : str, optional
-        A line above it; by default the name of the recording.
+        Title of the plot; by default the name of the recording.
 
     Raises
     ------
     ParameterError
-        Something else than a segmentation, its recording and a path.
+        The arguments are not a segmentation, its recording and a path.
     WriteError
-        Another suffix, or the file cannot be written.
+        The suffix is unknown, or the file cannot be written.
 
     Examples
     --------
@@ -176,7 +175,7 @@ def plot_segmentation(
 
 
 def _check_recording(recording: object, segmentation: Segmentation) -> None:
-    """Raise a ParameterError unless the segments can be those of the recording."""
+    """Raise ParameterError unless the recording has the length of the segments."""
     if not isinstance(recording, Motion | Signals):
         raise ParameterError(
             f"a picture needs the Motion or Signals segmented, not {type(recording).__name__}"
@@ -192,28 +191,28 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     activities, primitives = segmentation.activities, segmentation.primitives
     counts = np.bincount(primitives.activity, minlength=len(activities))
     lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
-    # Where primitives are narrower than a line, only the activity is framed.
-    wide = lengths > counts * NARROW
+    # Frame only the activity if its primitives are narrower than a line.
+    is_wide = lengths > counts * MIN_FRAMED
     cuts = [
         line
         for row in primitives
-        if row.start_s > activities.start_s[row.activity] and wide[row.activity]
+        if row.start_s > activities.start_s[row.activity] and is_wide[row.activity]
         for line in _make_cross_lines(row.start_s, activities[row.activity])
     ]
     axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
-    shown = activities[activities.kind == "activity"]
-    squares = _make_boxes(shown.start_s, shown.stop_s, shown.start_s, shown.stop_s)
-    width = 1.4 if len(activities) * NARROW < 0.2 else 0.7
+    framed = activities[activities.kind == "activity"]
+    squares = _make_boxes(framed.start_s, framed.stop_s, framed.start_s, framed.stop_s)
+    width = 1.4 if len(activities) * MIN_FRAMED < 0.2 else 0.7
     axes.add_collection(
         PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=width, clip_on=False)
     )
 
 
-def _make_cross_lines(at: float, within: Segment) -> list[list[tuple[float, float]]]:
-    """Return a line across an activity in each direction."""
+def _make_cross_lines(at: float, activity: Segment) -> list[list[tuple[float, float]]]:
+    """Return a horizontal and a vertical line across an activity."""
     return [
-        [(at, within.start_s), (at, within.stop_s)],
-        [(within.start_s, at), (within.stop_s, at)],
+        [(at, activity.start_s), (at, activity.stop_s)],
+        [(activity.start_s, at), (activity.stop_s, at)],
     ]
 
 
@@ -232,26 +231,25 @@ def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
 
 
 def _make_boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np.float64]]:
-    """Corners (4, 2) of upright rectangles; a number stands for as many as needed."""
-    # Clockwise from the upper left corner: eight columns of numbers become four points.
+    """Return the corners (4, 2) of rectangles; scalars are broadcast."""
+    # Corners clockwise from the upper left: eight numbers per box become four points.
     left, right, top, bottom = np.broadcast_arrays(left, right, top, bottom)
     corners = [left, top, right, top, right, bottom, left, bottom]
     return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
 
 
 def _make_legend(segmentation: Segmentation) -> list[Patch]:
-    """Return the largest clusters by number of primitives, in the order of their numbers."""
+    """Return entries for the clusters with most primitives, in the order of their numbers."""
     counts = segmentation.repetitions()
-    # The largest clusters, shown by number.
-    shown = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
+    largest = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
     handles = [
         Patch(color=get_cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
-        for cluster in shown
+        for cluster in largest
     ]
     if (segmentation.primitives.cluster < 0).any():
         handles.append(Patch(color=NO_CLUSTER, label="none"))
-    if len(counts) > len(shown):
-        handles.append(Patch(color="none", label=f"and {len(counts) - len(shown)} more"))
+    if len(counts) > len(largest):
+        handles.append(Patch(color="none", label=f"and {len(counts) - len(largest)} more"))
     return handles
 
 

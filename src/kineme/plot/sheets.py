@@ -1,4 +1,4 @@
-"""A contact sheet: strips of several recordings in one picture, each under its title."""
+"""Contact sheets: strips of several recordings in one picture, each with a title."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from kineme.plot.strips import plot_strip
 from kineme.recordings import Motion, Signals
 from kineme.segments.colors import get_cluster_color
 
-WIDE, TALL = 7.0, 1.4
-"""Inches of a strip."""
-COLUMN = 12
-"""Strips below each other in one column; more stand in three columns."""
-MOST = 300
-"""Strips in a sheet, the first ones."""
+WIDTH, HEIGHT = 7.0, 1.4
+"""Width and height of a strip in inches."""
+MAX_SINGLE_COLUMN = 12
+"""Strips up to which one column is used; above, there are three."""
+MAX_STRIPS = 300
+"""Strips on a sheet; the rest is left out."""
 
 
 class Strip(NamedTuple):
-    """A span of a recording, and the cluster that gives it its color."""
+    """A span of a recording, and the cluster that sets its colour."""
 
     title: str
     recording: Motion | Signals
@@ -31,19 +31,19 @@ class Strip(NamedTuple):
 
 
 def write_sheet(strips: Sequence[Strip], path: str | PathLike[str]) -> None:
-    """Write strips as one picture, ``.png``, ``.pdf`` or ``.svg``."""
-    shown = strips[:MOST]
-    columns = 1 if len(shown) <= COLUMN else 3
-    rows = max(1, -(-len(shown) // columns))
-    figure = Figure(figsize=(WIDE * columns, TALL * rows), layout="constrained")
+    """Write strips as one picture: ``.png``, ``.pdf`` or ``.svg``."""
+    drawn_strips = strips[:MAX_STRIPS]
+    columns = 1 if len(drawn_strips) <= MAX_SINGLE_COLUMN else 3
+    rows = max(1, -(-len(drawn_strips) // columns))
+    figure = Figure(figsize=(WIDTH * columns, HEIGHT * rows), layout="constrained")
     FigureCanvasAgg(figure)
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid:
         axes.set_axis_off()
-    for axes, strip in zip(grid, shown, strict=False):
+    for axes, strip in zip(grid, drawn_strips, strict=False):
         plot_strip(strip.recording, color=get_cluster_color(strip.cluster), ax=axes)
         axes.set_title(strip.title, loc="left", fontsize=8)
-    if len(strips) > MOST:
-        figure.suptitle(f"the first {MOST} of {len(strips)}", fontsize=8)
+    if len(strips) > MAX_STRIPS:
+        figure.suptitle(f"the first {MAX_STRIPS} of {len(strips)}", fontsize=8)
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=120)

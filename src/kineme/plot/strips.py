@@ -1,7 +1,6 @@
-"""A span of a recording as a strip: a body in a few poses, channels as their lines.
+"""Plot a span of a recording as a strip: a body as a row of poses, channels as lines.
 
-A body is drawn from the side from which it moves most. Its poses stand beside each other; heights
-are kept.
+A body is seen from the side that shows most of its movement. Heights are kept.
 """
 
 from __future__ import annotations
@@ -25,13 +24,13 @@ if TYPE_CHECKING:
 
 
 POSES = 7
-"""Poses in a strip."""
-MOST_CHANNELS = 12
-"""Lines in a strip; of more channels those that vary most."""
-BESIDE = 1.15
-"""From one pose to the next, widths of a pose."""
-SLIM = 0.35
-"""Least width that is left for a pose, heights of the body."""
+"""Default number of poses."""
+MAX_CHANNELS = 12
+"""Lines in a strip; those channels are drawn that vary most."""
+POSE_SPACING = 1.15
+"""Distance between two poses, relative to the width of a pose."""
+MIN_WIDTH = 0.35
+"""Smallest width of a pose, relative to the height of the body."""
 
 
 def plot_strip(
@@ -43,17 +42,17 @@ def plot_strip(
     color: str | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Return a span of a recording as a strip of small figures, or as the lines of its channels.
+    """Draw a span of a recording as a row of poses, or as the lines of its channels.
 
     Parameters
     ----------
     recording : Motion or Signals
     start_s, stop_s : float
-        The span, seconds; to the end by default.
+        The span in seconds; by default up to the end.
     poses : int
-        Of a body, evenly over the span.
+        Number of poses of a body, evenly spaced over the span.
     color : str, optional
-        Of what is drawn, as matplotlib knows it.
+        A matplotlib colour.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
 
@@ -64,7 +63,7 @@ def plot_strip(
     Raises
     ------
     ParameterError
-        No recording, a span outside of it, or no pose.
+        The first argument is no recording, the span is outside of it, or ``poses`` is below 1.
 
     Examples
     --------
@@ -80,18 +79,18 @@ def plot_strip(
     if not (is_number(poses) and poses == int(poses) and poses >= 1):
         raise ParameterError(f"poses must be a whole number above 0, not {poses!r:.60}")
     first, last = _find_frames(recording, start_s, stop_s)
-    drawn = get_cluster_color(0) if color is None else color
+    stroke = get_cluster_color(0) if color is None else color
     axes = make_axes(6.0, 1.4) if ax is None else ax
     if isinstance(recording, Motion):
-        at = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)
-        # A root bone stays on the floor, or anywhere: only the body is drawn.
+        frames = np.linspace(first, last - 1, int(poses)).round().astype(np.int64)
+        # Draw the body only: a root bone may be anywhere, such as on the floor.
         body, parents = list(recording.skeleton.body), recording.skeleton.parents
-        places = recording.positions[:, body]
-        outlines = _project_poses(places[first:last], places[at])
-        above = [body.index(parents[j]) if parents[j] in body else -1 for j in body]
-        _draw_poses(axes, outlines, above, drawn)
+        positions = recording.positions[:, body]
+        outlines = _project_poses(positions[first:last], positions[frames])
+        body_parents = [body.index(parents[j]) if parents[j] in body else -1 for j in body]
+        _draw_poses(axes, outlines, body_parents, stroke)
     else:
-        _draw_channels(axes, recording, first, last, drawn)
+        _draw_channels(axes, recording, first, last, stroke)
     axes.set_axis_off()
     return axes
 
@@ -99,31 +98,32 @@ def plot_strip(
 def _find_frames(
     recording: Motion | Signals, start_s: float, stop_s: float | None
 ) -> tuple[int, int]:
-    """First frame and end of a span; ParameterError where it is none."""
-    lasts = recording.n_frames / recording.fps
-    stop = lasts if stop_s is None else stop_s
-    if not (is_number(start_s) and is_number(stop) and 0 <= start_s < min(stop, lasts)):
+    """Return first frame and end of a span; ParameterError if it is outside the recording."""
+    duration = recording.n_frames / recording.fps
+    stop = duration if stop_s is None else stop_s
+    if not (is_number(start_s) and is_number(stop) and 0 <= start_s < min(stop, duration)):
         raise ParameterError(
-            f"a span lies within the {lasts:.2f} s of the recording, not from {start_s!r:.20} to "
-            f"{stop_s!r:.20}"
+            f"a span lies within the {duration:.2f} s of the recording, not from {start_s!r:.20} "
+            f"to {stop_s!r:.20}"
         )
     return to_samples((start_s, stop), recording.fps, recording.n_frames)
 
 
 def _project_poses(span: Floats, poses: Floats) -> Floats:
-    """Poses (poses, joints, 2): across and up, each around its own middle.
+    """Return poses (poses, joints, 2): horizontal and vertical, each centred.
 
-    The line of sight is the level one along which the joints move least about their middle.
+    The viewing direction is the horizontal one along which the joints move least relative to each
+    other.
     """
-    # The level coordinates, x and z.
-    level = span[:, :, [0, 2]]
-    middle = level.mean(axis=1)
-    # Movement of joints against each other: without the path of the body and the mean pose.
-    moved = (level - middle[:, None]) - (level - middle[:, None]).mean(axis=0)
-    # First right singular vector: the level direction in which the joints move most.
-    across = np.linalg.svd(moved.reshape(-1, 2), full_matrices=False)[2][0]
-    # Seen so that the body walks to the right; else the larger component decides, for a stable
-    # sign.
+    # Horizontal coordinates, x and z.
+    horizontal = span[:, :, [0, 2]]
+    middle = horizontal.mean(axis=1)
+    # Movement of joints relative to each other: subtract the path of the body and the mean pose.
+    relative = (horizontal - middle[:, None]) - (horizontal - middle[:, None]).mean(axis=0)
+    # First right singular vector: the horizontal direction in which the joints move most.
+    across = np.linalg.svd(relative.reshape(-1, 2), full_matrices=False)[2][0]
+    # Choose the sign so that the body walks to the right; without travel, so that the larger
+    # component is positive.
     travel = float((middle[-1] - middle[0]) @ across)
     sign = np.sign(travel) or np.sign(across[np.argmax(np.abs(across))])
     outlines = poses[:, :, [0, 2]]
@@ -133,34 +133,36 @@ def _project_poses(span: Floats, poses: Floats) -> Floats:
 
 
 def _draw_poses(axes: Axes, outlines: Floats, parents: Sequence[int], color: str) -> None:
-    """Bones of poses beside each other; joints alone where nothing joins them."""
-    # A pose that stands upright and slim gets some width as well.
-    wide = max(
-        2 * float(np.abs(outlines[:, :, 0]).max()), SLIM * float(outlines[:, :, 1].max()), 1e-3
+    """Draw the bones of poses next to each other; joints only if there are no bones."""
+    # Slim upright poses get a minimum width.
+    width = max(
+        2 * float(np.abs(outlines[:, :, 0]).max()), MIN_WIDTH * float(outlines[:, :, 1].max()), 1e-3
     )
-    # (poses, 1, 1) times (2,): each pose is moved to the right of the one before.
-    placed = outlines + np.arange(len(outlines))[:, None, None] * np.array([BESIDE * wide, 0.0])
+    # (poses, 1, 1) times (2,) shifts each pose to the right of the previous one.
+    placed = outlines + np.arange(len(outlines))[:, None, None] * np.array(
+        [POSE_SPACING * width, 0.0]
+    )
     bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]
     if bones:
-        # A line (2 points, 2 coordinates) for each bone of each pose.
+        # One line (2 points, 2 coordinates) per bone and pose.
         lines = placed[:, bones].reshape(-1, 2, 2)
         axes.add_collection(LineCollection(list(lines), colors=color, capstyle="round"))
     else:
         axes.scatter(placed[..., 0], placed[..., 1], s=2, color=color)
-    tall = max(float(outlines[:, :, 1].max()), 1e-3)
-    axes.set_xlim(-BESIDE * wide / 2, BESIDE * wide * (len(outlines) - 0.5))
-    axes.set_ylim(-0.03 * tall, 1.03 * tall)
+    height = max(float(outlines[:, :, 1].max()), 1e-3)
+    axes.set_xlim(-POSE_SPACING * width / 2, POSE_SPACING * width * (len(outlines) - 0.5))
+    axes.set_ylim(-0.03 * height, 1.03 * height)
     axes.set_aspect("equal")
 
 
 def _draw_channels(axes: Axes, signals: Signals, first: int, last: int, color: str) -> None:
-    """Draw the lines of channels below each other, each as high as the next."""
+    """Draw the lines of channels below each other, scaled to the same height."""
     values = signals.values[first:last]
     # The channels that vary most, shown in their own order.
-    varied = np.argsort(-values.std(axis=0), kind="stable")
-    chosen = np.sort(varied[:MOST_CHANNELS])
+    by_variation = np.argsort(-values.std(axis=0), kind="stable")
+    chosen = np.sort(by_variation[:MAX_CHANNELS])
     low, high = values[:, chosen].min(axis=0), values[:, chosen].max(axis=0)
-    # From 0 to 1; a constant channel stays 0.
+    # Scale to 0 to 1; a constant channel becomes 0.
     shares = (values[:, chosen] - low) / np.maximum(high - low, 1e-12)
     seconds = np.arange(first, last) / signals.fps
     for row in range(len(chosen)):

@@ -1,4 +1,4 @@
-"""Timelines of results, alone and below each other."""
+"""Plot results as timelines, alone or below each other."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from kineme.segments.html import get_segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 
-BAND = 0.8
-"""Height of a row's bars; the rest parts it from the next."""
-NAMED = 0.06
-"""Share of the time from which a bar has room for its label."""
-MOST_EDGES = 400
-"""Bars of a row; more are drawn without white lines between them."""
+BAR_HEIGHT = 0.8
+"""Height of the bars of a row; rows are 1 apart."""
+MIN_LABELLED = 0.06
+"""Share of the total time from which a bar has room for its label."""
+MAX_EDGES = 400
+"""Bars of a row up to which white lines separate them."""
 
 
 def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes:
-    """Activities, and primitives below them, along the seconds of the recording.
+    """Draw activities, with primitives below them, over the seconds of the recording.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes
     Raises
     ------
     ParameterError
-        Something else than a segmentation.
+        The argument is not a segmentation.
 
     Examples
     --------
@@ -56,8 +56,8 @@ def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes
     """
     check_type(segmentation, Segmentation, "plot_timeline", "kineme.segment gives one")
     rows = {"activities": segmentation.activities, "primitives": segmentation.primitives}
-    shown = {name: table for name, table in rows.items() if len(table)}
-    return draw_timeline(shown, segmentation.n_frames / segmentation.fps, ax=ax)
+    filled_rows = {name: table for name, table in rows.items() if len(table)}
+    return draw_timeline(filled_rows, segmentation.n_frames / segmentation.fps, ax=ax)
 
 
 def compare(
@@ -67,18 +67,17 @@ def compare(
     level: Level = "activity",
     ax: Axes | None = None,
 ) -> Axes:
-    """Timelines of several results below each other, so that their borders can be compared.
+    """Draw timelines of several results below each other, to compare their borders.
 
-    Numbers of clusters mean nothing from one result to another. So each cluster of later results
-    takes the colour of the one in the first result with which it shares most of its time, one to
-    one.
+    Cluster numbers of different results are unrelated. So each cluster of a later result takes the
+    colour of the cluster in the first result with which it shares most time, one to one.
 
     Parameters
     ----------
     results : sequence of Segmentation
-        Usually of one recording: by several presets, or a truth and what was found.
+        Usually of one recording: by several presets, or the truth and a result.
     names : sequence of str, optional
-        One for each; by default the preset that each was made with, or its file.
+        One per result; by default its preset or file.
     level : {"activity", "primitive"}
         Which segments to draw.
     ax : Axes, optional
@@ -91,8 +90,8 @@ def compare(
     Raises
     ------
     ParameterError
-        No results, something else than segmentations, another number of names, or a
-        result without segments of that level.
+        There are no results, some are not segmentations, the number of names differs, or a
+        result has no segments of that level.
 
     Examples
     --------
@@ -110,16 +109,16 @@ def compare(
         check_type(result, Segmentation, "compare", "kineme.segment gives one")
     if not is_one_of(level, get_args(Level)):
         raise ParameterError(f"level must be 'activity' or 'primitive', not {level!r:.60}")
-    shown = _choose_names(results) if names is None else as_texts(names, "names")
-    if len(shown) != len(results) or len(set(shown)) != len(shown):
+    row_names = _choose_names(results) if names is None else as_texts(names, "names")
+    if len(row_names) != len(results) or len(set(row_names)) != len(row_names):
         raise ParameterError(
-            f"names {list(shown)} for {len(results)} results: give a different one for each"
+            f"names {list(row_names)} for {len(results)} results: give a different one for each"
         )
-    rows = {name: result.level(level) for name, result in zip(shown, results, strict=True)}
+    rows = {name: result.level(level) for name, result in zip(row_names, results, strict=True)}
     for name, table in rows.items():
         if not len(table):
             raise ParameterError(f"{name} has no segments of level {level!r}")
-    first = rows[shown[0]]
+    first = rows[row_names[0]]
     tables = [_renumber(table, match_clusters(first, table)) for table in rows.values()]
     labels = choose_label_colors(segment for table in tables for segment in table)
     return draw_timeline(
@@ -137,7 +136,7 @@ def draw_timeline(
     colors: Sequence[Sequence[str]] | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw rows of segments below each other, each with its name at the left."""
+    """Draw rows of segments below each other, with their names on the left."""
     axes = make_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
     if colors is None:
         labels = choose_label_colors(segment for table in rows.values() for segment in table)
@@ -147,13 +146,13 @@ def draw_timeline(
     for number, (table, shades) in enumerate(zip(rows.values(), colors, strict=True)):
         axes.broken_barh(
             list(zip(table.start_s, table.duration_s, strict=True)),
-            (number - BAND / 2, BAND),
+            (number - BAR_HEIGHT / 2, BAR_HEIGHT),
             facecolors=shades,
             edgecolors="white",
-            linewidth=0.6 if len(table) < MOST_EDGES else 0.0,
+            linewidth=0.6 if len(table) < MAX_EDGES else 0.0,
         )
         for segment, color in zip(table, shades, strict=True):
-            if segment.label and segment.duration_s > NAMED * seconds:
+            if segment.label and segment.duration_s > MIN_LABELLED * seconds:
                 _write_label(axes, segment, number, color)
     axes.set_yticks(range(len(rows)), list(rows))
     # The first row is at the top.
@@ -166,8 +165,8 @@ def draw_timeline(
 
 
 def make_axes(width: float, height: float) -> Axes:
-    """Return the axes of a new figure of pyplot, so many inches wide and high."""
-    from matplotlib import pyplot as plt  # its figures a notebook shows unasked
+    """Return the axes of a new pyplot figure of this size in inches."""
+    from matplotlib import pyplot as plt  # notebooks show pyplot figures automatically
 
     return plt.subplots(figsize=(width, height), layout="constrained")[1]
 
@@ -190,37 +189,37 @@ def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
 
 
 def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
-    """For each cluster of one table that of another with which it shares most time, one to one.
+    """Map each cluster of ``other`` to that of ``first`` with most shared time, one to one.
 
-    Those that share no time with a free cluster are numbered on after those of ``first``.
+    Clusters without a match get numbers above those of ``first``.
     """
     first_clusters, other_clusters = (
         np.unique(table.cluster[table.cluster >= 0]) for table in (first, other)
     )
-    # Between two of these times nothing changes in either table.
+    # Clusters are constant between two of these times.
     times = np.unique(np.concatenate([first.start_s, first.stop_s, other.start_s, other.stop_s]))
     middles, lengths = (times[1:] + times[:-1]) / 2, np.diff(times)
     a, b = _find_clusters(first, middles), _find_clusters(other, middles)
     both = (a >= 0) & (b >= 0)
     shared = np.zeros((len(first_clusters), len(other_clusters)))
-    # Row and column of each interval's pair of clusters.
+    # Row and column in `shared` for each interval.
     cells = np.searchsorted(first_clusters, a[both]), np.searchsorted(other_clusters, b[both])
-    # `add.at` adds repeated pairs one by one.
+    # `add.at` also adds up repeated indices.
     np.add.at(shared, cells, lengths[both])
     numbers = {
         int(other_clusters[column]): int(first_clusters[row])
-        # Minus, since the assignment minimises.
+        # Negative, since the assignment minimises.
         for row, column in zip(*linear_sum_assignment(-shared), strict=True)
         if shared[row, column] > 0
     }
-    following = int(first_clusters.max(initial=-1)) + 1
+    next_free = int(first_clusters.max(initial=-1)) + 1
     rest = [cluster for cluster in other_clusters.tolist() if cluster not in numbers]
-    return numbers | {cluster: following + i for i, cluster in enumerate(rest)}
+    return numbers | {cluster: next_free + i for i, cluster in enumerate(rest)}
 
 
 def _find_clusters(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the cluster at each time; -1 where there is none."""
-    # The segment that begins last before each time.
+    """Return the cluster at each time; -1 without one."""
+    # The last segment that begins at or before each time.
     row = np.searchsorted(table.start_s, times, side="right") - 1
     inside = times < table.stop_s[row]
     return np.where(inside, table.cluster[row], -1)
@@ -231,7 +230,7 @@ def _renumber(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
 
 
 def _choose_names(results: Sequence[Segmentation]) -> list[str]:
-    """Return what tells the results apart: presets, else files, else their numbers."""
+    """Return names of the results: presets, else files, else numbers, if they are unique."""
     numbers = [f"result {number}" for number in range(1, len(results) + 1)]
     presets = [result.provenance.get("preset") for result in results]
     paths = [(result.provenance.get("input") or {}).get("path") for result in results]

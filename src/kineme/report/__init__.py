@@ -1,1 +1,1 @@
-"""What people look at without a server: one page of HTML that holds everything."""
+"""Reports: pages of HTML that need neither a server nor a network."""

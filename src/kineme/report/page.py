@@ -1,10 +1,9 @@
-"""Report: one page of HTML with everything in it, for any browser, without a network.
+"""Write a report: one HTML page with everything in it, for any browser, without a network.
 
-The page itself is built from the sources in ``web/pages`` and comes with the
-package. It has marked places for data, which become script elements that
-no browser runs: the `kineme.web.messages.Recording` message, the binary
-motion, the tiles of the similarity matrix, and the curves of repetitions.
-A video is the one thing that stays outside: the page shows it from where it lies.
+The page is built from the sources in ``web/pages`` and comes with the package. It has placeholders
+for data, which become script elements that browsers do not run: the `kineme.web.messages.Recording`
+message, the binary motion, the tiles of the similarity matrix, and the curves of repetitions. Only
+a video stays outside: the page plays it from its own file.
 """
 
 from __future__ import annotations
@@ -29,10 +28,10 @@ from kineme.segments.segmentation import Segmentation
 from kineme.web.curves import as_recording, make_report_curves
 from kineme.web.cycle_curves import CycleCurves
 from kineme.web.encoding import to_json
-from kineme.web.film import describe_video, draw_picture
 from kineme.web.matrix import make_report_tiles
 from kineme.web.messages import Recording, ReportCurves
 from kineme.web.page_data import PageData, Shown, make_page_data, make_recording_message
+from kineme.web.video import describe_video, draw_picture
 
 SUFFIXES = (".html", ".htm")
 
@@ -47,12 +46,12 @@ def write_report(
 ) -> None:
     """Write a page that shows a recording and its segments.
 
-    A video of the recording is shown from its own file, so keep page and video together.
+    A video of the recording is played from its own file, so keep page and video together.
 
     Parameters
     ----------
     recording : Motion, Signals or array_like
-        What was segmented; arrays are (frames, channels).
+        The segmented recording; arrays are (frames, channels).
     segmentation : Segmentation
         Its segments, by any method or from a table.
     path : str or PathLike
@@ -60,14 +59,14 @@ def write_report(
     name : str, optional
         What the page calls the recording; by default the name of its file.
     effectors : mapping, optional
-        Joints that stand for head, hands and feet where names do not tell.
+        Joints to use as head, hands and feet if their names are unknown.
 
     Raises
     ------
     ParameterError
-        The segments are of another recording: its length or frame rate is another.
+        The length or frame rate of the segments differs from that of the recording.
     WriteError
-        Another suffix, or the file cannot be written.
+        The suffix is not .html or .htm, or the file cannot be written.
 
     Examples
     --------
@@ -97,7 +96,7 @@ def write_report(
             data.binary,
             tiles,
             _make_curves(recording, data),
-            CycleCurves(lambda: source).report(segmentation, others),
+            CycleCurves(lambda: source).make_report(segmentation, others),
             keypoints,
         )
         draft.write_text(page, encoding="utf-8")
@@ -112,12 +111,12 @@ def fill_template(
     cycles: ReportCurves | None = None,
     keypoints: bytes = b"",
 ) -> str:
-    """Return the template with the data in place of its comments.
+    """Return the template with its placeholders replaced by the data.
 
-    Tiles are PNGs by "level/row/column"; ``curves`` has ``list`` and ``tiles``, where there are
-    any; ``cycles`` are the curves of repetitions, ``keypoints`` those drawn over a video.
+    ``tiles`` are PNGs by "level/row/column". ``curves`` has ``list`` and ``tiles``, or is None.
+    ``cycles`` are the curves of repetitions, ``keypoints`` those drawn over a video.
     """
-    pictures = {place: _encode_base64(tile) for place, tile in tiles.items()}
+    pictures = {key: _encode_base64(tile) for key, tile in tiles.items()}
     parts = {
         "recording": ("application/json", _encode_json(message)),
         "motion": ("application/octet-stream;base64", _encode_base64(binary)),
@@ -136,26 +135,26 @@ def fill_template(
 
 
 def _add_video(message: Recording, recording: Shown, page: Path) -> tuple[Recording, bytes]:
-    """Return the message with the video of a recording, and the keypoints drawn over it."""
+    """Return the message with the video of the recording, and the keypoints drawn over it."""
     if not isinstance(recording, Motion | Signals) or recording.provenance.path is None:
         return message, b""
     source = Path(recording.provenance.path)
     person = recording.provenance.person
-    drawn = draw_picture(source, person) if isinstance(recording, Motion) else None
-    video = describe_video(source, drawn)
+    picture = draw_picture(source, person) if isinstance(recording, Motion) else None
+    video = describe_video(source, picture)
     if video is None:
         return message, b""
-    found = source.with_name(video.name)
+    video_path = source.with_name(video.name)
     try:
-        address = quote(os.path.relpath(found, page.parent).replace(os.sep, "/"))
-    except ValueError:  # on another drive of Windows
-        address = found.absolute().as_uri()
+        address = quote(os.path.relpath(video_path, page.parent).replace(os.sep, "/"))
+    except ValueError:  # on another Windows drive
+        address = video_path.absolute().as_uri()
     video = structs.replace(video, address=address)
-    return structs.replace(message, video=video), drawn.binary if drawn else b""
+    return structs.replace(message, video=video), picture.binary if picture else b""
 
 
 def _make_curves(recording: Shown, data: PageData) -> dict[str, object] | None:
-    """Return the channels of what has no figure."""
+    """Return the channels of a recording without poses; None for a motion."""
     if data.motion is not None:
         return None
     head, curves = make_report_curves(recording, data.fps)
@@ -163,16 +162,16 @@ def _make_curves(recording: Shown, data: PageData) -> dict[str, object] | None:
 
 
 def _find_name(segmentation: Segmentation) -> str:
-    """Return the file's name if the provenance has one: foreign tables may hold anything there."""
+    """Return the file name in the provenance, which may hold anything in foreign tables."""
     source = segmentation.provenance.get("input")
     path = source.get("path") if isinstance(source, dict) else None
     return Path(str(path or "recording")).name
 
 
 def _encode_json(value: object) -> str:
-    """JSON that stays inside its script element, whatever the texts in it hold."""
-    text = json.dumps(json.loads(to_json(value)), separators=(",", ":"))  # which is ASCII
-    # Neither a tag nor an entity can begin in it.
+    """Return JSON that cannot close or extend its script element."""
+    text = json.dumps(json.loads(to_json(value)), separators=(",", ":"))  # ASCII only
+    # Escape the characters that begin tags and entities.
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 

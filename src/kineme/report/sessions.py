@@ -1,8 +1,8 @@
-"""Two sessions on one sheet of paper: what changed, and how sure that is.
+"""Compare two sessions on one sheet of paper: what changed, with confidence bounds.
 
-The numbers are those of `kineme.cycles.compare_sessions`, `kineme.cycles.compare_curves` and
-`kineme.cycles.compare_sides`. A sheet has room for some of them: for the groups with most
-repetitions and the channels whose ranges changed most surely. It says what it leaves out.
+The numbers come from `kineme.cycles.compare_sessions`, `kineme.cycles.compare_curves` and
+`kineme.cycles.compare_sides`. The sheet shows the groups with most repetitions and the channels
+with the clearest changes, and states what it leaves out.
 """
 
 from __future__ import annotations
@@ -28,20 +28,24 @@ from kineme.errors import WriteError
 from kineme.plot.curves import FIRST, SECOND, plot_sessions
 from kineme.report.page import SUFFIXES
 
-MOST_GROUPS = 4
-LINES = {1: 26, 2: 26, 3: 28, 4: 31}
-"""Of numbers, by how many groups there are: many have less room for pictures."""
-HEADS = 3
-"""Lines that a table has above its first."""
-PANELS = {1: 6, 2: 3, 3: 3, 4: 3}
-SIDES = {1: 6, 2: 5, 3: 4, 4: 4}
+MAX_GROUPS = 4
+"""Groups on a sheet."""
+MAX_LINES = {1: 26, 2: 26, 3: 28, 4: 31}
+"""Lines of all tables by the number of groups; more groups leave less room for pictures."""
+HEADER_LINES = 3
+"""Lines that a table needs above its first row."""
+MAX_PANELS = {1: 6, 2: 3, 3: 3, 4: 3}
+"""Pictures by the number of groups."""
+MAX_PAIRS = {1: 6, 2: 5, 3: 4, 4: 4}
+"""Pairs of left and right channels by the number of groups."""
 TIMES = ("duration_s", "cadence_per_min")
-NAMES = {"duration_s": "duration (s)", "cadence_per_min": "repetitions per minute"}
+"""Measures at the top of each table."""
+MEASURE_NAMES = {"duration_s": "duration (s)", "cadence_per_min": "repetitions per minute"}
 MISSING = "–"
-MEANING = (
-    "Differences are the second less the first; their bounds hold the true one with a "
-    "confidence of 95 % (by Welch's t), each number by itself: of twenty that did not change, "
-    "one will seem to have."
+EXPLANATION = (
+    "Differences are the second session minus the first. Their bounds contain the true difference "
+    "with 95 % confidence (Welch's t), for each number separately: about one in twenty unchanged "
+    "numbers will appear changed."
 )
 STYLE = """
 @page { size: A4; margin: 11mm 13mm; }
@@ -70,7 +74,7 @@ section, figure, table { break-inside: avoid; }
 
 @dataclass(frozen=True)
 class Sheet:
-    """Both sessions, compared."""
+    """Two sessions and their comparison."""
 
     names: tuple[str, str]
     sessions: tuple[Cycles, Cycles]
@@ -88,10 +92,10 @@ def write_sessions(
     names: tuple[str, str] | None = None,
     ends: bool = False,
 ) -> None:
-    """Write a page (.html) that compares two sessions; it prints on one sheet.
+    """Write a page (.html) that compares two sessions and prints on one sheet.
 
-    ``names`` are what the page calls them, by default their recordings. With ``ends`` the first and
-    the last cycle of an activity count as well. ParameterError where they cannot be compared.
+    ``names`` are the titles of the sessions, by default their recordings. With ``ends`` the first
+    and last cycle of an activity count as well. ParameterError if the sessions cannot be compared.
     """
     check_path(path, "write_sessions")
     if Path(path).suffix.lower() not in SUFFIXES:
@@ -114,18 +118,18 @@ def _choose_name(cycles: Cycles) -> str:
 
 
 def _format_page(sheet: Sheet) -> str:
-    before, after = (escape(name) for name in sheet.names)
+    first, second = (escape(name) for name in sheet.names)
     groups = _list_groups(sheet)
-    shown = groups[:MOST_GROUPS]
-    # Lines of each group's table, less its head and the times.
-    n_channels = LINES[len(shown)] // len(shown) - HEADS - len(TIMES)
-    channels = {group: _sort_channels(sheet, group)[:n_channels] for group in shown}
+    shown_groups = groups[:MAX_GROUPS]
+    # Lines of each group's table, without its header and the durations.
+    n_channels = MAX_LINES[len(shown_groups)] // len(shown_groups) - HEADER_LINES - len(TIMES)
+    channels = {group: _sort_channels(sheet, group)[:n_channels] for group in shown_groups}
     body = [
-        f"<h1>{before} → {after}</h1>",
-        f'<p class="quiet">{_format_counts(sheet)}. {MEANING}</p>',
-        *(_format_numbers(sheet, group, channels[group]) for group in shown),
-        _format_pictures(sheet, _list_panels(channels)[: PANELS[len(shown)]]),
-        _format_sides(sheet, shown),
+        f"<h1>{first} → {second}</h1>",
+        f'<p class="quiet">{_format_counts(sheet)}. {EXPLANATION}</p>',
+        *(_format_numbers(sheet, group, channels[group]) for group in shown_groups),
+        _format_pictures(sheet, _list_panels(channels)[: MAX_PANELS[len(shown_groups)]]),
+        _format_sides(sheet, shown_groups),
         f'<p class="quiet">{escape(_format_footer(sheet, groups, n_channels))}</p>',
     ]
     return (
@@ -133,7 +137,7 @@ def _format_page(sheet: Sheet) -> str:
         '<meta name="viewport" content="width=device-width, initial-scale=1" />\n'
         '<meta http-equiv="Content-Security-Policy" '
         "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\" />\n"
-        f"<title>{before} → {after}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+        f"<title>{first} → {second}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
         + "\n".join(part for part in body if part)
         + "\n</body>\n</html>\n"
     )
@@ -151,11 +155,11 @@ def _format_counts(sheet: Sheet) -> str:
 
 
 def _list_groups(sheet: Sheet) -> list[str]:
-    """Return the groups that are in both sessions, those with most repetitions first."""
+    """Return the groups that both sessions have, those with most repetitions first."""
     groups = list(dict.fromkeys(sheet.numbers["group"].tolist()))
-    # A group that is rare in one session is rare in the comparison.
+    # The session with fewer repetitions limits the comparison.
     return sorted(
-        groups, key=lambda group: -min(_count_cycles(each, group) for each in sheet.sessions)
+        groups, key=lambda group: -min(_count_cycles(cycles, group) for cycles in sheet.sessions)
     )
 
 
@@ -177,28 +181,28 @@ def _find_row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
 
 
 def _sort_channels(sheet: Sheet, group: str) -> list[str]:
-    """Return the channels, those first whose range changed most surely."""
+    """Return the channels, sorted by how clearly their range changed."""
 
-    def certainty(channel: str) -> float:
+    def measure_clarity(channel: str) -> float:
         row = _find_row(sheet, group, f"{channel}.range")
         width = row["high"] - row["low"]
-        # How many times as large as its bounds are wide.
+        # The difference relative to the width of its confidence interval.
         return abs(row["difference"]) / width if width > 0 else -1.0
 
-    return sorted(sheet.sessions[0].channels, key=certainty, reverse=True)
+    return sorted(sheet.sessions[0].channels, key=measure_clarity, reverse=True)
 
 
 def _format_numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
-    """Return a table of what changed in a group."""
+    """Return a table of the changes in a group."""
     units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
-    labels = NAMES | {
+    labels = MEASURE_NAMES | {
         f"{channel}.range": f"{channel} range{f' ({unit})' if (unit := units[channel]) else ''}"
         for channel in channels
     }
     lines = []
     for measure, label in labels.items():
         row = _find_row(sheet, group, measure)
-        # Bounds that leave out 0; False where they are nan.
+        # The confidence interval excludes 0; False if the bounds are nan.
         clear = row["low"] > 0 or row["high"] < 0
         verdict = ("more" if row["difference"] > 0 else "less") if clear else "not clear"
         digits = _choose_digits(row["first_mean"], row["second_mean"])
@@ -214,7 +218,7 @@ def _format_numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
         ]  # fmt: skip
         lines.append(f"<tr{' class=clear' if clear else ''}>{_format_cells(cells)}</tr>")
     heads = ["", *sheet.names, "difference", "95 %", "changed"]
-    counts = " → ".join(_format_group_count(each, group) for each in sheet.sessions)
+    counts = " → ".join(_format_group_count(cycles, group) for cycles in sheet.sessions)
     duration = _find_row(sheet, group, "duration_s")
     used = " and ".join(f"{duration[f'{session}_n']:.0f}" for session in ("first", "second"))
     return (
@@ -225,14 +229,14 @@ def _format_numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
 
 
 def _list_panels(channels: dict[str, list[str]]) -> list[tuple[str, str]]:
-    """Return which curves are drawn first: of each group in turn the channel that changed most."""
-    # One panel of each group before any group gets a second: all groups have the same channels.
+    """Return group and channel of each picture: the clearest change of each group first."""
+    # Take turns: every group gets a first panel before any gets a second.
     columns = ([(group, name) for name in names] for group, names in channels.items())
     return [panel for turn in zip(*columns, strict=True) for panel in turn]
 
 
 def _format_pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
-    """Mean curves of both sessions over each other."""
+    """Return the mean curves of both sessions as pictures."""
     units = dict(zip(sheet.sessions[0].channels, sheet.sessions[0].units, strict=True))
     several = len({group for group, _ in panels}) > 1
     figures = []
@@ -251,44 +255,44 @@ def _format_pictures(sheet: Sheet, panels: Sequence[tuple[str, str]]) -> str:
         f'<i style="color: {SECOND}"></i>{second}</p>\n<div class="curves">\n'
         + "\n".join(figures)
         + '\n</div>\n<p class="quiet">Mean ± standard deviation over the cycle, in per cent. A bar '
-        "below: there the bounds of the difference leave out 0.</p>"
+        "below marks where the bounds of the difference exclude 0.</p>"
     )
 
 
 def _draw_picture(curves: Columns, group: str, channel: str) -> bytes:
-    """Return an SVG without names: fonts of the page have more letters."""
+    """Return an SVG without axis labels, which the page shows as text."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    drawn = BytesIO()
-    # A fixed salt and no date, so that equal curves give equal bytes.
+    output = BytesIO()
+    # A fixed salt and no date make the output reproducible.
     with mpl.rc_context({"font.size": 7, "svg.hashsalt": "kineme"}):
         figure = Figure(figsize=(2.4, 1.4), layout="constrained")
         axes = plot_sessions(curves, channel, group, ax=figure.add_subplot())
         axes.set(xlabel="", ylabel="", xticks=[0, 25, 50, 75, 100])
         axes.spines[["top", "right"]].set_visible(False)
-        figure.savefig(drawn, format="svg", metadata={"Date": None})
-    return drawn.getvalue()
+        figure.savefig(output, format="svg", metadata={"Date": None})
+    return output.getvalue()
 
 
 def _format_sides(sheet: Sheet, groups: Sequence[str]) -> str:
-    """Left against right in both sessions, where channels have sides."""
+    """Return a table of left and right ranges in both sessions, if channels have sides."""
     first, second = (_collect_ranges(columns) for columns in sheet.sides)
     keys = [key for key in first if key in second and key[0] in groups]
     if not keys:
         return ""
     pairs = list(dict.fromkeys(key[1:] for key in keys))
-    # One pair of channels after the other, each in all groups.
-    keys = sorted(keys, key=lambda key: pairs.index(key[1:]))[: SIDES[len(groups)]]
+    # Sort by pair of channels; each pair lists all groups.
+    keys = sorted(keys, key=lambda key: pairs.index(key[1:]))[: MAX_PAIRS[len(groups)]]
     lines = []
     for key in keys:
         group, left, right = key
         cells = [f"{group}: {left}, {right}"]
-        for of_left, of_right, index in (first[key], second[key]):
-            digits = _choose_digits(of_left, of_right)
+        for left_range, right_range, index in (first[key], second[key]):
+            digits = _choose_digits(left_range, right_range)
             cells += [
-                _format_number(of_left, digits),
-                _format_number(of_right, digits),
+                _format_number(left_range, digits),
+                _format_number(right_range, digits),
                 _format_number(index, 1),
             ]
         lines.append(f"<tr>{_format_cells(cells)}</tr>")
@@ -304,7 +308,7 @@ def _format_sides(sheet: Sheet, groups: Sequence[str]) -> str:
 
 
 def _collect_ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, float, float]]:
-    """By group, left and right channel: both ranges and their symmetry index."""
+    """Return ranges and symmetry index by group, left channel and right channel."""
     keys, values = (
         zip(*(sides[name][sides["measure"] == "range"].tolist() for name in names), strict=True)
         for names in (("group", "left_channel", "right_channel"),
@@ -314,13 +318,13 @@ def _collect_ranges(sides: Columns) -> dict[tuple[str, str, str], tuple[float, f
 
 
 def _format_footer(sheet: Sheet, groups: Sequence[str], n_channels: int) -> str:
-    """Return what the sheet has no room for, and what made it."""
+    """Return what the sheet leaves out, and the version of kineme."""
     channels = len(sheet.sessions[0].channels)
     omitted = []
-    if len(groups) > MOST_GROUPS:
-        omitted.append(f"{format_count(len(groups) - MOST_GROUPS, 'group')} with fewer repetitions")
+    if len(groups) > MAX_GROUPS:
+        omitted.append(f"{format_count(len(groups) - MAX_GROUPS, 'group')} with fewer repetitions")
     if channels > n_channels:
-        omitted.append(f"{format_count(channels - n_channels, 'channel')} that changed less surely")
+        omitted.append(f"{format_count(channels - n_channels, 'channel')} with less clear changes")
     more = f"Not shown: {', '.join(omitted)}; a table has them (--compare NAME.csv). "
     return f"{more if omitted else ''}Made by kineme {__version__}."
 
@@ -330,9 +334,9 @@ def _format_cells(texts: Sequence[str], tag: str = "td") -> str:
 
 
 def _choose_digits(*values: float) -> int:
-    """Return how many digits after the point numbers of this size are told with."""
+    """Return the number of decimals for numbers of this size."""
     size = max((abs(value) for value in values if np.isfinite(value)), default=0.0)
-    # Three digits of the largest number, one after the point at least.
+    # Three significant digits of the largest number, at least one decimal.
     return max(1, 2 - floor(log10(size))) if size > 0 else 1
 
 
@@ -340,5 +344,5 @@ def _format_number(value: float, digits: int) -> str:
     if not np.isfinite(value):
         return MISSING
     text = f"{value:.{digits}f}"
-    # No minus before a number that is rounded to 0.
+    # No minus sign for a number that rounds to 0.
     return text.removeprefix("-") if float(text) == 0 else text.replace("-", "\N{MINUS SIGN}")

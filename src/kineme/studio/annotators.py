@@ -1,8 +1,12 @@
-"""People who labelled the recordings of a folder: who there is, and how far they agree.
+"""Compare people who labelled the recordings of a folder.
 
-A person is a folder in it, with a label file for a recording or more (``anna/walk.eaf``); a table
-with a column ``recording``; what files beside the recordings have in their names behind that of
-the recording (``walk.anna.eaf``, ``walk_anna.csv``); and whoever works here: the saved tables.
+Labels of a person are found in four places:
+
+- a subfolder with a label file for each recording (``anna/walk.eaf``);
+- a table with a column ``recording``;
+- files beside the recordings with the person's name after that of the recording
+  (``walk.anna.eaf``, ``walk_anna.csv``);
+- the tables that were saved in the studio.
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ from pathlib import Path
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels.collections import LabelSource, find_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from kineme.studio.storage.tables import find_table_path
 from kineme.web.annotator_messages import (
     Agreement,
@@ -25,77 +29,81 @@ from kineme.web.annotator_messages import (
     RecordingAgreement,
 )
 
-TABLES_HERE = "tables"
-BEHIND = "._- "
-"""What parts the name of a recording from that of a person."""
+SAVED_TABLES = "tables"
+"""Id of the tables saved in the studio."""
+SEPARATORS = "._- "
+"""Characters that may separate the name of a recording from that of a person."""
 
 
 @dataclass(frozen=True)
 class Annotator:
-    """Who labelled recordings, and where."""
+    """A person who labelled recordings, with the label source of each recording."""
 
     name: str
     sources: Mapping[Path, LabelSource]
 
 
 def find_annotators(recordings: OpenRecordings) -> dict[str, Annotator]:
-    """Return the people who labelled recordings of the folder by id; whoever works here last."""
+    """Return the people who labelled recordings of the folder, by id; saved tables come last."""
     listed = _index_by_file(recordings)
     paths = [*listed]
     files = recordings.folder.annotations(listed.values()).values()
     if not paths:
         return {}
-    found: dict[str, Annotator] = {}
-    for place in (*recordings.folder.folders(), *files):
+    annotators: dict[str, Annotator] = {}
+    for label_file in (*recordings.folder.folders(), *files):
         try:
-            sources = find_labels(paths, place)
+            sources = find_labels(paths, label_file)
         except (KinemeError, OSError):
-            continue  # of other recordings, or of one that it does not name
-        name = place.stem if place.is_file() else place.name
-        found[make_file_id(place)] = Annotator(name, sources)
+            continue  # labels of other recordings, or unreadable
+        name = label_file.stem if label_file.is_file() else label_file.name
+        annotators[make_file_id(label_file)] = Annotator(name, sources)
     beside: dict[str, dict[Path, LabelSource]] = {}
-    for path in files:
-        if make_file_id(path) not in found and (named := _parse_label_name(path, paths)):
-            beside.setdefault(named[0], {})[named[1]] = LabelSource(path)
-    found |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
+    for label_file in files:
+        if make_file_id(label_file) in annotators:
+            continue
+        if parsed := _parse_label_name(label_file, paths):
+            person, recording_path = parsed
+            beside.setdefault(person, {})[recording_path] = LabelSource(label_file)
+    annotators |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
     saved = {
         path: LabelSource(table)
-        for path, each in listed.items()
-        if (table := find_table_path(each))
+        for path, recording in listed.items()
+        if (table := find_table_path(recording))
     }
     if saved:
-        found[TABLES_HERE] = Annotator("Tables of this studio", saved)
-    return found
+        annotators[SAVED_TABLES] = Annotator("Tables of this studio", saved)
+    return annotators
 
 
 def list_annotators(recordings: OpenRecordings) -> list[AnnotatorChoice]:
-    """Who there is to compare."""
+    """Return the people whose labels can be compared."""
     return [
-        AnnotatorChoice(id=name, name=each.name, recordings=len(each.sources))
-        for name, each in find_annotators(recordings).items()
+        AnnotatorChoice(id=name, name=annotator.name, recordings=len(annotator.sources))
+        for name, annotator in find_annotators(recordings).items()
     ]
 
 
 def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
-    """Return how far some of them agree, over all recordings for which two of them have labels."""
+    """Return how well people agree, over all recordings that at least two of them labelled."""
     from kineme.evaluation.annotators import annotator_agreement, gather_labels
     from kineme.evaluation.score import to_finite
 
     people = _select_annotators(recordings, chosen)
     listed = _index_by_file(recordings)
     labelled, failures = gather_labels(
-        {who.name: who.sources for who in people},
+        {person.name: person.sources for person in people},
         lambda path: recordings.extent(listed[path]),
     )
     if not any(len(sides) > 1 for sides in labelled.values()):
         reason = f": {failures[0]}" if failures else ""
-        raise ParameterError(f"there is no recording of which two of them have labels{reason}")
-    found = annotator_agreement(labelled)
-    ids = {text: each.id for path, each in listed.items() for text in (str(path), path.name)}
+        raise ParameterError(f"no recording has labels by two of them{reason}")
+    result = annotator_agreement(labelled)
+    ids = {text: entry.id for path, entry in listed.items() for text in (str(path), path.name)}
     return Agreement(
-        annotators=list(found.annotators),
-        by_names=found.by == "names",
-        fleiss_kappa=to_finite(found.fleiss_kappa),
+        annotators=list(result.annotators),
+        by_names=result.by == "names",
+        fleiss_kappa=to_finite(result.fleiss_kappa),
         pairs=[
             AgreementPair(
                 annotators=(pair.first, pair.second),
@@ -103,7 +111,7 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
                 border_f1=to_finite(pair.border_f1),
                 recordings=pair.recordings,
             )
-            for pair in found.pairs
+            for pair in result.pairs
         ],
         recordings=[
             RecordingAgreement(
@@ -113,7 +121,7 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
                 fleiss_kappa=to_finite(one.fleiss_kappa),
                 differences=[Difference(**each._asdict()) for each in one.differences],
             )
-            for one in found.recordings
+            for one in result.recordings
         ],
         failures=failures,
     )
@@ -122,53 +130,54 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
 def make_label_lanes(
     recordings: OpenRecordings, name: str, chosen: Sequence[str]
 ) -> list[LabelLane]:
-    """Return what some of them say of a recording, one lane each."""
+    """Return one lane with the labels of each selected person for a recording."""
     from kineme.web.tables import make_segments_message
 
     listed = recordings.get(name).listed
-    path = listed.called
+    path = listed.person_path
     n_frames, fps, clock = recordings.extent(listed)
     return [
         LabelLane(
-            name=who.name,
+            name=person.name,
             segmentation=make_segments_message(
-                who.sources[path].of(n_frames=n_frames, fps=fps, clock=clock)
+                person.sources[path].of(n_frames=n_frames, fps=fps, clock=clock)
             ),
         )
-        for who in _select_annotators(recordings, chosen)
-        if path in who.sources
+        for person in _select_annotators(recordings, chosen)
+        if path in person.sources
     ]
 
 
 def _index_by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
-    """Return the recordings of the folder by the files that labels of them are called after."""
-    return {each.called: each for each in recordings.folder.recordings().values()}
+    """Return the recordings of the folder by the path that their label files are named after."""
+    return {listed.person_path: listed for listed in recordings.folder.recordings().values()}
 
 
 def _select_annotators(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator]:
-    """Those of that id, with names that tell them apart."""
-    present = find_annotators(recordings)
-    if not set(chosen) <= present.keys():
-        raise UnknownError("one of these people has no labels any more; look who there is now")
-    found: dict[str, Annotator] = {}
-    for each in (present[name] for name in dict.fromkeys(chosen)):
-        name, number = each.name, 2
-        while name in found:
-            name, number = f"{each.name} {number}", number + 1
-        found[name] = Annotator(name, each.sources)
-    return [*found.values()]
+    """Return the annotators with these ids; numbers are added to names that occur twice."""
+    available = find_annotators(recordings)
+    if not set(chosen) <= available.keys():
+        raise UnknownError("one of these people has no labels any more: reload the list")
+    annotators: dict[str, Annotator] = {}
+    for annotator in (available[name] for name in dict.fromkeys(chosen)):
+        name, number = annotator.name, 2
+        while name in annotators:
+            name, number = f"{annotator.name} {number}", number + 1
+        annotators[name] = Annotator(name, annotator.sources)
+    return [*annotators.values()]
 
 
 def _parse_label_name(labels: Path, recordings: Sequence[Path]) -> tuple[str, Path] | None:
-    """Person and recording that the name of a label file tells, if it does."""
+    """Return person and recording from the name of a label file; None if it has no person."""
     stem = labels.stem
-    fitting = [
+    matches = [
         path
         for path in recordings
-        if stem.startswith(path.stem) and stem[len(path.stem) :][:1] in tuple(BEHIND)
+        if stem.startswith(path.stem) and stem[len(path.stem) :][:1] in tuple(SEPARATORS)
     ]
-    if not fitting:
+    if not matches:
         return None
-    recording = max(fitting, key=lambda path: len(path.stem))
-    person = stem[len(recording.stem) :].strip(BEHIND)
+    # The longest match: the labels of "walk_fast" also begin with "walk".
+    recording = max(matches, key=lambda path: len(path.stem))
+    person = stem[len(recording.stem) :].strip(SEPARATORS)
     return (person, recording) if person else None

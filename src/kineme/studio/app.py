@@ -1,4 +1,4 @@
-"""Application: the addresses of the studio, what becomes of errors, and the guard in front."""
+"""Application: the routes of the studio, error responses, and the guard in front of them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from kineme.errors import KinemeError, LinkError, ReadError, SeveralPeopleError, WriteError
-from kineme.studio.http.bodies import LIMIT, MessageResponse, TooLargeError, TooSlowError
+from kineme.studio.http.bodies import MAX_UPLOAD, MessageResponse, TooLargeError, TooSlowError
 from kineme.studio.http.events import Hub
 from kineme.studio.http.security import Guard, is_trusted
 from kineme.studio.open_recording import ConflictError
@@ -26,7 +26,7 @@ from kineme.web import STATIC
 from kineme.web.messages import Failure
 
 if TYPE_CHECKING:
-    from kineme.studio.library import ShownLibrary
+    from kineme.studio.library import StudioLibrary
 
 PAGE, LIBRARY_PAGE = "studio.html", "library.html"
 Handler = Callable[[Request, Exception], Response]
@@ -40,6 +40,7 @@ STATUS: dict[type[Exception], int] = {
     SupersededError: 409,
     ConflictError: 409,
 }
+"""HTTP status by exception; a class without an entry takes that of its base class."""
 
 
 def create_app(
@@ -48,16 +49,16 @@ def create_app(
     token: str,
     port: int,
     hub: Hub,
-    library: ShownLibrary | None = None,
+    library: StudioLibrary | None = None,
     static: Path = STATIC,
-    limit: int = LIMIT,
+    limit: int = MAX_UPLOAD,
     development: bool = False,
 ) -> Guard:
-    """Return the studio of some recordings, as an ASGI application.
+    """Return the studio for a folder of recordings, as an ASGI application.
 
-    Where there is a ``library``, its page is shown when neither a recording nor the folder is
-    named. ``static`` has the built pages, ``limit`` is in bytes of an upload; pages of the
-    development server may ask in ``development``.
+    If there is a ``library``, its page is shown unless the URL names a recording or the folder.
+    ``static`` holds the built pages, and ``limit`` is the largest upload in bytes. In
+    ``development``, requests from pages of the Vite server are accepted.
     """
 
     def page(request: Request) -> Response:
@@ -66,10 +67,10 @@ def create_app(
         path = static / (PAGE if library is None or names or folder else LIBRARY_PAGE)
         if not path.is_file():
             return _make_failure("this page has not been built: npm run build", 404)
-        answer = FileResponse(path)
-        if is_trusted(request):  # the recordings are read while the browser sets up the page
-            answer.background = BackgroundTask(recordings.prepare, names)
-        return answer
+        response = FileResponse(path)
+        if is_trusted(request):  # read the recordings while the browser loads the page
+            response.background = BackgroundTask(recordings.prepare, names)
+        return response
 
     handlers: dict[type[Exception], Handler] = dict.fromkeys(STATUS, _answer_known_error)
     app = Starlette(
@@ -89,8 +90,8 @@ def create_app(
     return Guard(app, token=token, port=port, development=development)
 
 
-def make_library_routes(library: ShownLibrary | None, recordings: OpenRecordings) -> list[Route]:
-    """Return the addresses of a library, if there is one."""
+def make_library_routes(library: StudioLibrary | None, recordings: OpenRecordings) -> list[Route]:
+    """Return the routes of a library; none without one."""
     if library is None:
         return []
     from kineme.studio.library_routes import LibraryApi  # reads Parquet
@@ -101,24 +102,26 @@ def make_library_routes(library: ShownLibrary | None, recordings: OpenRecordings
 def _answer_known_error(_: Request, error: Exception) -> Response:
     status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
     people = error.people if isinstance(error, SeveralPeopleError) else ()
-    poses = isinstance(error, PosesNeededError)
-    reading = isinstance(error, ReadError) and not poses
-    failure = Failure(error=str(error), people=[*people], reading=reading, poses=poses)
+    needs_poses = isinstance(error, PosesNeededError)
+    can_retry = isinstance(error, ReadError) and not needs_poses
+    failure = Failure(error=str(error), people=[*people], reading=can_retry, poses=needs_poses)
     return MessageResponse(failure, status)
 
 
 def _answer_disconnect(_: Request, __: Exception) -> Response:
-    return Response(status_code=400)  # nobody is there to read it
+    return Response(status_code=400)  # never read: the client is gone
 
 
 def _answer_http_error(_: Request, error: Exception) -> Response:
     status = error.status_code if isinstance(error, HTTPException) else 500
-    what = "this address takes other methods" if status == 405 else "there is nothing here"
-    return _make_failure(what, status)
+    reason = (
+        "this address does not accept this method" if status == 405 else "there is nothing here"
+    )
+    return _make_failure(reason, status)
 
 
 def _answer_unexpected_error(_: Request, __: Exception) -> Response:
-    return _make_failure("the server failed; its terminal says how", 500)
+    return _make_failure("the server failed: see its terminal for details", 500)
 
 
 def _make_failure(reason: str, status: int) -> Response:

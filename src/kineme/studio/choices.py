@@ -1,8 +1,7 @@
-"""What the page offers: presets with the constants that matter most, and formats.
+"""What the page offers: presets with their main constants, and download formats.
 
-All of it comes from the registered objects: a preset says which of its
-constants a page offers to change and within which limits, a format what it is
-for and how it is downloaded.
+Everything comes from the registries. A preset declares which of its constants a page may change and
+within which limits. A format declares its purpose and its download suffix.
 """
 
 from __future__ import annotations
@@ -25,11 +24,11 @@ from kineme.web.messages import ExportFormat, Parameter, PresetChoice
 from kineme.web.requests import SegmentAgain
 
 CLIPS, REPORT = "motions", "report"
-"""What can be downloaded besides the formats of :mod:`kineme.labels`: motion files, a page."""
+"""Download kinds besides the formats of :mod:`kineme.labels`: motion files and the report page."""
 
 
-UNITS = {"body sizes": "body heights"}
-"""What a page calls units that need knowledge of the package; a body's size is about its height."""
+UNIT_NAMES = {"body sizes": "body heights"}
+"""Unit names on the page; a body size is about the height of the body."""
 
 
 def list_presets() -> list[PresetChoice]:
@@ -46,17 +45,17 @@ def list_presets() -> list[PresetChoice]:
 
 
 def list_details() -> list[float]:
-    """Return the levels of detail that a segmentation can have, the coarsest first."""
+    """Return the levels of detail of a segmentation, the coarsest first."""
     return sorted({*DETAILS, DEFAULT_DETAIL})
 
 
 def check_parameters(preset: str, parameters: Mapping[str, float], *, signals: bool) -> None:
-    """ParameterError for constants that a page is not offered, or not with such values.
+    """Raise ParameterError for constants that the page does not offer, or for values out of range.
 
-    Lengths are in the unit that they have for such a recording.
+    Lengths are in the unit of the kind of recording.
     """
     resolve_preset(preset)
-    offered = {each.name: each for each in _list_parameters(preset, signals=signals)}
+    offered = {constant.name: constant for constant in _list_parameters(preset, signals=signals)}
     for name, value in parameters.items():
         if name not in offered:
             raise ParameterError(f"{preset} offers {', '.join(offered)}, not {name!r:.40}")
@@ -66,20 +65,20 @@ def check_parameters(preset: str, parameters: Mapping[str, float], *, signals: b
 
 
 def make_repeat_request(table: Segmentation, *, signals: bool) -> SegmentAgain:
-    """To segment as a table was: by its preset, with what is offered of its constants.
+    """Return the request that repeats a segmentation with its preset and the offered constants.
 
-    By the default preset where it does not say by which; nothing of the table is kept.
+    The default preset is used if the table names none. Corrections of the table are not kept.
     """
     provenance = table.provenance
     preset, detail = str(provenance.get("preset")), provenance.get("detail")
     values = provenance.get("parameters") if preset in PRESETS else None
     preset = preset if preset in PRESETS else DEFAULT
-    given = values if isinstance(values, Mapping) else {}
+    saved_values = values if isinstance(values, Mapping) else {}
     parameters = {
-        each.name: float(given[each.name])
-        for each in _list_parameters(preset, signals=signals)
-        if isinstance(given.get(each.name), int | float)
-        and each.minimum <= given[each.name] <= each.maximum
+        parameter.name: float(saved_values[parameter.name])
+        for parameter in _list_parameters(preset, signals=signals)
+        if isinstance(saved_values.get(parameter.name), int | float)
+        and parameter.minimum <= saved_values[parameter.name] <= parameter.maximum
     }
     return SegmentAgain(
         preset=preset,
@@ -93,9 +92,11 @@ def list_export_formats() -> list[ExportFormat]:
     """Return every format that segments can be downloaded in."""
     return [
         *(
-            ExportFormat(name=each.name, suffix=each.download_suffix, help=each.help)
-            for each in label_formats().values()
-            if each.write
+            ExportFormat(
+                name=label_format.name, suffix=label_format.download_suffix, help=label_format.help
+            )
+            for label_format in label_formats().values()
+            if label_format.write
         ),
         ExportFormat(name=CLIPS, suffix=".zip", help="A motion file per segment"),
         ExportFormat(
@@ -110,28 +111,28 @@ def _list_parameters(preset: str, *, signals: bool) -> list[Parameter]:
     if type(chosen) is type(other):
         constants = tuple(map(_adapt_to_signals, chosen.constants(), constants))
     return [
-        _make_parameter(each, each.slider)
-        for each in constants
-        if each.slider is not None and each.value is not None
+        _make_parameter(constant, constant.slider)
+        for constant in constants
+        if constant.slider is not None and constant.value is not None
     ]
 
 
-def _make_parameter(declared: Constant, slider: Slider) -> Parameter:
-    """Return a constant with a slider that can stand at the preset's own value."""
-    below = math.floor((declared.value - slider.minimum) / slider.step + 1e-6)
+def _make_parameter(constant: Constant, slider: Slider) -> Parameter:
+    """Return a constant with slider limits such that the preset's value is one of its steps."""
+    steps_below = math.floor((constant.value - slider.minimum) / slider.step + 1e-6)
     return Parameter(
-        name=declared.name,
-        help=declared.help,
-        value=declared.value,
-        minimum=declared.value - below * slider.step,
+        name=constant.name,
+        help=constant.help,
+        value=constant.value,
+        minimum=constant.value - steps_below * slider.step,
         maximum=slider.maximum,
         step=slider.step,
-        unit=UNITS.get(declared.unit, declared.unit),
+        unit=UNIT_NAMES.get(constant.unit, constant.unit),
     )
 
 
 def _adapt_to_signals(of_body: Constant, of_signals: Constant) -> Constant:
-    """A constant as signals have it: the slider of a length reaches as far to either side."""
+    """Return the constant for signals; the slider of a length is scaled to their unit."""
     slider = of_body.slider
     if (
         slider is None
@@ -141,6 +142,6 @@ def _adapt_to_signals(of_body: Constant, of_signals: Constant) -> Constant:
     ):
         return of_signals
     scale = of_signals.value / of_body.value
-    unit = "standard deviations" if of_body.unit == "metres" else ""  # found in the recording
+    unit = "standard deviations" if of_body.unit == "metres" else ""  # known once the file is read
     slider = Slider(*(scale * bound for bound in slider))
     return replace(of_signals, slider=slider, unit=unit)

@@ -1,4 +1,4 @@
-"""What each edit that a page may send does to a table."""
+"""Apply the edits that a page may send to a table."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from kineme.studio.loading import LoadedRecording
 from kineme.web import requests as sent
 from kineme.web.requests import Edit
 
-BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
+CORRECTIONS: Mapping[type[Struct], Callable[..., Segmentation]] = {
     sent.MoveBorder: editing.move_border,
     sent.Split: editing.split,
     sent.Merge: editing.merge,
@@ -35,14 +35,14 @@ BY_HAND: Mapping[type[Struct], Callable[..., Segmentation]] = {
     sent.Check: editing.check,
     sent.Exclude: editing.exclude,
 }
-"""Corrections; the fields of each are the arguments of its function, in this order."""
+"""Function of each correction; its arguments are the fields of the message, in order."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Table after an edit, and what to tell people.
+    """Table after an edit, and messages to the user.
 
-    Where it is another table (``replaced``), the one before is kept.
+    ``replaced`` is True if the edit made a new table; the old one is then kept as a version.
     """
 
     table: Segmentation
@@ -50,8 +50,8 @@ class Outcome:
     replaced: bool = False
 
 
-class Surroundings(Protocol):
-    """Where an edit finds what it names."""
+class FileLookup(Protocol):
+    """Source of the files that an edit names."""
 
     def knowledge_base(self, name: str) -> Path:
         """Return the file of a knowledge base by its id."""
@@ -64,34 +64,38 @@ def apply_edit(
     table: Segmentation,
     edit: Edit,
     loaded: LoadedRecording,
-    files: Surroundings,
+    files: FileLookup,
     version: Callable[[int], Segmentation],
 ) -> Outcome:
-    """Return the table after an edit other than undo and redo; KinemeError where it cannot be made.
+    """Return the table after an edit other than undo and redo; KinemeError if it cannot be applied.
 
-    ``version`` gives a table that was replaced, by its number.
+    ``version`` returns a replaced table by its number.
     """
     if isinstance(edit, sent.Together):
         for one in edit.edits:
             table = _correct_table(table, one)
         return Outcome(table)
-    if type(edit) in BY_HAND:
+    if type(edit) in CORRECTIONS:
         after = _correct_table(table, edit)
         return Outcome(after, _describe_cluster_change(table, after, edit))
     if isinstance(edit, sent.SegmentAgain):
         keep = True if edit.keep is UNSET else edit.keep
         detail = DEFAULT_DETAIL if edit.detail is UNSET else edit.detail
-        found = loaded.segment(edit.preset, edit.parameters, detail)
-        result = editing.carry_corrections(table, found) if keep else None
-        lost = [f"not taken over: {what}" for what in result.lost] if result else []
-        after = result.segmentation if result else found
-        return Outcome(after, [*found.provenance["notes"], *lost], replaced=True)
+        segments = loaded.segment(edit.preset, edit.parameters, detail)
+        carried = editing.carry_corrections(table, segments) if keep else None
+        lost = [f"not taken over: {what}" for what in carried.lost] if carried else []
+        after = carried.segmentation if carried else segments
+        return Outcome(after, [*segments.provenance["notes"], *lost], replaced=True)
     if isinstance(edit, sent.Transfer):
         return _label_table(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
         labels = read_labels(
-            loaded.listed.called, path, n_frames=table.n_frames, fps=table.fps, clock=table.clock
+            loaded.listed.person_path,
+            path,
+            n_frames=table.n_frames,
+            fps=table.fps,
+            clock=table.clock,
         )
         return Outcome(labels, [f"the table is that of {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):
@@ -100,9 +104,9 @@ def apply_edit(
 
 
 def _correct_table(table: Segmentation, edit: Struct) -> Segmentation:
-    """Return the table after a correction, which it counts; what a person made of it is marked."""
+    """Apply a correction: count it and mark the rows that changed as edited."""
     fields = (getattr(edit, name) for name in edit.__struct_fields__)
-    after = BY_HAND[type(edit)](table, *fields)
+    after = CORRECTIONS[type(edit)](table, *fields)
     if isinstance(edit, sent.Check | sent.Remark | sent.Exclude):
         return after
     after, count = mark_edited(table, after), table.annotation.corrections + 1
@@ -110,23 +114,23 @@ def _correct_table(table: Segmentation, edit: Struct) -> Segmentation:
 
 
 def _describe_cluster_change(before: Segmentation, after: Segmentation, edit: Struct) -> list[str]:
-    """How many segments a change of a cluster reached, and how many keep a name of their own."""
+    """Return how many segments a change of a cluster affected, and how many keep their own name."""
     if not isinstance(edit, sent.NameCluster | sent.MergeClusters):
         return []
     cluster = edit.cluster if isinstance(edit, sent.NameCluster) else edit.into
     name = editing.cluster_names(after).get(cluster, "")
     members = after.table.select(after.table.cluster == cluster)
-    others = int((members.label != name).sum())
-    named = (
-        f"{len(members) - others} segments are called “{name}”"
+    n_others = int((members.label != name).sum())
+    name_note = (
+        f"{len(members) - n_others} segments are called “{name}”"
         if name
-        else (f"{len(members) - others} segments have no name")
+        else (f"{len(members) - n_others} segments have no name")
     )
-    more = f"{others} keep their own name" if others else ""
-    moved = int((before.table.cluster == edit.cluster).sum())
+    others_note = f"{n_others} keep their own name" if n_others else ""
+    n_moved = int((before.table.cluster == edit.cluster).sum())
     merged = isinstance(edit, sent.MergeClusters)
-    joined = f"{moved} segments are in cluster {cluster} now" if merged else ""
-    return ["; ".join(filter(None, [joined, named, more]))]
+    merge_note = f"{n_moved} segments are in cluster {cluster} now" if merged else ""
+    return ["; ".join(filter(None, [merge_note, name_note, others_note]))]
 
 
 def _label_table(
@@ -137,5 +141,5 @@ def _label_table(
     threshold = THRESHOLD if edit.threshold is UNSET else edit.threshold
     spread = False if edit.spread is UNSET else edit.spread
     base = KnowledgeBase.load(path)
-    named = loaded.labelled(table, base, threshold=threshold, spread=spread)
-    return Outcome(named, [named.provenance["notes"][-1]], replaced=True)
+    labelled = loaded.label_table(table, base, threshold=threshold, spread=spread)
+    return Outcome(labelled, [labelled.provenance["notes"][-1]], replaced=True)

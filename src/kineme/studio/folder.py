@@ -1,9 +1,8 @@
-"""What there is to open: the recordings of a folder, each known to the page by an id.
+"""List what can be opened: the recordings of a folder, each with an id.
 
-An id says nothing and is good for nothing but to find one of the recordings that
-are listed then, so that no request can name any other file. How far each
-recording is, its table tells; the recording is not opened for it. Who the people
-in a file are, a small file beside it tells, once somebody has chosen of them.
+A page only knows ids. An id is valid only for a recording that is listed at that time, so a request
+cannot name any other file. Progress is read from the table; the recording is not opened. The people
+in a file are read from a small file beside it, once somebody selected one.
 """
 
 from __future__ import annotations
@@ -17,27 +16,27 @@ from kineme.formats.listing import drop_duplicates, holds_recording, list_files
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.overview import read_brief
-from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from kineme.studio.storage.sidecars import list_recordings
 from kineme.studio.storage.tables import find_table_path, list_default_table_paths
 
 
 class Folder:
-    """A folder, to which uploads go; or some files of it, which alone are listed then."""
+    """A folder, to which uploads go. With ``files``, only these are listed."""
 
-    of_library = False
+    is_library = False
 
     def __init__(self, root: Path, files: Iterable[Path] | None = None):
         self.root = root
         self._files = None if files is None else list(files)
 
     def add(self, path: Path) -> None:
-        """List a file that came later."""
+        """List a file that was added later."""
         if self._files is not None and path not in self._files:
             self._files.append(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
-        """Return the recordings by id, in the order of their names, or as given."""
+        """Return the recordings by id, sorted by name or in the given order."""
         if self._files is not None:
             files = [path for path in self._files if path.is_file()]
         else:
@@ -50,22 +49,22 @@ class Folder:
         archives = [path for path in self._listed() if path.suffix.lower() == ".npz"]
         if not archives:
             return {}
-        from kineme.transfer.knowledge import holds_knowledge  # half a second of imports
+        from kineme.transfer.knowledge import holds_knowledge  # its imports take half a second
 
         return {make_file_id(path): path for path in archives if holds_knowledge(path)}
 
     def annotations(self, recordings: Iterable[ListedRecording] | None = None) -> dict[str, Path]:
-        """Return the label files by id, without the tables that the studio itself saves.
+        """Return the label files by id, without the tables that the studio saves.
 
-        ``recordings`` are those of the folder, where they have been listed already.
+        ``recordings`` are those of the folder, if they were listed already.
         """
         listed = self.recordings().values() if recordings is None else recordings
         tables = {table for each in listed for table in list_default_table_paths(each)}
-        found = [path for path in self._listed() if path not in tables and holds_labels(path)]
-        return {make_file_id(path): path for path in found}
+        label_files = [path for path in self._listed() if path not in tables and holds_labels(path)]
+        return {make_file_id(path): path for path in label_files}
 
     def folders(self) -> list[Path]:
-        """Return the folders in it, where people may keep their labels."""
+        """Return the subfolders, where people may keep their labels."""
         try:
             inside = sorted(self.root.iterdir())
         except OSError:
@@ -73,7 +72,7 @@ class Folder:
         return [path for path in inside if path.is_dir() and not path.name.startswith(".")]
 
     def first_table(self, path: Path) -> Segmentation | None:  # noqa: ARG002 (of a library)
-        """Return the table of a recording for which nobody has saved one, where it is known."""
+        """Return the initial table of a recording without a saved one, if it is known."""
         return None
 
     def _listed(self) -> list[Path]:
@@ -85,7 +84,7 @@ class Folder:
 
 @dataclass(frozen=True)
 class Progress:
-    """How many segments a table has, are checked, have a name, and are no transitions."""
+    """Number of segments of a table: all, checked, named, and those to name (no transitions)."""
 
     segments: int
     checked: int
@@ -94,7 +93,7 @@ class Progress:
 
 
 def count_progress(listed: ListedRecording) -> Progress | None:
-    """Return how far a recording is; None where it has no table, or one that cannot be read."""
+    """Return the progress of a recording; None without a readable table."""
     path = find_table_path(listed)
     table = read_brief(path) if path else None
     if table is None:

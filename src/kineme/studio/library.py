@@ -1,8 +1,8 @@
-"""A library in the studio: opened once, and again when others have changed it.
+"""A library in the studio: opened once, and reloaded when another program has changed it.
 
-Its recordings are a folder of the studio. A search ends the one before it. A hit is called as the
-segment is that it shows: a segment and its name are in the table beside the recording, as
-everything is that the studio corrects; nothing changes in the library.
+Its recordings are shown as a folder of the studio. A new search cancels the previous one. The name
+of a hit is that of the segment it shows, from the table beside the recording. Naming hits changes
+these tables, not the library.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ from kineme.studio.library_tables import (
 )
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
-from kineme.studio.reading import read_stamp
-from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.recording_cache import read_stamp
+from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from kineme.studio.storage.tables import find_table_path
 from kineme.web.library_messages import (
     CallCluster,
@@ -65,64 +65,66 @@ from kineme.web.library_messages import (
 )
 from kineme.web.requests import EditRequest, NameSegment
 
-SAME = 1 / 3
-"""Seconds in common over those in either from which a hit shows a segment: half of each, where
-both are as long. Hits begin anywhere in a cycle, so that more would leave half of them out."""
-MOST_TABLES = 100
-"""In memory."""
-AT_ONCE = 8
-"""Tasks of a search between two looks for a newer one."""
+MIN_OVERLAP = 1 / 3
+"""Least overlap (intersection over union) of a hit and the segment that it shows. 1/3 is half of
+each if both have the same length. Hits begin anywhere in a cycle, so a higher limit would drop half
+of them.
+"""
+MAX_TABLES = 100
+"""Tables cached in memory."""
+TASKS_PER_CHECK = 8
+"""Tasks of a search between two checks for a newer search."""
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
 
 
-class ShownLibrary:
-    """A library, as pages see it; ReadError where there is none that can be read."""
+class StudioLibrary:
+    """A library as pages see it; ReadError if it cannot be read."""
 
     def __init__(self, folder: Path):
         self._folder = folder
         self._lock = threading.Lock()
         self._searches = Searches()
-        self._stamp = self._changed()
+        self._stamp = self._read_stamp()
         self._library = Library(folder)
         self._history = LibraryHistory(folder)
         self._tables: LibraryTables | None = None
 
     def library(self) -> Library:
-        """Return the library as it is on the disk now."""
+        """Return the library, reloaded if it has changed on the disk."""
         with self._lock:
-            stamp = self._changed()
+            stamp = self._read_stamp()
             if stamp != self._stamp:
                 self._library, self._stamp = Library(self._folder), stamp
                 self._tables = None
             return self._library
 
-    def table_of(self, path: Path) -> Segmentation | None:
-        """Return the table of a recording as the library has it; None where it has none."""
+    def find_table(self, path: Path) -> Segmentation | None:
+        """Return the library's table of a recording; None if it has none."""
         library = self.library()
         with self._lock:
             if self._tables is None:
                 self._tables = LibraryTables(library)
             tables = self._tables
-        return tables.of(path)
+        return tables.find_table(path)
 
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
-        """Return how its recordings are read and segmented."""
+        """Return the options for reading and segmenting its recordings."""
         library = self.library()
         return library.read_options, library.segment_options
 
     def files(self) -> list[Path]:
         """Return the files of its recordings, without those at URLs."""
         library = self.library()
-        found = (library.path_of(name) for name in library.recordings["recording"])
-        return [path for path in found if not is_remote(path)]
+        paths = (library.path_of(name) for name in library.recordings["recording"])
+        return [path for path in paths if not is_remote(path)]
 
     def as_folder(self) -> LibraryFolder:
-        """Its recordings as a folder of the studio."""
+        """Return its recordings as a folder of the studio."""
         return LibraryFolder(self)
 
     def state(self) -> LibraryState:
-        """Return all that the page shows but the figures."""
+        """Return everything that the page shows except the figures."""
         library = self.library()
         columns = library.recordings
         rows = zip(
@@ -133,8 +135,8 @@ class ShownLibrary:
             folder=str(self._folder.absolute()),
             hours=library.hours,
             recordings=[
-                _describe_recording(name, Path(path), kind, lasts)
-                for name, path, kind, lasts in rows
+                _describe_recording(name, Path(path), vocabulary, duration_s)
+                for name, path, vocabulary, duration_s in rows
             ],
             clusters=_list_clusters(library),
             failed=library.failed,
@@ -142,7 +144,7 @@ class ShownLibrary:
         )
 
     def edit(self, edit: LibraryEdit) -> LibraryState:
-        """Return the library after an edit, which is on the disk."""
+        """Apply an edit, save it, and return the new state."""
         library = self.library()
         with self._lock:
             before = self._history.present()
@@ -151,98 +153,102 @@ class ShownLibrary:
                 self._library = Library(self._folder)
             else:
                 self._history.add(_make_edit(library, edit), before)
-            self._stamp, self._tables = self._changed(), None
+            self._stamp, self._tables = self._read_stamp(), None
         return self.state()
 
     def update_tables(self, recordings: OpenRecordings, *, names: bool) -> TablesChanged:
-        """Give saved tables the numbers and names of the library, each as one step of undo.
+        """Update clusters and names of saved tables from the library, one undo step per table.
 
-        Clusters that have another name keep it, unless ``names``.
+        Clusters with a different name keep it unless ``names`` is True.
         """
-        changed, kept, left = 0, 0, []
+        n_changed, n_kept, failures = 0, 0, []
         edits = read_edits(self._folder)
         for path in self.files():
-            of_library = self.table_of(path) if find_table_path(ListedRecording(path)) else None
-            if of_library is None:
+            library_table = (
+                self.find_table(path) if find_table_path(ListedRecording(path)) else None
+            )
+            if library_table is None:
                 continue
-            others = 0
+            n_others = 0
 
-            def make(table: Segmentation, of_library: Segmentation = of_library) -> Segmentation:
-                nonlocal others
-                after, others = apply_library_clusters(
-                    table, of_library, edits, replace_names=names
+            def make(
+                table: Segmentation, library_table: Segmentation = library_table
+            ) -> Segmentation:
+                nonlocal n_others
+                after, n_others = apply_library_clusters(
+                    table, library_table, edits, replace_names=names
                 )
                 return after
 
             try:
-                changed += recordings.take(make_file_id(path), make)
-                kept += others
+                n_changed += recordings.replace_table(make_file_id(path), make)
+                n_kept += n_others
             except (KinemeError, UnknownError, ConflictError) as error:
-                left.append(f"{path.name}: {error}")
-        return TablesChanged(tables=changed, others=kept, left=left)
+                failures.append(f"{path.name}: {error}")
+        return TablesChanged(tables=n_changed, others=n_kept, left=failures)
 
-    def call_everywhere(self, sent: CallEverywhere, recordings: OpenRecordings) -> TablesChanged:
-        """Name the cluster of the library that one of a recording is, there and in all tables."""
+    def rename_everywhere(self, sent: CallEverywhere, recordings: OpenRecordings) -> TablesChanged:
+        """Name the library cluster of a recording's cluster, in the library and in all tables."""
         opened = recordings.get(sent.recording)
-        of_library = self.table_of(opened.path)
-        place = (
-            match_library_clusters(opened.table, of_library).get(sent.cluster)
-            if of_library
+        library_table = self.find_table(opened.path)
+        cluster = (
+            match_library_clusters(opened.table, library_table).get(sent.cluster)
+            if library_table
             else None
         )
-        if place is None:
-            raise ParameterError(f"cluster {sent.cluster} is none of the library")
-        self.edit(CallCluster(cluster=place, name=sent.label))
-        recordings.renew()
+        if cluster is None:
+            raise ParameterError(f"cluster {sent.cluster} is not a cluster of the library")
+        self.edit(CallCluster(cluster=cluster, name=sent.label))
+        recordings.refresh_tables()
         return self.update_tables(recordings, names=False)
 
     def search(self, sent: SearchRequest) -> LibraryHits:
-        """Return what is like the examples; SupersededError where a newer search was asked for."""
-        found = self._searches.search(self.library(), sent)
-        return LibraryHits(hits=[self._with_name(hit) for hit in found.hits])
+        """Return the best matches; SupersededError if a newer search was started."""
+        result = self._searches.search(self.library(), sent)
+        return LibraryHits(hits=[self._add_name(hit) for hit in result.hits])
 
-    def call(self, sent: CallHits, recordings: OpenRecordings) -> NamedHits:
+    def name_hits(self, sent: CallHits, recordings: OpenRecordings) -> NamedHits:
         """Name the segments that hits show, in the tables beside their recordings."""
-        hits = [(span, self._file(span.recording)) for span in sent.hits]
+        hits = [(span, self._find_file(span.recording)) for span in sent.hits]
         return name_hits(recordings, hits, sent.name.strip())
 
-    def _with_name(self, hit: LibraryHit) -> LibraryHit:
-        path = self._file(hit.recording)
+    def _add_name(self, hit: LibraryHit) -> LibraryHit:
+        path = self._find_file(hit.recording)
         name = find_segment_name(path, hit.start_s, hit.stop_s) if path else ""
         return structs.replace(hit, name=name) if name else hit
 
-    def _file(self, recording: str) -> Path | None:
-        """Return the file of a recording of the library, where it is there."""
+    def _find_file(self, recording: str) -> Path | None:
+        """Return the file of a recording of the library, if it exists."""
         library = self.library()
         if recording not in {*library.recordings["recording"]}:
             return None
         path = library.path_of(recording)
         return None if is_remote(path) or not path.is_file() else path
 
-    def _changed(self) -> tuple[int, ...]:
-        """Return what is another one when somebody has written the library."""
+    def _read_stamp(self) -> tuple[int, ...]:
+        """Return a value that changes when the library is written."""
         return tuple(_read_modified(self._folder / name) for name in (HEAD, EDITS))
 
 
 class LibraryFolder(Folder):
-    """Recordings of a library as a folder of the studio, and files that came later."""
+    """Recordings of a library as a folder of the studio, plus files that were added later."""
 
-    of_library = True
+    is_library = True
 
-    def __init__(self, shown: ShownLibrary):
-        super().__init__(_find_common_folder(shown.files()), [])
-        self._shown = shown
+    def __init__(self, library: StudioLibrary):
+        super().__init__(_find_common_folder(library.files()), [])
+        self._library = library
 
     def first_table(self, path: Path) -> Segmentation | None:
-        """Return the table of a recording as the library has it."""
-        return self._shown.table_of(path)
+        """Return the library's table of a recording."""
+        return self._library.find_table(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
-        """Return the recordings by id, whose files are there.
+        """Return the recordings whose files exist, by id.
 
-        Of several people the library has one.
+        A library has only one person of a file.
         """
-        files = [path for path in self._shown.files() if path.is_file()]
+        files = [path for path in self._library.files() if path.is_file()]
         return {
             **{make_file_id(path): ListedRecording(path) for path in files},
             **super().recordings(),
@@ -250,7 +256,7 @@ class LibraryFolder(Folder):
 
 
 class Searches:
-    """Searches, each of which ends those before it."""
+    """Searches, each of which cancels the previous ones."""
 
     def __init__(self) -> None:
         self._numbers = count(1)
@@ -258,10 +264,10 @@ class Searches:
         self._searching = threading.Lock()
 
     def search(self, library: Library, sent: SearchRequest) -> LibraryHits:
-        """Return what a library has that is like the examples.
+        """Search a library for movements like the examples.
 
-        SupersededError where a newer search was asked for meanwhile, ParameterError where there is
-        nothing to search for.
+        SupersededError if a newer search was started, ParameterError without anything to search
+        for.
         """
         number = self._newest = next(self._numbers)
 
@@ -279,13 +285,13 @@ class Searches:
                 threshold=sent.threshold,
                 top=sent.top,
                 mirror=sent.mirror,
-                client=Interruptible(check),
+                client=CancellableThreads(check),
             )
         return LibraryHits(hits=[LibraryHit(**hit._asdict()) for hit in hits])
 
 
-class Interruptible:
-    """Threads of this process; ``check``, called now and then, raises what ends the work."""
+class CancellableThreads:
+    """Executor with threads of this process; ``check`` is called regularly and may raise."""
 
     def __init__(self, check: Callable[[], None]):
         self._check = check
@@ -293,30 +299,30 @@ class Interruptible:
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task]
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Yield each task and what came of it; see `kineme.library.executors.Executor`."""
-        for first in range(0, len(tasks), AT_ONCE):
+        """Yield each task with its result; see `kineme.library.executors.Executor`."""
+        for first in range(0, len(tasks), TASKS_PER_CHECK):
             self._check()
-            some = tasks[first : first + AT_ONCE]
+            chunk = tasks[first : first + TASKS_PER_CHECK]
             with threadpool_limits(1):
-                yield from zip(some, map_threads(work, some), strict=True)
+                yield from zip(chunk, map_threads(work, chunk), strict=True)
 
 
 def find_segment(table: Segmentation, start_s: float, stop_s: float) -> Segment | None:
-    """Return the segment that a span shows, of the level that fits it best.
+    """Return the segment that a span shows, on the level that fits best.
 
-    None where none does.
+    None if no segment overlaps it enough.
     """
 
-    def share(row: Segment) -> float:
-        common = min(row.stop_s, stop_s) - max(row.start_s, start_s)
-        return common / (max(row.stop_s, stop_s) - min(row.start_s, start_s))
+    def measure_overlap(row: Segment) -> float:
+        intersection = min(row.stop_s, stop_s) - max(row.start_s, start_s)
+        return intersection / (max(row.stop_s, stop_s) - min(row.start_s, start_s))
 
-    best = max(table, key=share, default=None)
-    return best if best is not None and share(best) >= SAME else None
+    best = max(table, key=measure_overlap, default=None)
+    return best if best is not None and measure_overlap(best) >= MIN_OVERLAP else None
 
 
 def find_segment_name(recording: Path, start_s: float, stop_s: float) -> str:
-    """What the segment that a span shows is called in the table beside its recording, if at all."""
+    """Return the name of the segment that a span shows, from the saved table; "" if none."""
     path = find_table_path(ListedRecording(recording))
     table = _read_table(path, *read_stamp(path)) if path else None
     row = find_segment(table, start_s, stop_s) if table is not None else None
@@ -326,22 +332,22 @@ def find_segment_name(recording: Path, start_s: float, stop_s: float) -> str:
 def name_hits(
     recordings: OpenRecordings, hits: Iterable[tuple[Span, Path | None]], name: str
 ) -> NamedHits:
-    """Give the segments that hits show a name; what cannot be named costs itself.
+    """Name the segments that hits show; report hits that cannot be named.
 
-    Hits come with the files of their recordings, where those are there; an empty name takes it
-    away.
+    ``hits`` are spans with the file of the recording, None if it is missing. An empty name removes
+    the name.
     """
     named, failures = 0, []
     for span, path in hits:
         where = f"{span.recording}, {span.start_s:.2f} to {span.stop_s:.2f} s"
         if path is None:
-            failures.append(f"{where}: its file is not there")
+            failures.append(f"{where}: its file is missing")
             continue
         try:
             opened = recordings.get(make_file_id(path))
             row = find_segment(opened.table, span.start_s, span.stop_s)
             if row is None:
-                failures.append(f"{where}: no segment lies there")
+                failures.append(f"{where}: there is no segment")
                 continue
             if row.label != name:
                 edit = NameSegment(level=row.level, frame=row.start_frame, label=name)
@@ -353,7 +359,7 @@ def name_hits(
 
 
 def _make_edit(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
-    """Make an edit of the clusters of a library; what it was, in words."""
+    """Apply an edit of the clusters and return a description of it."""
     if isinstance(edit, CallCluster):
         library.name(edit.cluster, edit.name.strip())
         return f"cluster {edit.cluster} is called “{edit.name.strip()}”"
@@ -365,9 +371,9 @@ def _make_edit(library: Library, edit: CallCluster | JoinClusters | PartCluster)
 
 
 def _find_common_folder(files: list[Path]) -> Path:
-    """Return the folder that holds all files; that of the first where there is none."""
+    """Return the folder that holds all files; that of the first if there is none."""
     folders = [str(path.absolute().parent) for path in files] or [str(Path.cwd())]
-    with suppress(ValueError):  # several drives
+    with suppress(ValueError):  # on several drives
         return Path(os.path.commonpath(folders))
     return Path(folders[0])
 
@@ -379,14 +385,16 @@ def _read_modified(path: Path) -> int:
         return 0
 
 
-def _describe_recording(name: str, path: Path, vocabulary: str, lasts: float) -> LibraryRecording:
+def _describe_recording(
+    name: str, path: Path, vocabulary: str, duration_s: float
+) -> LibraryRecording:
     exists = path.is_file()
     return LibraryRecording(
         recording=name,
         id=make_file_id(path) if exists else "",
         status=_find_status(path) if exists else "gone",
         vocabulary=vocabulary,
-        duration_s=lasts,
+        duration_s=duration_s,
     )
 
 
@@ -399,23 +407,23 @@ def _find_status(path: Path) -> Literal["as found", "corrected", "checked"]:
 
 def _list_clusters(library: Library) -> list[LibraryCluster]:
     rows = {name: row for row, name in enumerate(library.recordings["recording"])}
-    local = library.table("local_clusters").select(["cluster", "recording"]).to_pydict()
-    where: dict[int, set[int]] = {}
-    for cluster, name in zip(local["cluster"], local["recording"], strict=True):
-        where.setdefault(cluster, set()).add(rows[name])
-    unsure = Counter(each["cluster"] for each in library.unsure())
+    local_clusters = library.table("local_clusters").select(["cluster", "recording"]).to_pydict()
+    rows_by_cluster: dict[int, set[int]] = {}
+    for cluster, name in zip(local_clusters["cluster"], local_clusters["recording"], strict=True):
+        rows_by_cluster.setdefault(cluster, set()).add(rows[name])
+    unsure = Counter(part["cluster"] for part in library.unsure())
     return [
         LibraryCluster(
-            **{**each._asdict(), "recordings": sorted(where[each.cluster])},
-            unsure=unsure[each.cluster],
+            **{**cluster._asdict(), "recordings": sorted(rows_by_cluster[cluster.cluster])},
+            unsure=unsure[cluster.cluster],
         )
-        for each in library.clusters()
+        for cluster in library.clusters()
     ]
 
 
-@lru_cache(MOST_TABLES)
+@lru_cache(MAX_TABLES)
 def _read_table(path: Path, *_: int) -> Segmentation | None:
-    """Of the file as it was at that time; None where it is no table."""
+    """Return the table in a file; None if it is no table. The stamp is part of the cache key."""
     try:
         return read_segments(path, format="json")
     except KinemeError:
@@ -423,7 +431,7 @@ def _read_table(path: Path, *_: int) -> Segmentation | None:
 
 
 def _make_examples(spans: Sequence[Span], names: set[str]) -> list[Example]:
-    """Spans as examples, each of a recording of the library and of no other file."""
+    """Return spans as examples; only recordings of the library are accepted."""
     for span in spans:
         if span.recording not in names:
             raise ParameterError(f"the library has no recording {span.recording!r:.80}")

@@ -1,7 +1,7 @@
-"""Tables of a library's recordings, with its clusters and names; and tables that take these.
+"""Tables of a library's recordings, and saved tables updated from the library.
 
-A recording whose table nobody has saved is shown as the library has it. A saved one is what people
-made of it: it takes numbers and names of the library when they say so, and keeps its segments.
+A recording without a saved table is shown with the library's table. A saved table belongs to its
+editor: it takes clusters and names of the library on request only, and keeps its segments.
 """
 
 from __future__ import annotations
@@ -27,13 +27,14 @@ from kineme.segments.editing.rows import renumber_clusters
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, SegmentTable
 
-LEAST_SHARE = 0.5
-"""Of a cluster's frames that lie in one of the library, from which it is that one."""
-COMPUTED = tuple(name for name, column in COLUMNS.items() if not column.derived)
+MIN_SHARE = 0.5
+"""Share of a cluster's frames that must lie in one library cluster to be matched with it."""
+STORED_COLUMNS = tuple(name for name, column in COLUMNS.items() if not column.derived)
+"""Columns that are not derived from others."""
 
 
 class LibraryTables:
-    """Segment tables of a library as it is now."""
+    """Segment tables of a library at the time it was opened."""
 
     def __init__(self, library: Library):
         table = library.table("segments")
@@ -41,10 +42,16 @@ class LibraryTables:
         # Rows of a recording follow each other: edges are where the name changes.
         edges = [0, *(np.flatnonzero(names[1:] != names[:-1]) + 1).tolist(), len(names)]
         self._rows = {names[a]: (a, b) for a, b in pairwise(edges) if a < b}
-        self._columns = {name: as_array(table.column(name)) for name in COMPUTED}
+        self._columns = {name: as_array(table.column(name)) for name in STORED_COLUMNS}
         self._library = library
-        of = library.recordings
-        facts = zip(of["recording"], of["n_frames"], of["fps"], of["format"], strict=True)
+        recordings = library.recordings
+        facts = zip(
+            recordings["recording"],
+            recordings["n_frames"],
+            recordings["fps"],
+            recordings["format"],
+            strict=True,
+        )
         paths = ((library.path_of(name), name, *rest) for name, *rest in facts)
         self._facts = {
             path.absolute(): (name, n_frames, fps, kind)
@@ -52,8 +59,8 @@ class LibraryTables:
             if not is_remote(path)
         }
 
-    def of(self, path: Path) -> Segmentation | None:
-        """Return the table of the recording in a file; None where the library has none."""
+    def find_table(self, path: Path) -> Segmentation | None:
+        """Return the table of the recording in a file; None if the library has none."""
         facts = self._facts.get(path.absolute())
         if facts is None or facts[0] not in self._rows:
             return None
@@ -64,7 +71,7 @@ class LibraryTables:
         }
         labels = zip(columns["cluster"].tolist(), columns["label"].tolist(), strict=True)
         names = {cluster: label for cluster, label in labels if cluster >= 0 and label}
-        options, home = self._library.segment_options, self._library.folder
+        options, folder = self._library.segment_options, self._library.folder
         return Segmentation.from_columns(
             columns,
             n_frames=int(n_frames),
@@ -74,89 +81,90 @@ class LibraryTables:
                 "preset": options.preset,
                 "parameters": dict(options.constants),
                 "input": {"path": str(path), "format": kind},
-                "notes": [f"segments, clusters and names are those of the library {home.name}"],
+                "notes": [f"segments, clusters and names are those of the library {folder.name}"],
             },
             annotation=Annotation(cluster_names=names),
         )
 
 
-def match_library_clusters(table: Segmentation, of_library: Segmentation) -> dict[int, int]:
-    """Return the clusters of a table that are clusters of the library, with its numbers.
+def match_library_clusters(table: Segmentation, library_table: Segmentation) -> dict[int, int]:
+    """Match the clusters of a table to those of the library; return numbers by cluster.
 
-    A cluster is the one of the library that most of its frames lie in.
+    A match is the library cluster in which most frames of the cluster lie.
     """
     votes: dict[int, Counter[int]] = {}
-    for rows, others in (
-        (table.activities, of_library.activities),
-        (table.primitives, of_library.primitives),
+    for rows, library_rows in (
+        (table.activities, library_table.activities),
+        (table.primitives, library_table.primitives),
     ):
-        if not len(rows) or not len(others):
+        if not len(rows) or not len(library_rows):
             continue
-        pairs = np.stack([_spread_clusters(rows), _spread_clusters(others)])
+        pairs = np.stack([_spread_clusters(rows), _spread_clusters(library_rows)])
         # (cluster, number) pairs, and on how many frames they occur.
-        places, counts = np.unique(pairs, axis=1, return_counts=True)
-        for (cluster, number), count in zip(places.T.tolist(), counts.tolist(), strict=True):
+        combinations, counts = np.unique(pairs, axis=1, return_counts=True)
+        for (cluster, number), count in zip(combinations.T.tolist(), counts.tolist(), strict=True):
             if cluster >= 0:
                 votes.setdefault(cluster, Counter())[number] += count
-    best = {cluster: found.most_common(1)[0] for cluster, found in votes.items()}
+    winners = {cluster: counter.most_common(1)[0] for cluster, counter in votes.items()}
     return {
         cluster: number
-        for cluster, (number, count) in best.items()
-        if number >= 0 and count >= LEAST_SHARE * votes[cluster].total()
+        for cluster, (number, count) in winners.items()
+        if number >= 0 and count >= MIN_SHARE * votes[cluster].total()
     }
 
 
 def apply_library_clusters(
-    table: Segmentation, of_library: Segmentation, edits: Edits, *, replace_names: bool = False
+    table: Segmentation, library_table: Segmentation, edits: Edits, *, replace_names: bool = False
 ) -> tuple[Segmentation, int]:
-    """A table with the numbers and names of the library, and how many clusters keep another name.
+    """Give a table the clusters and names of the library; also return how many kept other names.
 
-    Clusters that the library has merged are merged; two others that lie in one of the library stay
-    two, since people may have parted them: the larger has its number, both its name. A cluster that
-    has another name keeps it unless ``replace_names``, and so does each segment with its own.
+    Clusters that were merged in the library are merged. Two other clusters that match the same
+    library cluster stay separate, since somebody may have split them: the larger takes the number,
+    both take the name. A cluster with a different name keeps it unless ``replace_names``; so does a
+    segment with its own name.
     """
-    places, names = match_library_clusters(table, of_library), collect_names(of_library)
-    numbers = _assign_numbers(table, places, edits, {*of_library.table.cluster.tolist()})
+    matches, names = match_library_clusters(table, library_table), collect_names(library_table)
+    numbers = _assign_numbers(table, matches, edits, {*library_table.table.cluster.tolist()})
     after = renumber_clusters(table, numbers)
     former = collect_names(table)
-    # Reversed: of clusters that get one number the first one's name wins.
+    # Reversed, so that the first name wins if several clusters get the same number.
     renamed = {numbers[cluster]: former[cluster] for cluster in reversed(former)}
     after = set_cluster_names(after, renamed)
-    kept = 0
+    n_kept = 0
     for cluster, number in numbers.items():
-        name = names.get(places.get(cluster, -1), "")
+        name = names.get(matches.get(cluster, -1), "")
         present = collect_names(after).get(number, "")
         if not name or name == present:
             continue
         if present and not replace_names:
-            kept += 1
+            n_kept += 1
         else:
             after = name_cluster(after, number, name)
-    same = after.table.cluster.tolist() == table.table.cluster.tolist()
-    return (replace(after, hierarchy=table.hierarchy) if same else after), kept
+    is_unchanged = after.table.cluster.tolist() == table.table.cluster.tolist()
+    return (replace(after, hierarchy=table.hierarchy) if is_unchanged else after), n_kept
 
 
 def _assign_numbers(
-    table: Segmentation, places: dict[int, int], edits: Edits, present: set[int]
+    table: Segmentation, matches: dict[int, int], edits: Edits, present: set[int]
 ) -> dict[int, int]:
-    """Return the numbers that the clusters of a table get, the largest first."""
+    """Return the new number of each cluster of a table, the largest cluster first."""
     sizes: Counter[int] = Counter(table.table.cluster.tolist())
     del sizes[-1]
-    following = max([-1, *sizes, *present]) + 1
+    next_free = max([-1, *sizes, *present]) + 1
     numbers: dict[int, int] = {}
-    # The largest first: it gets the number that several could have.
+    # The largest first: it gets the number if several clusters match the same one.
     for cluster, _ in sizes.most_common():
-        number: int = places.get(cluster, cluster)
-        merged = cluster != number and edits.number(cluster) == number
-        is_used = number in numbers.values() or (cluster not in places and number in present)
+        number: int = matches.get(cluster, cluster)
+        is_merged = cluster != number and edits.number(cluster) == number
+        is_used = number in numbers.values() or (cluster not in matches and number in present)
         # Numbers are shared only by clusters that people have merged.
-        if is_used and not merged:
-            number = following
-            following += 1
+        if is_used and not is_merged:
+            number = next_free
+            next_free += 1
         numbers[cluster] = number
     return numbers
 
 
 def _spread_clusters(rows: SegmentTable) -> NDArray[np.int64]:
-    """Return the cluster of each frame of a level."""
+    """Return the cluster of each frame."""
     return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)

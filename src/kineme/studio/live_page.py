@@ -1,4 +1,4 @@
-"""Page of a stream: what goes on while it is recorded, on this machine alone."""
+"""Page for ``kineme live``: shows a stream while it is recorded, on this machine only."""
 
 from __future__ import annotations
 
@@ -22,27 +22,30 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from kineme.studio.http.security import Guard, make_token
-from kineme.studio.server import HOST, PATIENCE, make_server_config, open_socket
+from kineme.studio.server import HOST, SHUTDOWN_S, make_server_config, open_socket
 from kineme.web import STATIC
 from kineme.web.encoding import to_json
 from kineme.web.live_messages import LiveEvent, LiveHead, LiveUpdate
 
 UPDATE_S = 0.2
-"""Seconds from one update of a page to the next."""
+"""Time between two updates of a page."""
 CURVE_FPS = 25.0
-CURVES = 6
-"""Channels that are drawn, the first ones."""
+"""Samples per second of the curves."""
+MAX_CURVES = 6
+"""The page draws the first channels only."""
 CURVES_S = 20.0
-MOST_EVENTS = 5000
-"""Events that a page is told which is opened late, of an hour at the most."""
-BLANK = {
+"""Length of the curves that a page gets when it is opened."""
+MAX_EVENTS = 5000
+"""Events sent to a page that is opened late; about an hour."""
+EVENT_DEFAULTS = {
     "start_s": 0.0, "stop_s": 0.0, "cluster": -1, "label": "",
     "number": 0, "repetitions": 0, "text": "",
 }  # fmt: skip
+"""Values of fields that an event does not have."""
 
 
 class LivePage:
-    """What open pages are told of a stream: its last events and frames.
+    """State of a stream for open pages: its recent events and frames.
 
     Parameters
     ----------
@@ -56,35 +59,36 @@ class LivePage:
     def __init__(self, fps: float, channels: Sequence[str], parents: Sequence[int] = ()) -> None:
         self._fps, self._step = fps, max(1, round(fps / CURVE_FPS))
         self._head = LiveHead(
-            channels=list(channels[:CURVES]),
+            channels=list(channels[:MAX_CURVES]),
             sample_fps=fps / self._step,
             bones=[(parent, joint) for joint, parent in enumerate(parents) if parent >= 0],
         )
         self.n_frames = 0
         self.has_ended = self.is_closed = False
         self._n_events = self._n_samples = 0
-        self._events: deque[LiveEvent] = deque(maxlen=MOST_EVENTS)
+        self._events: deque[LiveEvent] = deque(maxlen=MAX_EVENTS)
         self._samples: deque[list[float | None]] = deque(maxlen=round(CURVES_S * CURVE_FPS))
         self._pose: list[float | None] = []
-        self._heard, self._silent_s = monotonic(), 0.0
+        self._last_frame_s, self._silent_s = monotonic(), 0.0
         self._lock = threading.Lock()
 
     def add(self, events: Sequence[dict[str, Any]], first: int, frames: NDArray[Any]) -> None:
-        """Take events as JSON has them, and the frames from ``n_frames`` or a later one on."""
+        """Add events (as in JSON) and frames; ``first`` is the index of the first frame."""
         with self._lock:
-            self._events += [LiveEvent(**{**BLANK, **event}) for event in events]
+            self._events += [LiveEvent(**{**EVENT_DEFAULTS, **event}) for event in events]
             self._n_events += len(events)
-            self._heard = monotonic() if len(frames) else self._heard
-            self._silent_s = monotonic() - self._heard
+            self._last_frame_s = monotonic() if len(frames) else self._last_frame_s
+            self._silent_s = monotonic() - self._last_frame_s
             if not len(frames):
                 return
-            if first > self.n_frames:
+            if first > self.n_frames:  # frames are missing in between
                 self._samples.clear()
             self.n_frames = first + len(frames)
+            # Every step-th frame of the stream, wherever these frames begin.
             sampled = frames[-first % self._step :: self._step]
             self._n_samples = -(-self.n_frames // self._step)
             if not self._head.bones:
-                self._samples += sampled[:, :CURVES].tolist()
+                self._samples += sampled[:, :MAX_CURVES].tolist()
             elif np.isfinite(frames[-1]).any():
                 self._pose = _project_pose(frames[-1].reshape(-1, 3)).ravel().tolist()
 
@@ -97,10 +101,10 @@ class LivePage:
             await asyncio.sleep(UPDATE_S)
 
     def _update(self, n_events: int, n_samples: int) -> tuple[LiveUpdate, int, int]:
-        """Return what is new since so many events and samples, and how many there are now."""
+        """Return what is new since these counts of events and samples, and the present counts."""
         with self._lock:
-            kept = len(self._samples)
-            n_new = min(self._n_samples - max(n_samples, 0), kept)
+            n_samples_kept = len(self._samples)
+            n_new = min(self._n_samples - max(n_samples, 0), n_samples_kept)
             update = LiveUpdate(
                 head=self._head if n_samples < 0 else None,
                 now_s=self.n_frames / self._fps,
@@ -115,18 +119,20 @@ class LivePage:
 
 
 def _get_last(items: deque[Any], n: int) -> list[Any]:
+    """Return the last ``n`` items of a deque."""
     return list(islice(items, max(len(items) - n, 0), None))
 
 
 def _project_pose(pose: NDArray[Any]) -> NDArray[Any]:
-    """Return a pose as it is seen from half left: right and up, the body in the middle."""
+    """Return a pose (joints, 2) seen from half left: right and up, centred."""
+    # Rotate by 45 degrees about the vertical axis.
     right = (pose[:, 0] - pose[:, 2]) / np.sqrt(2)
     return np.round(np.column_stack([right - np.nanmean(right), pose[:, 1]]), 3)
 
 
 @contextmanager
 def serve_page(page: LivePage, announce: Callable[[str], None]) -> Iterator[None]:
-    """Serve a page from a thread of its own, and open it in the browser."""
+    """Serve a page from a thread and open it in the browser."""
 
     async def show(_: Request) -> FileResponse:
         return FileResponse(STATIC / "live.html")
@@ -134,14 +140,14 @@ def serve_page(page: LivePage, announce: Callable[[str], None]) -> Iterator[None
     async def tell(_: Request) -> StreamingResponse:
         return StreamingResponse(page.stream(), media_type="text/event-stream")
 
-    with open_socket(0) as opened:
-        token, port = make_token(), opened.getsockname()[1]
+    with open_socket(0) as server_socket:
+        token, port = make_token(), server_socket.getsockname()[1]
         assets = StaticFiles(directory=STATIC / "assets")
         routes = [Route("/", show), Route("/api/events", tell), Mount("/assets", assets)]
         server = uvicorn.Server(
             make_server_config(Guard(Starlette(routes=routes), token=token, port=port))
         )
-        thread = threading.Thread(target=server.run, args=[[opened]], daemon=True)
+        thread = threading.Thread(target=server.run, args=[[server_socket]], daemon=True)
         thread.start()
         address = f"http://{HOST}:{port}/?token={token}"
         announce(address)
@@ -149,6 +155,6 @@ def serve_page(page: LivePage, announce: Callable[[str], None]) -> Iterator[None
         try:
             yield
         finally:
-            sleep(2 * UPDATE_S)  # pages are told the end
+            sleep(2 * UPDATE_S)  # let pages receive the last update
             page.is_closed = server.should_exit = True
-            thread.join(PATIENCE + 1)
+            thread.join(SHUTDOWN_S + 1)

@@ -1,7 +1,7 @@
-"""A recording as the studio works with it, with what was computed from it.
+"""A recording in the studio, with everything computed from it.
 
-What a page draws stays in memory; the recording itself is read again when it
-is needed after others were.
+Page data stays in memory. The recording itself may be dropped from the cache and is then read
+again.
 """
 
 from __future__ import annotations
@@ -20,27 +20,27 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
 from kineme.studio.choices import check_parameters
-from kineme.studio.reading import RecordingCache, read_stamp
+from kineme.studio.recording_cache import RecordingCache, read_stamp
 from kineme.studio.running import Run, Runs
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.storage.listed_recording import ListedRecording
 
 if TYPE_CHECKING:
     from kineme.recordings import Signals
     from kineme.transfer import KnowledgeBase
     from kineme.web.curves import Curves
     from kineme.web.cycle_curves import CycleCurves
-    from kineme.web.film import DrawnPicture
     from kineme.web.page_data import PageData
+    from kineme.web.video import DrawnPicture
 
 
-LONG = 300.0
-"""Seconds of a recording that is shown before it is segmented, which takes some seconds."""
+LONG_S = 300.0
+"""Length from which a recording is shown before it is segmented, which takes seconds."""
 
 
 class LoadedRecording:
     """A recording as its file was when it was opened.
 
-    ReadError where it cannot be read, or is another now.
+    ReadError if it cannot be read, or the file has changed since.
     """
 
     def __init__(self, listed: ListedRecording, cache: RecordingCache):
@@ -48,14 +48,14 @@ class LoadedRecording:
         self._cache = cache
         self.effectors = cache.segment_options.effectors
         self._stamp = read_stamp(self.path)
-        found = cache.read(listed)
-        self.n_frames, self.fps = found.n_frames, found.fps
-        self.is_motion = isinstance(found, Motion)
-        self.provenance = found.provenance
+        recording = cache.read(listed)
+        self.n_frames, self.fps = recording.n_frames, recording.fps
+        self.is_motion = isinstance(recording, Motion)
+        self.provenance = recording.provenance
         self._lock = threading.Lock()
         self._page_data: PageData | None = None
         self._picture: DrawnPicture | None = None
-        self._has_picture = self.is_motion  # until it was looked for
+        self._has_picture = self.is_motion  # unknown until it is looked for
         self._curves: Curves | None = None
         self._cycle_curves: CycleCurves | None = None
         self._found: tuple[tuple[object, ...], Segmentation] | None = None
@@ -63,21 +63,21 @@ class LoadedRecording:
 
     @property
     def recording(self) -> Motion | Signals:
-        """Return the recording itself, read again if need be."""
-        if self.changed():
+        """Return the recording, read again if it is no longer cached."""
+        if self.has_changed():
             raise ReadError(self.path, "has changed since it was opened: open it again")
         return self._cache.read(self.listed)
 
     @property
     def motion(self) -> Motion:
-        """Return the same where it is the motion of a body; ParameterError otherwise."""
-        found = self.recording
-        if not isinstance(found, Motion):
+        """Return the recording if it is a motion; ParameterError otherwise."""
+        recording = self.recording
+        if not isinstance(recording, Motion):
             raise ParameterError(f"{self.path.name} holds signals: this needs the motion of a body")
-        return found
+        return recording
 
-    def changed(self) -> bool:
-        """Return whether the file is another now, or gone."""
+    def has_changed(self) -> bool:
+        """Return whether the file has changed or is missing."""
         try:
             return read_stamp(self.path) != self._stamp
         except ReadError:
@@ -85,22 +85,22 @@ class LoadedRecording:
 
     @property
     def is_long(self) -> bool:
-        """Return whether segmenting it takes longer than people like to wait for a picture."""
-        return self.n_frames > LONG * self.fps
+        """Return whether segmenting takes so long that the page is shown before."""
+        return self.n_frames > LONG_S * self.fps
 
     def page_data(self) -> PageData:
-        """Return all that a page draws but the segments."""
+        """Return everything that a page draws except the segments."""
         from kineme.web.page_data import make_page_data
 
         with self._lock:
             if self._page_data is None:
-                shown = drop_other_people(self.recording)
-                self._page_data = make_page_data(shown, effectors=self.effectors)
+                own_recording = drop_other_people(self.recording)
+                self._page_data = make_page_data(own_recording, effectors=self.effectors)
             return self._page_data
 
     def picture(self) -> DrawnPicture | None:
-        """Return what is drawn over the video that the poses come from, where they do."""
-        from kineme.web.film import draw_picture
+        """Return the keypoints drawn over the video; None if the poses are not from a video."""
+        from kineme.web.video import draw_picture
 
         with self._lock:
             if self._has_picture and self._picture is None:
@@ -109,37 +109,37 @@ class LoadedRecording:
             return self._picture
 
     def forget_pictures(self) -> None:
-        """Let go of what pages draw, until one asks again."""
+        """Free the page data until a page requests it again."""
         with self._lock:
             self._page_data = self._curves = self._cycle_curves = self._found = None
             self._picture = None
 
     def curves(self) -> Curves:
-        """Return what is drawn over time."""
+        """Return the curves over time."""
         from kineme.web.curves import Curves
 
         with self._lock:
             if self._curves is None:
-                self._curves = Curves(self.recording, self._analog())
+                self._curves = Curves(self.recording, self._read_analog())
             return self._curves
 
     def cycle_curves(self) -> CycleCurves:
-        """Return what is drawn of repetitions."""
+        """Return the curves of repetitions."""
         from kineme.web.cycle_curves import CycleCurves
 
         with self._lock:
             if self._cycle_curves is None:
-                self._cycle_curves = CycleCurves(lambda: self.recording, self._analog)
+                self._cycle_curves = CycleCurves(lambda: self.recording, self._read_analog)
             return self._cycle_curves
 
-    def _analog(self) -> Signals | None:
-        """Return the channels beside a motion."""
+    def _read_analog(self) -> Signals | None:
+        """Return the analog channels beside a motion; None if there are none."""
         return self._cache.analog(self.listed) if self.is_motion else None
 
-    def source(self, analog: bool) -> Motion | Signals:
-        """Return what a curve is of: the recording, or the channels beside it."""
-        found = self._analog() if analog else None
-        return self.recording if found is None else found
+    def get_source(self, analog: bool) -> Motion | Signals:
+        """Return the source of a curve: the recording or its analog channels."""
+        analog_signals = self._read_analog() if analog else None
+        return self.recording if analog_signals is None else analog_signals
 
     def segment(
         self,
@@ -148,52 +148,52 @@ class LoadedRecording:
         detail: float = DEFAULT_DETAIL,
         run: Run | None = None,
     ) -> Segmentation:
-        """Return the segments by a preset, with some of the constants it offers changed.
+        """Return the segments by a preset with some of its constants changed.
 
-        Those found last are kept: what was looked at is often taken, or looked at in another
-        detail. CancelledError where ``run`` was cancelled, or all of them (`runs`).
+        The last result is cached, since a preview is often applied, or shown at another detail.
+        CancelledError if ``run`` or all runs were cancelled.
         """
         from kineme.methods.segmenter import segment_with_options
 
-        changed = dict[str, Any](parameters or {})
-        check_parameters(preset, changed, signals=not self.is_motion)
-        key = preset, *sorted(changed.items())
-        former = self._found
-        # Another detail of the same segments needs no new run.
-        if former is not None and former[0] == key and not self.changed():
-            segments = former[1]
+        constants = dict[str, Any](parameters or {})
+        check_parameters(preset, constants, signals=not self.is_motion)
+        key = preset, *sorted(constants.items())
+        cached = self._found
+        # The result holds all levels of detail, so another detail needs no new run.
+        if cached is not None and cached[0] == key and not self.has_changed():
+            segments = cached[1]
         else:
-            found = self.recording
+            recording = self.recording
             with (
-                self.runs.one(run or Run(preset)) as present,
-                cancellable(present.go_on),
-                announce_compilation(present.stage),
+                self.runs.track(run or Run(preset)) as active,
+                cancellable(active.check_cancelled),
+                announce_compilation(active.start_stage),
             ):
                 options = replace(
                     self._cache.segment_options,
                     preset=preset,
-                    constants=changed,
+                    constants=constants,
                     detail=DEFAULT_DETAIL,
                 )
-                segments, _ = segment_with_options(found, options, progress=present.stage)
+                segments, _ = segment_with_options(recording, options, progress=active.start_stage)
             self._found = key, segments
         return segments if detail == DEFAULT_DETAIL else segments.at_detail(detail)
 
     def first_table(self) -> tuple[Segmentation, list[str]]:
-        """Return the table before anybody made another, and what people should know about it.
+        """Return the initial table by the default preset, and notes for the user.
 
-        By the default preset; one segment for all where there is a single point only.
+        A recording of a single point cannot be segmented and becomes one segment.
         """
         try:
             return self.segment(), []
         except MotionError as error:  # a single point
-            return self._one_segment("activity"), [f"not segmented: {error}"]
+            return self._make_single_segment("activity"), [f"not segmented: {error}"]
 
-    def not_segmented(self) -> Segmentation:
-        """Return the table while segments are being found: one transition."""
-        return self._one_segment("transition")
+    def make_unsegmented_table(self) -> Segmentation:
+        """Return a table of one transition, shown while the recording is segmented."""
+        return self._make_single_segment("transition")
 
-    def labelled(
+    def label_table(
         self,
         segmentation: Segmentation,
         base: KnowledgeBase,
@@ -201,15 +201,15 @@ class LoadedRecording:
         threshold: float,
         spread: bool,
     ) -> Segmentation:
-        """Return the segments with labels, as `kineme.transfer.transfer_labels` gives them."""
+        """Return the table with labels; see `kineme.transfer.transfer_labels`."""
         from kineme.transfer import transfer_features, transfer_labels
 
         features = transfer_features(self.motion, effectors=self.effectors)
         return transfer_labels(segmentation, features, base, threshold=threshold, spread=spread)
 
     def fits(self, segmentation: Segmentation) -> bool:
-        """Whether a table is of this recording: as long, and made from it if it says from what."""
-        if segmentation.n_frames != self.n_frames or self.is_of_another(segmentation):
+        """Return whether a table has the recording's length and, if it names one, its file."""
+        if segmentation.n_frames != self.n_frames or self.belongs_to_other(segmentation):
             return False
         digest = get_digest(segmentation)
         if not digest:
@@ -217,13 +217,13 @@ class LoadedRecording:
         name = Path(str(segmentation.provenance["input"].get("path") or "")).name
         return digest == self.provenance.sha256 or name == self.path.name
 
-    def is_of_another(self, segmentation: Segmentation) -> bool:
-        """Return whether a table says that it is of another take or person of the file."""
-        file, read = _get_input(segmentation), self.provenance
-        names = {"take": read.take, "person": read.person}
-        return any(file.get(option, name) != name for option, name in names.items())
+    def belongs_to_other(self, segmentation: Segmentation) -> bool:
+        """Return whether a table names another take or person of the file."""
+        source, read = _get_input(segmentation), self.provenance
+        expected = {"take": read.take, "person": read.person}
+        return any(source.get(option, name) != name for option, name in expected.items())
 
-    def _one_segment(self, kind: Kind) -> Segmentation:
+    def _make_single_segment(self, kind: Kind) -> Segmentation:
         read = self.provenance
         provenance = {
             "input": read.input,
@@ -233,32 +233,34 @@ class LoadedRecording:
 
 
 def drop_other_people(recording: Motion | Signals) -> Motion | Signals:
-    """Return the recording without the markers of the other people in its file."""
+    """Return the recording without the markers of other people in its file."""
     provenance = recording.provenance
     others = {*provenance.people} - {provenance.person}
     if not others or not isinstance(recording, Motion) or recording.rotations is not None:
         return recording
     skeleton = recording.skeleton
-    kept = [i for i, name in enumerate(skeleton.names) if name.rpartition(":")[0] not in others]
-    # New numbers of the joints that stay.
-    places = {joint: place for place, joint in enumerate(kept)}
-    parents = [skeleton.parents[joint] for joint in kept]
-    # A joint that hangs on one of the others cannot be parted from it.
-    if len(kept) == skeleton.n_joints or not {*parents} <= {-1, *kept}:
+    own_joints = [
+        i for i, name in enumerate(skeleton.names) if name.rpartition(":")[0] not in others
+    ]
+    # New indices of the joints that stay.
+    indices = {joint: index for index, joint in enumerate(own_joints)}
+    parents = [skeleton.parents[joint] for joint in own_joints]
+    # A joint whose parent belongs to another person cannot be separated.
+    if len(own_joints) == skeleton.n_joints or not {*parents} <= {-1, *own_joints}:
         return recording
-    names = tuple(skeleton.names[joint] for joint in kept)
-    above = tuple(places.get(parent, -1) for parent in parents)
-    alone = Skeleton(names, above, skeleton.offsets[kept])
-    return replace(recording, skeleton=alone, positions=recording.positions[:, kept])
+    names = tuple(skeleton.names[joint] for joint in own_joints)
+    own_parents = tuple(indices.get(parent, -1) for parent in parents)
+    own_skeleton = Skeleton(names, own_parents, skeleton.offsets[own_joints])
+    return replace(recording, skeleton=own_skeleton, positions=recording.positions[:, own_joints])
 
 
 def get_digest(segmentation: Segmentation) -> str:
-    """Return the digest of the recording that a table was made from, empty if it does not say."""
+    """Return the digest of the recording that a table was made from; empty if it has none."""
     return str(_get_input(segmentation).get("sha256") or "")
 
 
 def _get_input(segmentation: Segmentation) -> dict[str, Any]:
-    """Return what a table says of the file it was made from."""
+    """Return the provenance of the file that a table was made from."""
     read: Any = segmentation.provenance.get("input")
     return read if isinstance(read, dict) else {}
 
@@ -266,7 +268,7 @@ def _get_input(segmentation: Segmentation) -> dict[str, Any]:
 def make_single_segment(
     kind: Kind, n_frames: int, fps: float, provenance: Mapping[str, Any] | None = None
 ) -> Segmentation:
-    """Return a table of one segment for all."""
+    """Return a table of one segment over all frames."""
     columns: dict[str, Sequence[str] | Sequence[int]] = {
         "level": ["activity"],
         "kind": [str(kind)],

@@ -1,4 +1,4 @@
-"""Repetitions of a recording as loops: how good each would be, and how it would play."""
+"""Repetitions of a recording as loops: their quality, and how they play."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ from kineme.web.messages import LoopRow, Loops, PlayedLoop
 
 
 def rank_loops(opened: OpenRecording) -> Loops:
-    """How good the repetitions of a recording would be as loops."""
+    """Return the quality of each repetition as a loop."""
     table, motion = opened.table, _require_motion(opened)
     numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
-    found = list_ranked_loops(motion, [table.table[number] for number in numbers])
+    ranked = list_ranked_loops(motion, [table.table[number] for number in numbers])
     return Loops(
         loops=[
             LoopRow(
-                number=numbers[each.index],
-                rank=each.rank,
-                cost=each.quality.cost,
-                pose_m=each.quality.pose_m,
-                slide_m_s=None if isnan(each.quality.slide_m_s) else each.quality.slide_m_s,
-                turn_deg=each.quality.turn_deg,
-                speed_m_s=each.speed_m_s,
+                number=numbers[loop.index],
+                rank=loop.rank,
+                cost=loop.quality.cost,
+                pose_m=loop.quality.pose_m,
+                slide_m_s=None if isnan(loop.quality.slide_m_s) else loop.quality.slide_m_s,
+                turn_deg=loop.quality.turn_deg,
+                speed_m_s=loop.speed_m_s,
             )
-            for each in found
+            for loop in ranked
         ]
     )
 
 
 def make_played_loop(opened: OpenRecording, number: int) -> PlayedLoop:
-    """Return the loop that a row of the table would be written as."""
+    """Return the loop that a row of the table would be exported as."""
     table, motion = opened.table, _require_motion(opened)
     if not 0 <= number < len(table):
         raise ParameterError("choose the segment to play: this one is not in the table")

@@ -1,4 +1,4 @@
-"""Open recordings of a folder, each found by its id."""
+"""Open recordings of a folder, by id."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from kineme.studio.folder import Folder
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import read_brief, summarize_table
 from kineme.studio.reader import Reader
-from kineme.studio.reading import RecordingCache
-from kineme.studio.running import NOTHING, READING
+from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.running import IDLE, READING
 from kineme.studio.sketches import SKETCH_REVISION, Sketch, Sketcher
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.tables import find_table_path
 from kineme.web.messages import (
     BriefTable,
@@ -38,22 +38,22 @@ from kineme.web.requests import EditRequest
 
 Listener = Callable[[str, int], None]
 File = TypeVar("File", Path, ListedRecording)
-MOST_DRAWN = 6
-"""Recordings whose pictures stay in memory: those asked for last."""
+MAX_PICTURES = 6
+"""Recordings whose page data stays in memory: the most recently used."""
 
 
 class UnknownError(Exception):
-    """There is no such recording, file or tile."""
+    """Raised if there is no such recording, file or tile."""
 
 
 class SupersededError(Exception):
-    """Something newer was asked for."""
+    """Raised if a newer request replaced this one."""
 
 
 class OpenRecordings:
     """Recordings of a folder, each opened once.
 
-    ``changed`` is called with id and revision when a table has changed.
+    ``changed`` is called with id and revision after a table has changed.
     """
 
     def __init__(
@@ -67,154 +67,159 @@ class OpenRecordings:
         self._changed = changed
         self._cache = RecordingCache(read_options, segment_options)
         self._open: dict[str, OpenRecording] = {}
-        self._asked: OrderedDict[str, None] = OrderedDict()
+        self._recently_used: OrderedDict[str, None] = OrderedDict()
         self._reader = Reader(folder, self._cache)
         self._sketcher = Sketcher(self._cache)
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}
 
     def get(self, name: str) -> OpenRecording:
-        """Return the recording of that id, opened if it is not, and again if its file has changed.
+        """Return the recording with this id; open it if needed, and again if its file has changed.
 
-        UnknownError where none is listed, ReadError where it cannot be read.
+        UnknownError if it is not listed, ReadError if it cannot be read.
         """
-        self._forget_others(name)
+        self._drop_old_pictures(name)
         present = self._open.get(name)
-        # Checked again, since another thread may have opened it meanwhile.
-        if present is not None and not present.loaded.changed():
+        if present is not None and not present.loaded.has_changed():
             return present
-        listed = self.listed(name)
+        listed = self.find_listed(name)
         with self._opening.setdefault(name, threading.Lock()):
+            # Another thread may have opened it meanwhile.
             present = self._open.get(name)
-            if present is None or present.loaded.changed():
-                return self._opened(listed, present)
+            if present is None or present.loaded.has_changed():
+                return self._open_recording(listed, present)
             return present
 
-    def listed(self, name: str) -> ListedRecording:
-        """Return the recording of that id, opened or not; UnknownError where none is listed."""
+    def find_listed(self, name: str) -> ListedRecording:
+        """Return the recording with this id, opened or not; UnknownError if it is not listed."""
         return _find_or_raise(self.folder.recordings(), name, "recording")
 
-    def _opened(self, listed: ListedRecording, before: OpenRecording | None) -> OpenRecording:
-        """Open a recording, perhaps once more, and say later when its segments are there."""
+    def _open_recording(
+        self, listed: ListedRecording, previous: OpenRecording | None
+    ) -> OpenRecording:
+        """Open a recording; announce its segments later if they are not found yet."""
         self._reader.check_person(listed)
         others = [other for other in list(self._open.values()) if other.id != listed.id]
         tables = {other.table_path for other in others}
-        revision = 1 if before is None else before.revision + 1
+        revision = 1 if previous is None else previous.revision + 1
         initial = self.folder.first_table(listed.path)
         opened = self._open[listed.id] = OpenRecording(
             listed, self._cache, tables, revision, initial
         )
         if opened.finding:
-            self._in_background(lambda: self._find(opened))
+            self._run_in_background(lambda: self._announce_segments(opened))
         return opened
 
-    def _forget_others(self, name: str) -> None:
-        """Drop cached pictures of the least recently used recordings."""
+    def _drop_old_pictures(self, name: str) -> None:
+        """Drop page data of the least recently used recordings."""
         with self._lock:
-            self._asked[name] = None
-            # The first name is thus the one asked for longest ago.
-            self._asked.move_to_end(name)
-            while len(self._asked) > MOST_DRAWN:
-                last, _ = self._asked.popitem(last=False)
+            self._recently_used[name] = None
+            # Keep the names in order of use, the oldest first.
+            self._recently_used.move_to_end(name)
+            while len(self._recently_used) > MAX_PICTURES:
+                oldest, _ = self._recently_used.popitem(last=False)
                 # The recording stays open; only what pages draw is dropped.
-                idle = self._open.get(last)
-                if idle is not None:
-                    idle.loaded.forget_pictures()
-                    self._sketcher.forget(last)
+                opened = self._open.get(oldest)
+                if opened is not None:
+                    opened.loaded.forget_pictures()
+                    self._sketcher.forget(oldest)
 
-    def _in_background(self, work: Callable[[], None]) -> None:
+    def _run_in_background(self, work: Callable[[], None]) -> None:
         def run() -> None:
             try:
                 work()
             except Exception:
-                if threading.main_thread().is_alive():  # else the server has ended
+                if threading.main_thread().is_alive():  # else the server is shutting down
                     raise
 
         threading.Thread(target=run, daemon=True).start()
 
-    def _find(self, opened: OpenRecording) -> None:
-        """Say when the segments of a recording are there that is shown without."""
+    def _announce_segments(self, opened: OpenRecording) -> None:
+        """Wait for the segments of a recording that is already shown, then tell the pages."""
         opened.find()
         self._changed(opened.id, opened.revision)
 
-    def _sketch(self, name: str) -> Sketch | None:
-        """Return what there is to show of a recording that is being read, which is opened then."""
+    def _get_sketch(self, name: str) -> Sketch | None:
+        """Return the sketch of a large recording, and start to read it; None if it is read."""
         if name in self._open:
             return None
-        listed = self.listed(name)
+        listed = self.find_listed(name)
         return self._sketcher.open(
-            listed, lambda made: self._in_background(lambda: self._read(name, made))
+            listed,
+            lambda sketch: self._run_in_background(lambda: self._open_sketched(name, sketch)),
         )
 
-    def _read(self, name: str, instead: Sketch) -> None:
-        """Open a recording that is shown as a sketch, and say when it is there, or cannot be."""
-        revision = SKETCH_REVISION + 1  # a page asks anew for any other than its own
+    def _open_sketched(self, name: str, sketch: Sketch) -> None:
+        """Read a recording that is shown as a sketch, then tell the pages to reload."""
+        revision = SKETCH_REVISION + 1  # any new revision makes the page reload
         with suppress(KinemeError, UnknownError):
-            self._cache.read(self.listed(name))
-            if self._sketcher.forget_closed(instead):
+            self._cache.read(self.find_listed(name))
+            if self._sketcher.forget_closed(sketch):
                 return
             opened = self.get(name)
             opened.loaded.page_data()
             revision = max(revision, opened.revision)
-        instead.reading = False
+        sketch.reading = False
         self._changed(name, revision)
 
     def message(self, name: str) -> Recording:
-        """Return all that a page shows of the recording of that id."""
-        if instead := self._sketch(name):
-            return instead.message
-        message, anew = self.get(name).message()
-        if anew:
+        """Return everything that a page shows of a recording."""
+        if sketch := self._get_sketch(name):
+            return sketch.message
+        message, is_reloaded = self.get(name).message()
+        if is_reloaded:
             self._changed(name, message.revision)
         return message
 
     def poses(self, name: str, n_samples: int) -> bytes:
-        """Return the poses that a message named so many of; those of all it has, otherwise."""
-        instead = self._sketcher.get(name)
-        head = instead.message.motion if instead else None
-        if instead is not None and head is not None and head.n_samples == n_samples:
-            return instead.binary
+        """Return the binary poses for a message with this number of samples, else of all frames."""
+        sketch = self._sketcher.get(name)
+        head = sketch.message.motion if sketch else None
+        if sketch is not None and head is not None and head.n_samples == n_samples:
+            return sketch.binary
         return self.get(name).loaded.page_data().binary
 
     def prepare(self, names: Iterable[str]) -> None:
-        """Open recordings before they are asked for; what is wrong with one is said then."""
+        """Open recordings in advance. Errors are ignored: the later request raises them again."""
         for name in names:
             with suppress(KinemeError, UnknownError):
                 self.message(name)
 
     def tables(self) -> FolderTables:
-        """Return the tables of all recordings, those that were found and not saved among them."""
+        """Return the tables of all recordings, also those that are not saved yet."""
         listed = self.folder.recordings().items()
         return FolderTables(
-            recordings=[FolderRecording(id=name, table=self._brief(each)) for name, each in listed]
+            recordings=[
+                FolderRecording(id=name, table=self._summarize(entry)) for name, entry in listed
+            ]
         )
 
-    def _brief(self, listed: ListedRecording) -> BriefTable | None:
+    def _summarize(self, listed: ListedRecording) -> BriefTable | None:
         opened = self._open.get(listed.id)
-        at = find_table_path(listed) if opened is None else opened.table_path
-        found = read_brief(at) if at else None
-        if found is None and opened is not None and not opened.finding:
+        table_path = find_table_path(listed) if opened is None else opened.table_path
+        brief = read_brief(table_path) if table_path else None
+        if brief is None and opened is not None and not opened.finding:
             return summarize_table(opened.table)
-        initial = self.folder.first_table(listed.path) if found is None else None
-        return found if initial is None else summarize_table(initial)
+        initial = self.folder.first_table(listed.path) if brief is None else None
+        return brief if initial is None else summarize_table(initial)
 
-    def renew(self) -> None:
-        """Show what is known of open recordings now where nobody has saved a table."""
+    def refresh_tables(self) -> None:
+        """Update the initial tables of open recordings without a saved one."""
         for name, opened in list(self._open.items()):
             initial = self.folder.first_table(opened.path)
-            if initial is not None and opened.renew(initial):
+            if initial is not None and opened.refresh_table(initial):
                 self._changed(name, opened.revision)
 
-    def take(self, name: str, make: Callable[[Segmentation], Segmentation]) -> bool:
-        """Save what becomes of a recording's table, as `OpenRecording.take`."""
+    def replace_table(self, name: str, make: Callable[[Segmentation], Segmentation]) -> bool:
+        """Replace a recording's table; see `OpenRecording.replace_table`."""
         opened = self.get(name)
-        is_other = opened.take(make)
+        is_other = opened.replace_table(make)
         if is_other:
             self._changed(name, opened.revision)
         return is_other
 
     def edit(self, name: str, sent: EditRequest) -> Edited:
-        """Return what an edit made of the recording's table, as `OpenRecording.edit`."""
+        """Apply an edit to a recording's table; see `OpenRecording.edit`."""
         if sent.revision == SKETCH_REVISION:
             raise ParameterError(STILL_FINDING)
         result = self.get(name).edit(
@@ -226,69 +231,74 @@ class OpenRecordings:
         self._changed(name, result.revision)
         return result
 
-    def read_as(self, name: str, options: ReadOptions, *, everybody: bool = False) -> list[str]:
-        """Read a file otherwise from now on; the ids of the recordings that are asked for.
+    def change_reading(
+        self, name: str, options: ReadOptions, *, everybody: bool = False
+    ) -> list[str]:
+        """Change how a file is read; return the ids of the recordings to show.
 
-        Tables are made anew, those before kept. Another take of the file has a table of its own,
-        and so has each of several people in it, once one or ``everybody`` was chosen: these are as
-        they were left. What ``options`` leave out is as for all. KinemeError where it cannot be
-        read so: it is read as before.
+        Saved tables are made again; the old ones are kept as versions. Another take or person has
+        its own table, which stays as it is. Options that are not set keep the general value.
+        KinemeError if the file cannot be read so; nothing changes then.
         """
-        listed = self.listed(name)
+        listed = self.find_listed(name)
         changed, person = self._reader.change_options(listed, options, everybody=everybody)
-        present = [each for each in self.folder.recordings().values() if each.path == listed.path]
-        if name not in {each.id for each in present}:
+        entries = [
+            entry for entry in self.folder.recordings().values() if entry.path == listed.path
+        ]
+        if name not in {entry.id for entry in entries}:
             self._open.pop(name, None)
             self._sketcher.forget(name)
-        for each in present:
-            is_present = (
-                each.id in self._open or self._sketcher.get(each.id) or find_table_path(each)
+        for entry in entries:
+            is_used = (
+                entry.id in self._open or self._sketcher.get(entry.id) or find_table_path(entry)
             )
-            if changed and is_present:
-                with suppress(ReadError):  # who is not in another take
-                    self._open_anew(each, with_table=changed != {"take"})
-        return [each.id for each in present if everybody or each.person in ("", person)]
+            if changed and is_used:
+                with suppress(ReadError):  # this person may not be in the new take
+                    self._reopen(entry, with_table=changed != {"take"})
+        return [entry.id for entry in entries if everybody or entry.person in ("", person)]
 
-    def _open_anew(self, listed: ListedRecording, *, with_table: bool) -> None:
-        """Open a recording that is read otherwise now, and make its saved table anew."""
-        former = self._open.get(listed.id)
-        opened = self._opened(listed, former)
+    def _reopen(self, listed: ListedRecording, *, with_table: bool) -> None:
+        """Open a recording with changed options and segment it again if it has a saved table."""
+        previous = self._open.get(listed.id)
+        opened = self._open_recording(listed, previous)
         if opened.table_path.exists() and with_table:
-            shown = opened if former is None else former
+            reference = opened if previous is None else previous
             signals = not opened.loaded.is_motion
-            opened.edit(opened.revision, make_repeat_request(shown.table, signals=signals), self)
+            opened.edit(
+                opened.revision, make_repeat_request(reference.table, signals=signals), self
+            )
         self._changed(listed.id, opened.revision)
 
     def extent(self, listed: ListedRecording) -> Extent:
-        """How long a recording is, as `RecordingCache.extent`."""
+        """Return the length of a recording; see `RecordingCache.extent`."""
         return self._cache.extent(listed)
 
     def progress(self, name: str) -> Progress:
-        """Return what is being computed for a recording, which nobody opens for it."""
+        """Return the progress of computations for a recording, without opening it."""
         opened = self._open.get(name)
         if opened is not None:
             return opened.loaded.runs.progress()
-        instead = self._sketcher.get(name)
-        return READING if instead is not None and instead.reading else NOTHING
+        sketch = self._sketcher.get(name)
+        return READING if sketch is not None and sketch.reading else IDLE
 
     def cancel(self, name: str) -> None:
-        """Have what is being computed for a recording end; one that is being read is not opened."""
-        opened, instead = self._open.get(name), self._sketcher.get(name)
+        """Cancel computations for a recording; a recording that is being read is not opened."""
+        opened, sketch = self._open.get(name), self._sketcher.get(name)
         if opened is not None:
             opened.loaded.runs.cancel()
-        elif instead is not None:
-            instead.is_open = False
+        elif sketch is not None:
+            sketch.is_open = False
 
     def knowledge_base(self, name: str) -> Path:
-        """Return the file of the knowledge base of that id."""
+        """Return the knowledge base file with this id."""
         return _find_or_raise(self.folder.knowledge_bases(), name, "knowledge base")
 
     def annotation(self, name: str) -> Path:
-        """Return the label file of that id."""
+        """Return the label file with this id."""
         return _find_or_raise(self.folder.annotations(), name, "label file")
 
 
 def _find_or_raise(files: dict[str, File], name: str, what: str) -> File:
     if name not in files:
-        raise UnknownError(f"there is no such {what}; it may have been taken away")
+        raise UnknownError(f"there is no such {what}; it may have been removed")
     return files[name]

@@ -1,8 +1,7 @@
-"""Tables of a folder in brief, from the files beside its recordings: none of those is read.
+"""Summaries of the saved tables of a folder, without reading the recordings.
 
-A table as this version writes it is decoded into the few columns that are needed, which takes a
-tenth of the time; any other is read as every table is. What was found stays in memory as long as
-its file does not change.
+Tables in the current format are decoded directly into the few columns needed, which takes a tenth
+of the time. Others are read normally. Summaries are cached until the file changes.
 """
 
 from __future__ import annotations
@@ -22,23 +21,23 @@ from kineme.segments.editing import comments
 from kineme.segments.editing.annotating import find_marked
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment
-from kineme.studio.reading import read_stamp
+from kineme.studio.recording_cache import read_stamp
 from kineme.web.messages import BriefTable
 
-MOST_TABLES = 10_000
-"""In memory, about 10 kB each."""
+MAX_TABLES = 10_000
+"""Summaries cached in memory, about 10 kB each."""
 
 
 def read_brief(path: Path) -> BriefTable | None:
-    """Return the table in a file in brief; None where there is none, or one that cannot be read."""
+    """Return the summary of a table file; None if it is missing or cannot be read."""
     try:
         return _summarize_file(path, *read_stamp(path))
-    except Exception:  # noqa: BLE001 (a table that is damaged in any way costs itself only)
+    except Exception:  # noqa: BLE001 (a damaged table must not hide the others)
         return None
 
 
 def summarize_table(table: Segmentation) -> BriefTable:
-    """Return a table in brief."""
+    """Return the summary of a table."""
     return _make_brief(table, [*table], find_marked(table, "checked"), len(comments(table)))
 
 
@@ -62,9 +61,9 @@ class _Saved(msgspec.Struct):
     annotation: Annotation = NO_ANNOTATION
 
 
-@lru_cache(MOST_TABLES)
+@lru_cache(MAX_TABLES)
 def _summarize_file(path: Path, *_: int) -> BriefTable | None:
-    """Of the file as it was at that time; None where it is no table."""
+    """Return the summary of a table file. The file stamp is only part of the cache key."""
     try:
         refuse_pipe(path)
         saved = msgspec.json.decode(path.read_bytes(), type=_Saved)
@@ -80,7 +79,7 @@ def _summarize_file(path: Path, *_: int) -> BriefTable | None:
 
 
 def _has_valid_rows(saved: _Saved) -> bool:
-    """Whether rows are as a reader leaves them: by level, each from where the last one stops."""
+    """Return whether the rows of each level cover all frames, without gaps or overlaps."""
     levels = [[*rows] for _, rows in groupby(saved.segments, lambda row: row.level)]
     return [rows[0].level for rows in levels] in (["activity"], ["activity", "primitive"]) and all(
         rows[0].start_frame == 0
@@ -108,7 +107,7 @@ def _make_brief(
         cluster=[row.cluster for row in rows],
         activity=[row.activity for row in rows],
         label=[row.label for row in rows],
-        confidence=[row.confidence for row in rows],  # nan is null in JSON
+        confidence=[row.confidence for row in rows],  # nan becomes null in JSON
         border_confidence=[row.border_confidence for row in rows],
         checked=[number for number, span in enumerate(spans) if span in checked],
         comments=n_comments,

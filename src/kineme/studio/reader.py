@@ -1,4 +1,4 @@
-"""Read files as people say: their options, and which of several people a recording is of."""
+"""Apply the user's reading options and choice of person to the recordings of a folder."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from kineme._util.checks import format_count
 from kineme.errors import SeveralPeopleError
 from kineme.formats import ReadOptions
 from kineme.studio.folder import Folder
-from kineme.studio.reading import RecordingCache
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.sidecars import (
     read_saved_options,
     read_saved_reading,
@@ -19,7 +19,7 @@ from kineme.studio.storage.sidecars import (
 
 
 class Reader:
-    """How the recordings of a folder are read."""
+    """Reading options of the recordings of a folder."""
 
     def __init__(self, folder: Folder, cache: RecordingCache):
         self._folder, self._cache = folder, cache
@@ -27,11 +27,11 @@ class Reader:
     def check_person(self, listed: ListedRecording) -> None:
         """Raise SeveralPeopleError if the file holds several people and none was selected.
 
-        Markers are read without being told; but which are whose people should know. A library was
-        made of one of them.
+        Marker files can be read without a selection, but their user should know whose markers these
+        are. A library always has one person of a file.
         """
         person = listed.person or resolve_read_options(listed, self._cache.read_options).person
-        if person or self._folder.of_library:
+        if person or self._folder.is_library:
             return
         people = self._cache.read(listed).provenance.people
         if len(people) > 1:
@@ -41,16 +41,16 @@ class Reader:
     def change_options(
         self, listed: ListedRecording, options: ReadOptions, *, everybody: bool
     ) -> tuple[set[str], str]:
-        """Read a file with these options from now on; KinemeError where it cannot be read so.
+        """Read a file with new options from now on; KinemeError if it cannot be read so.
 
-        Return the options that differ from those before, and which of several people was read.
+        Return the names of the options that changed, and the person that was read.
         """
-        before, people = read_saved_reading(listed.path)
-        after, people, person = self._read(listed, options, people, everybody)
-        write_reading(listed.path, after, people)
-        # Another person is another recording, with a table of its own.
-        names = {each.name for each in fields(after)} - ({"person"} if people else set())
-        return {name for name in names if getattr(after, name) != getattr(before, name)}, person
+        old, people = read_saved_reading(listed.path)
+        new, people, person = self._read(listed, options, people, everybody)
+        write_reading(listed.path, new, people)
+        # Another person is a separate recording, so it is not a change of this one.
+        names = {each.name for each in fields(new)} - ({"person"} if people else set())
+        return {name for name in names if getattr(new, name) != getattr(old, name)}, person
 
     def _read(
         self,
@@ -59,18 +59,19 @@ class Reader:
         known: tuple[str, ...],
         everybody: bool,
     ) -> tuple[ReadOptions, tuple[str, ...], str]:
-        """Return how a file is read from now on, who is in it, and which of them was read.
+        """Read a file and return its new options, its people, and the person that was read.
 
-        ``known`` are the people of before.
+        ``known`` are the people that were known before.
         """
         people = self._cache.people(listed.path, choice) if everybody else ()
         person = people[0] if people else choice.person or listed.person
-        found = self._cache.read(ListedRecording(listed.path, person), choice).provenance
-        people = people or found.people
-        if self._folder.of_library:
+        source = self._cache.read(ListedRecording(listed.path, person), choice).provenance
+        people = people or source.people
+        if self._folder.is_library:
             return choice, known, ""
         if len(people) < 2:
             return choice, (), ""
         first = read_saved_options(listed.path).person if listed.person else None
+        # A take may lack some of the known people; keep all of them listed.
         kept = known if {*people} <= {*known} and not everybody else people
-        return replace(choice, person=first), kept, found.person or ""
+        return replace(choice, person=first), kept, source.person or ""

@@ -1,8 +1,7 @@
-"""What each address answers; the list is at the head of `Api`.
+"""Handlers of all routes; `Api.routes` lists them.
 
-Everything that reads, computes or writes runs in a thread of its own, so that
-the server answers others meanwhile. What is rarely asked for is imported when
-it is.
+Handlers that read, compute or write run in threads, so that the server stays responsive. Rarely
+used modules are imported when needed.
 """
 
 from __future__ import annotations
@@ -25,10 +24,10 @@ from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
 from kineme.studio.annotators import list_annotators, make_label_lanes, measure_agreement
-from kineme.studio.everywhere import rename_everywhere
 from kineme.studio.folder import count_progress
+from kineme.studio.folder_names import rename_everywhere
 from kineme.studio.http.bodies import (
-    LIMIT,
+    MAX_UPLOAD,
     MessageResponse,
     Upload,
     list_recording_suffixes,
@@ -43,7 +42,7 @@ from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
 from kineme.studio.poses import PoseQueue, lacks_estimator, needs_poses
 from kineme.studio.sketches import SKETCH_REVISION
-from kineme.studio.storage.listed import ListedRecording, make_file_id
+from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from kineme.studio.storage.sidecars import (
     read_shared_labels,
     write_shared_labels,
@@ -89,14 +88,14 @@ from kineme.web.requests import (
 )
 
 BINARY = "application/octet-stream"
-PLAYED_AS = {".mov": "video/mp4", ".m4v": "video/mp4", ".mkv": "video/webm"}
-"""Types that browsers take, of containers like theirs."""
+VIDEO_TYPES = {".mov": "video/mp4", ".m4v": "video/mp4", ".mkv": "video/webm"}
+"""Media types that browsers accept for similar containers."""
 
 
 class Api:
-    """Addresses under ``/api``; uploads have at most ``limit`` bytes."""
+    """Handlers under ``/api``; ``limit`` is the largest upload in bytes."""
 
-    def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = LIMIT):
+    def __init__(self, recordings: OpenRecordings, hub: Hub, *, limit: int = MAX_UPLOAD):
         self._recordings, self._hub, self._limit = recordings, hub, limit
         self._poses = PoseQueue(lambda name: hub.tell(name, SKETCH_REVISION + 1))
 
@@ -153,7 +152,7 @@ class Api:
         return State(
             version=__version__,
             folder=str(folder.root.absolute()),
-            of_library=folder.of_library,
+            of_library=folder.is_library,
             suffixes=list_recording_suffixes(),
             recordings=listings,
             presets=choices.list_presets(),
@@ -176,11 +175,11 @@ class Api:
         return write_shared_labels(self._recordings.folder.root, sent.labels)
 
     def knowledge(self, _: Request, sent: KnowledgeRequest) -> FileChoice:
-        """Return a knowledge base of the named primitives of some recordings, in the folder."""
+        """Save a knowledge base with the named primitives of some recordings; return its file."""
         from kineme.transfer import KnowledgeBase
 
         if not sent.recordings:
-            raise ParameterError("choose the recordings whose names it is to know")
+            raise ParameterError("choose the recordings whose names go into the knowledge base")
         bases = []
         for name in sent.recordings:
             opened = self._recordings.get(name)
@@ -194,7 +193,7 @@ class Api:
         return FileChoice(id=make_file_id(path), name=path.name)
 
     def export_checked(self, request: Request) -> Response:
-        """Return the recordings all of whose segments are checked, in one ZIP."""
+        """Return a ZIP with all recordings whose segments are all checked."""
         from kineme.studio import downloads
 
         kind, level = request.path_params["format"], _parse_level(request)
@@ -204,8 +203,8 @@ class Api:
         if not names:
             raise ParameterError("no recording is checked yet: check all segments of one first")
         opened = [self._recordings.get(name) for name in names]
-        found = downloads.export_several(opened, folder.root.name or "folder", kind, level)
-        return make_file_response(*found)
+        file = downloads.export_several(opened, folder.root.name or "folder", kind, level)
+        return make_file_response(*file)
 
     async def upload(self, request: Request) -> Response:
         length = request.headers.get("content-length", "")
@@ -232,45 +231,45 @@ class Api:
         return Response(poses, media_type=BINARY)
 
     def tile(self, request: Request) -> Response:
-        place = _parse_numbers(request, "level", "row", "column")
-        found = make_tile(self._opened(request).loaded.page_data().matrix, *place)
-        if found is None:
+        indices = _parse_numbers(request, "level", "row", "column")
+        png = make_tile(self._get_opened(request).loaded.page_data().matrix, *indices)
+        if png is None:
             raise UnknownError("the matrix has no such tile")
-        return Response(found, media_type="image/png")
+        return Response(png, media_type="image/png")
 
     def curves(self, request: Request) -> CurveList:
-        return self._opened(request).loaded.curves().head()
+        return self._get_opened(request).loaded.curves().head()
 
     def curve_tile(self, request: Request) -> Response:
-        place = _parse_numbers(request, "curve", "level", "number")
-        loaded = self._opened(request).loaded
-        found = loaded.curves().tile(loaded.source, *place)
-        if found is None:
+        indices = _parse_numbers(request, "curve", "level", "number")
+        loaded = self._get_opened(request).loaded
+        pairs = loaded.curves().tile(loaded.get_source, *indices)
+        if pairs is None:
             raise UnknownError("the curve has no such tile")
-        return Response(found, media_type=BINARY)
+        return Response(pairs, media_type=BINARY)
 
     def cycle_channels(self, request: Request) -> CycleChannels:
-        return CycleChannels(channels=self._opened(request).loaded.cycle_curves().channels())
+        return CycleChannels(channels=self._get_opened(request).loaded.cycle_curves().channels())
 
     def cycle_curves(self, request: Request) -> ClusterCurves:
-        opened, channel = self._opened(request), request.query_params.get("channel", "")
+        opened, channel = self._get_opened(request), request.query_params.get("channel", "")
         (cluster,) = _parse_numbers(request, "cluster")
-        curves, beside = opened.loaded.cycle_curves(), request.query_params.get("beside")
-        if beside:
-            other = self._recordings.get(beside)
+        curves, other_id = opened.loaded.cycle_curves(), request.query_params.get("beside")
+        if other_id:
+            other = self._recordings.get(other_id)
             others = other.loaded.cycle_curves(), other.table
-            found = curves.beside(opened.table, cluster, channel, *others)
+            message = curves.compare_with(opened.table, cluster, channel, *others)
         else:
-            found = curves.of(opened.table, cluster, channel)
-        if found is None:
+            message = curves.make_curves(opened.table, cluster, channel)
+        if message is None:
             raise UnknownError("there are no such repetitions, or no such channel")
-        return found
+        return message
 
     def edit(self, request: Request, sent: EditRequest) -> Edited:
         return self._recordings.edit(request.path_params["id"], sent)
 
     def preview(self, request: Request, sent: PreviewRequest) -> Preview:
-        return self._opened(request).preview(sent)
+        return self._get_opened(request).preview(sent)
 
     def progress(self, request: Request) -> Progress:
         return self._recordings.progress(request.path_params["id"])
@@ -280,10 +279,10 @@ class Api:
         return Response(status_code=204)
 
     def versions(self, request: Request) -> Versions:
-        return Versions(versions=self._opened(request).versions())
+        return Versions(versions=self._get_opened(request).versions())
 
     def version(self, request: Request) -> Comparison:
-        return self._opened(request).version(*_parse_numbers(request, "number"))
+        return self._get_opened(request).version(*_parse_numbers(request, "number"))
 
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
@@ -291,7 +290,7 @@ class Api:
         from kineme.labels.collections import read_labels
         from kineme.web.tables import make_segments_message
 
-        opened = self._opened(request)
+        opened = self._get_opened(request)
         table = opened.table
         if sent.preset is not UNSET and sent.annotation is UNSET:
             title = sent.preset
@@ -300,7 +299,7 @@ class Api:
             path = self._recordings.annotation(sent.annotation)
             title = path.name
             other = read_labels(
-                opened.listed.called,
+                opened.listed.person_path,
                 path,
                 n_frames=table.n_frames,
                 fps=table.fps,
@@ -308,14 +307,14 @@ class Api:
             )
         else:
             raise ParameterError("compare with a preset or with an annotation: name one of them")
-        found = score_agreement(other, table)  # the other is taken for the truth
+        score_values = score_agreement(other, table)  # the other table counts as the truth
         return Comparison(
             name=title,
             segmentation=make_segments_message(other),
-            scores=found,
+            scores=score_values,
             meanings={
                 name: ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
-                for name in found
+                for name in score_values
             },
             differences=find_differences(other, table),
         )
@@ -333,44 +332,46 @@ class Api:
         from kineme.studio import downloads
 
         kind, level = request.path_params["format"], _parse_level(request)
-        return make_file_response(*downloads.export_download(self._opened(request), kind, level))
+        return make_file_response(
+            *downloads.export_download(self._get_opened(request), kind, level)
+        )
 
     def clips(self, request: Request, sent: ClipsRequest) -> Response:
         from kineme.studio import downloads
 
-        files = downloads.make_clip_archive(self._opened(request), sent.rows, loops=sent.loops)
+        files = downloads.make_clip_archive(self._get_opened(request), sent.rows, loops=sent.loops)
         return make_file_response(*files)
 
     def loops(self, request: Request) -> Loops:
         from kineme.studio import loops
 
-        return loops.rank_loops(self._opened(request))
+        return loops.rank_loops(self._get_opened(request))
 
     def loop(self, request: Request) -> PlayedLoop:
         from kineme.studio import loops
 
-        return loops.make_played_loop(self._opened(request), *_parse_numbers(request, "number"))
+        return loops.make_played_loop(self._get_opened(request), *_parse_numbers(request, "number"))
 
     def video(self, request: Request) -> Response:
-        found = find_video(self._recordings.listed(request.path_params["id"]).path)
-        if found is None:
+        path = find_video(self._recordings.find_listed(request.path_params["id"]).path)
+        if path is None:
             raise UnknownError("there is no video of that name beside the recording")
-        return FileResponse(found, media_type=PLAYED_AS.get(found.suffix.lower()))
+        return FileResponse(path, media_type=VIDEO_TYPES.get(path.suffix.lower()))
 
     def keypoints(self, request: Request) -> Response:
-        drawn = self._opened(request).loaded.picture()
-        if drawn is None:
-            raise UnknownError("these poses are not those of a video")
-        return Response(drawn.binary, media_type=BINARY)
+        picture = self._get_opened(request).loaded.picture()
+        if picture is None:
+            raise UnknownError("these poses do not come from a video")
+        return Response(picture.binary, media_type=BINARY)
 
     def offset(self, request: Request, sent: VideoRequest) -> VideoRequest:
-        write_video_offset(self._opened(request).path, sent.offset_s)
+        write_video_offset(self._get_opened(request).path, sent.offset_s)
         return sent
 
     def reading(self, request: Request, sent: ReadRequest) -> list[str]:
         options = options_from_json(ReadOptions, sent.options)
         name = request.path_params["id"]
-        return self._recordings.read_as(name, options, everybody=sent.everybody)
+        return self._recordings.change_reading(name, options, everybody=sent.everybody)
 
     def poses(self, _: Request) -> PosesProgress:
         return self._poses.progress()
@@ -378,7 +379,7 @@ class Api:
     def estimate(self, _: Request, sent: PosesRequest) -> PosesProgress:
         if missing := lacks_estimator():
             raise ParameterError(missing)
-        listed = [self._recordings.listed(name) for name in sent.recordings]
+        listed = [self._recordings.find_listed(name) for name in sent.recordings]
         return self._poses.start(each for each in listed if needs_poses(each.path))
 
     async def stop_estimating(self, _: Request) -> Response:
@@ -386,23 +387,22 @@ class Api:
         return Response(status_code=204)
 
     async def events(self, _: Request) -> Response:
-        # sse-starlette would be one more dependency for the few lines of Hub.stream, no shorter.
         return StreamingResponse(self._hub.stream(), media_type="text/event-stream")
 
     async def unknown(self, _: Request) -> Response:
         raise UnknownError("there is nothing at this address")
 
-    def _opened(self, request: Request) -> OpenRecording:
+    def _get_opened(self, request: Request) -> OpenRecording:
         return self._recordings.get(request.path_params["id"])
 
 
 def _parse_numbers(request: Request, *names: str) -> list[int]:
-    """Return the numbers in an address."""
+    """Return the numbers in the path of a request."""
     return [parse_number(request.path_params[name]) for name in names]
 
 
 def _parse_level(request: Request) -> Level | None:
-    """Return the level that an address names, if it names one."""
+    """Return the level in the query of a request; None without one."""
     level = request.query_params.get("level") or None
     if level not in (None, *get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}")
@@ -410,7 +410,7 @@ def _parse_level(request: Request) -> Level | None:
 
 
 def _get_file_size(path: Path) -> int:
-    """Bytes of a file, which may have gone since it was listed."""
+    """Return the bytes of a file; 0 if it was deleted after it was listed."""
     try:
         return path.stat().st_size
     except OSError:
@@ -418,6 +418,7 @@ def _get_file_size(path: Path) -> int:
 
 
 def _make_listing(listed: ListedRecording) -> Listing:
+    """Return the entry of a recording in the list of the page."""
     counts = count_progress(listed)
     return Listing(
         id=listed.id,

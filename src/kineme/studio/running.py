@@ -1,9 +1,9 @@
-"""A segmentation while it runs: its stage, how far it is, and a way to end it.
+"""A running segmentation: its stage, its progress, and its cancellation.
 
-Methods say when a stage begins (`kineme.methods.stages`). How far one is follows from the shares of
-time that the stages took on recordings of an hour, and from the pace so far; of methods that are
-not listed nobody knows. A segmentation that is cancelled ends when its next stage would begin, or
-its work asks whether to go on (`kineme._util.parallel.check_cancelled`), several times a second.
+Methods announce their stages (`kineme.methods.stages`). Progress is estimated from the share of
+time that each stage took on recordings of an hour, and from the speed so far. It is unknown for
+other methods. A cancelled segmentation stops at its next stage, or when its code calls
+`kineme._util.parallel.check_cancelled`, several times a second.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from time import monotonic
 from kineme.errors import KinemeError
 from kineme.web.messages import Progress
 
-SHARES: Mapping[str, Mapping[str, float]] = {
+STAGE_SHARES: Mapping[str, Mapping[str, float]] = {
     "kineme": {
         "features": 0.08,
         "views": 0.05,
@@ -27,64 +27,64 @@ SHARES: Mapping[str, Mapping[str, float]] = {
         "confidence": 0.27,
     },
 }
-"""Of the time that a preset takes, by stage in their order: medians of an hour of motion."""
-NOTHING = Progress(stage="", share=None)
+"""Share of the total time by preset and stage, in order: medians over an hour of motion."""
+IDLE = Progress(stage="", share=None)
 READING = Progress(stage="reading the file", share=None)
-ENDING = Progress(stage="cancelled: it comes to its end", share=None)
+CANCELLING = Progress(stage="cancelled: stopping", share=None)
 
 
 class CancelledError(KinemeError):
-    """Somebody has said that a result is not wanted any more."""
+    """Raised if a result is no longer wanted."""
 
     def __init__(self) -> None:
         super().__init__("it was cancelled")
 
 
 class Run:
-    """One segmentation by a preset, from any thread."""
+    """One segmentation by a preset; thread-safe."""
 
     def __init__(self, preset: str, clock: Callable[[], float] = monotonic):
-        self._shares, self._clock = SHARES.get(preset, {}), clock
+        self._shares, self._clock = STAGE_SHARES.get(preset, {}), clock
         self._cancelled = threading.Event()
         self._stage, self._starts = "", (clock(), clock())
 
     def cancel(self) -> None:
-        """Have it end."""
+        """Cancel the run."""
         self._cancelled.set()
 
-    def go_on(self) -> None:
-        """CancelledError where it should not."""
+    def check_cancelled(self) -> None:
+        """Raise CancelledError if the run was cancelled."""
         if self._cancelled.is_set():
             raise CancelledError
 
-    def stage(self, name: str) -> None:
-        """A stage begins; CancelledError where it should not."""
-        self.go_on()
+    def start_stage(self, name: str) -> None:
+        """Start a stage; CancelledError if the run was cancelled."""
+        self.check_cancelled()
         self._stage, self._starts = name, (self._starts[0], self._clock())
 
     def progress(self) -> Progress:
-        """Return what a page is told."""
+        """Return the progress message for pages."""
         if self._cancelled.is_set():
-            return ENDING
+            return CANCELLING
         stage, (first, last) = self._stage, self._starts
         if stage not in self._shares:
             return Progress(stage=stage, share=None)
         names = list(self._shares)
-        before = sum(self._shares[name] for name in names[: names.index(stage)])
-        pace = before / (last - first) if last > first else 0.0
-        within = pace * (self._clock() - last)
-        return Progress(stage=stage, share=before + min(within, self._shares[stage]))
+        done = sum(self._shares[name] for name in names[: names.index(stage)])
+        pace = done / (last - first) if last > first else 0.0
+        in_stage = pace * (self._clock() - last)
+        return Progress(stage=stage, share=done + min(in_stage, self._shares[stage]))
 
 
 class Runs:
-    """Segmentations of a recording that run at present."""
+    """Running segmentations of a recording."""
 
     def __init__(self) -> None:
         self._present: list[Run] = []
 
     @contextmanager
-    def one(self, run: Run) -> Iterator[Run]:
-        """One more, while the block lasts."""
+    def track(self, run: Run) -> Iterator[Run]:
+        """List a run while the block lasts."""
         self._present.append(run)
         try:
             yield run
@@ -92,11 +92,11 @@ class Runs:
             self._present.remove(run)
 
     def progress(self) -> Progress:
-        """Of the latest, if one is running."""
+        """Return the progress of the latest run."""
         present = self._present[-1:]
-        return present[0].progress() if present else NOTHING
+        return present[0].progress() if present else IDLE
 
     def cancel(self) -> None:
-        """Have all of them end."""
+        """Cancel all runs."""
         for run in [*self._present]:
             run.cancel()

@@ -1,4 +1,4 @@
-"""Server: a socket of this machine, a token, one line with the address, and a clean end."""
+"""Server: a local socket, an access token, the printed address, and a clean shutdown."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ import uvicorn
 
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.events import Hub
-from kineme.studio.http.security import DEVELOPMENT, Guard, HeadersInTime, make_token
+from kineme.studio.http.security import DEVELOPMENT, Guard, HeaderTimeoutProtocol, make_token
 
 if TYPE_CHECKING:
     from kineme.formats import ReadOptions
     from kineme.methods.segmenter import SegmentOptions
-    from kineme.studio.library import ShownLibrary
+    from kineme.studio.library import StudioLibrary
     from kineme.studio.open_recordings import OpenRecordings
 
 HOST = "127.0.0.1"
 PORT = 8750
-TRIES = 20
-"""Ports after the first that are tried if it is in use."""
-PATIENCE = 2
-"""Seconds that requests have to end in after Ctrl+C."""
-PAGE_FIRST = 5.0
-"""Seconds that a page has to list a folder in before code is made ready beside it."""
-HEAD_START = 10.0
-"""Seconds before the code of the published methods, which are rarely used, is made ready."""
+PORT_ATTEMPTS = 20
+"""Number of ports that are tried, from `PORT` on."""
+SHUTDOWN_S = 2
+"""Time that running requests get after Ctrl+C."""
+PAGE_WAIT_S = 5.0
+"""Time that a page gets to list a folder before compiled code is loaded."""
+PUBLISHED_DELAY_S = 10.0
+"""Delay before the code of the published methods is loaded, since they are rarely used."""
 
 
 class Server(uvicorn.Server):
-    """A server that ends the streams of news first when it is told to stop."""
+    """Server that ends the event streams first when it shuts down."""
 
     def __init__(self, config: uvicorn.Config, hub: Hub):
         super().__init__(config)
@@ -58,7 +58,7 @@ def serve(
     port: int | None,
     browser: bool,
     announce: Callable[[str], None],
-    library: ShownLibrary | None = None,
+    library: StudioLibrary | None = None,
     development: bool = False,
 ) -> None:
     """Serve a folder, or some files of it, or a library, until Ctrl+C.
@@ -68,15 +68,15 @@ def serve(
     """
     if development and port is None:
         port = PORT
-    with open_socket(port) as opened, suppress(KeyboardInterrupt):
-        number = opened.getsockname()[1]
+    with open_socket(port) as server_socket, suppress(KeyboardInterrupt):
+        actual_port = server_socket.getsockname()[1]
         token = make_token()
-        origin = DEVELOPMENT if development else f"http://{HOST}:{number}"
+        origin = DEVELOPMENT if development else f"http://{HOST}:{actual_port}"
         address = f"{origin}/?token={token}"
         announce(address)
         if browser:
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
-        # The browser starts meanwhile; its first request waits in the socket.
+        # Import after the browser was started; its first request waits in the socket.
         from kineme.studio.app import create_app
         from kineme.studio.folder import Folder
         from kineme.studio.http.bodies import remove_abandoned_drafts
@@ -90,7 +90,7 @@ def serve(
             create_app(
                 recordings,
                 token=token,
-                port=number,
+                port=actual_port,
                 hub=hub,
                 library=library,
                 development=development,
@@ -98,16 +98,16 @@ def serve(
         )
         ended = threading.Event()
         threading.Thread(
-            target=warm_up, args=[recordings, hub, ended], name="make ready", daemon=True
+            target=warm_up, args=[recordings, hub, ended], name="warm up", daemon=True
         ).start()
         try:
-            Server(config, hub).run(sockets=[opened])
+            Server(config, hub).run(sockets=[server_socket])
         finally:
             ended.set()
 
 
 def make_server_config(app: Guard) -> uvicorn.Config:
-    """Return how an application is served: plain HTTP, and nothing said of it."""
+    """Return the server settings: plain HTTP on this machine, without logs."""
     return uvicorn.Config(
         app,
         log_level=logging.ERROR,
@@ -115,48 +115,47 @@ def make_server_config(app: Guard) -> uvicorn.Config:
         server_header=False,
         ws="none",
         proxy_headers=False,
-        timeout_graceful_shutdown=PATIENCE,
-        http=HeadersInTime,
+        timeout_graceful_shutdown=SHUTDOWN_S,
+        http=HeaderTimeoutProtocol,
     )
 
 
 def open_socket(port: int | None) -> socket.socket:
-    """Return a socket of this machine alone; ParameterError where the port is in use, or not one.
+    """Return a listening socket on this machine; ParameterError if the port is in use or invalid.
 
-    None is the first free port from 8750, 0 any.
+    ``port`` None takes the first free port from 8750 on, 0 any free port.
     """
     if port is not None and not 0 <= port < 2**16:
         raise ParameterError(f"the port is a number from 0 to 65535, not {port}")
-    for number in range(PORT, PORT + TRIES) if port is None else [port]:
-        opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-        if os.name == "posix":  # elsewhere it would let two servers share a port
-            opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    for number in range(PORT, PORT + PORT_ATTEMPTS) if port is None else [port]:
+        server_socket = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        if os.name == "posix":  # on Windows it would let two servers share a port
+            server_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            opened.bind((HOST, number))
-            opened.listen(128)
+            server_socket.bind((HOST, number))
+            server_socket.listen(128)
         except OSError as error:
-            opened.close()
+            server_socket.close()
             reason = error.strerror
             continue
-        return opened
-    ports = f"{PORT} to {PORT + TRIES - 1} are" if port is None else f"{port} is"
+        return server_socket
+    ports = f"{PORT} to {PORT + PORT_ATTEMPTS - 1} are" if port is None else f"{port} is"
     raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
 
 
 def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:
-    """Open the only recording, which every page shows, and load or build the compiled code.
+    """Open the recording of a folder with only one, and load or build the compiled code.
 
-    What fails once the server has ended is not said: an interpreter that ends lets nobody start
-    threads.
+    Exceptions during shutdown are ignored: the interpreter cannot start threads then.
     """
     try:
         names = list(recordings.folder.recordings())
         if len(names) == 1:
             recordings.prepare(names)
         else:
-            hub.listened.wait(PAGE_FIRST)
+            hub.has_listener.wait(PAGE_WAIT_S)
         load_compiled_code(ended)
-    except KinemeError:  # it will be said where it matters
+    except KinemeError:  # the request for it will report it
         return
     except Exception:
         if not ended.is_set():
@@ -164,7 +163,7 @@ def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> Non
 
 
 def load_compiled_code(ended: threading.Event) -> None:
-    """Show and segment the bundled recording; by the default preset first."""
+    """Display and segment the bundled recording, by the default preset first."""
     from kineme.datasets import bundled_recording
     from kineme.formats import read_motion
     from kineme.methods.presets import DEFAULT, PUBLISHED
@@ -174,6 +173,6 @@ def load_compiled_code(ended: threading.Event) -> None:
     motion = read_motion(bundled_recording())
     make_page_data(motion)
     segment(motion, preset=DEFAULT)
-    if not ended.wait(HEAD_START):
+    if not ended.wait(PUBLISHED_DELAY_S):
         for name in PUBLISHED:
             segment(motion, preset=name)

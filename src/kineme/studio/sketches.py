@@ -1,4 +1,4 @@
-"""Show a large recording while it is read: poses evenly apart, without segments."""
+"""Show a large recording while it is read: a sample of its poses, without segments."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from kineme._util.json import options_to_json
 from kineme.errors import KinemeError
 from kineme.formats import sketch
 from kineme.studio.loading import make_single_segment
-from kineme.studio.reading import RecordingCache
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.sidecars import (
     make_video_message,
     read_saved_options,
@@ -20,18 +20,18 @@ from kineme.studio.storage.sidecars import (
 )
 from kineme.web.messages import MatrixHead, Recording
 
-LARGE = 16_000_000
-"""Bytes of a file that takes more than a second to read."""
-POSES = 18_000
-"""Of a sketch, at most: five a second of an hour."""
+LARGE_FILE = 16_000_000
+"""Bytes from which a file takes more than a second to read."""
+MAX_POSES = 18_000
+"""Poses of a sketch: five per second for an hour."""
 SKETCH_REVISION = 0
-"""Revision that a sketch has; tables have others."""
+"""Revision of a sketch; tables have higher ones."""
 
 
 class Sketch(Struct):
-    """A recording that is being read, as a page shows it; ``binary`` holds its poses.
+    """Preview of a recording that is being read; ``binary`` holds its poses.
 
-    One that no page has open any more (``is_open``) is not opened once it is read.
+    If no page has it open any more (``is_open``), the recording is not opened once it is read.
     """
 
     message: Recording
@@ -41,7 +41,7 @@ class Sketch(Struct):
 
 
 class Sketcher:
-    """Sketches of recordings, by their ids."""
+    """Sketches of recordings, by id."""
 
     def __init__(self, cache: RecordingCache):
         self._cache = cache
@@ -49,61 +49,61 @@ class Sketcher:
         self._lock = threading.Lock()
 
     def open(self, listed: ListedRecording, read: Callable[[Sketch], None]) -> Sketch | None:
-        """Return what there is to show of a recording that is being read, if anything.
+        """Return the sketch of a recording while it is being read, if its format allows one.
 
-        It is made once; ``read``, which starts to read the recording, is called then.
+        ``read`` is called when the sketch is made and starts to read the recording.
         """
         with self._lock:
             if listed.id not in self._sketches:
-                made = self._sketches[listed.id] = draw_sketch(listed, self._cache)
-                if made is not None:
-                    read(made)
-            present = self._sketches[listed.id]
-            if present is not None:
-                present.is_open = True
-        return present if present is not None and present.reading else None
+                sketch = self._sketches[listed.id] = draw_sketch(listed, self._cache)
+                if sketch is not None:
+                    read(sketch)
+            sketch = self._sketches[listed.id]
+            if sketch is not None:
+                sketch.is_open = True
+        return sketch if sketch is not None and sketch.reading else None
 
     def get(self, name: str) -> Sketch | None:
-        """Return the sketch of a recording, whether it has been read by now or not."""
+        """Return the sketch of a recording, even if the recording has been read since."""
         return self._sketches.get(name)
 
     def forget(self, name: str) -> None:
         """Drop the sketch of a recording."""
         self._sketches.pop(name, None)
 
-    def forget_closed(self, made: Sketch) -> bool:
-        """Drop a sketch that no page has open; return whether that was so."""
+    def forget_closed(self, sketch: Sketch) -> bool:
+        """Drop a sketch that no page has open; return whether it was dropped."""
         with self._lock:
-            if not made.is_open:
-                self.forget(made.message.id)
-            return not made.is_open
+            if not sketch.is_open:
+                self.forget(sketch.message.id)
+            return not sketch.is_open
 
 
 def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None:
-    """Return what can be shown of a recording before it is read.
+    """Return a preview of a recording that has not been read yet.
 
-    None for a file that is soon read, or whose format has no shorter way.
+    None for a file that is read quickly, or whose format offers no preview.
     """
     from kineme.web.display import display_motion
     from kineme.web.tables import make_segments_message
 
     path = listed.path
     try:
-        if path.stat().st_size < LARGE:
+        if path.stat().st_size < LARGE_FILE:
             return None
-        found = sketch(path, resolve_read_options(listed, cache.read_options), POSES)
-        if found is None:
+        preview = sketch(path, resolve_read_options(listed, cache.read_options), MAX_POSES)
+        if preview is None:
             return None
         effectors = cache.segment_options.effectors
-        head, binary = display_motion(found.motion, effectors=effectors)
-    except (OSError, KinemeError):  # reading will say what is wrong
+        head, binary = display_motion(preview.motion, effectors=effectors)
+    except (OSError, KinemeError):  # reading the file will report it
         return None
-    table = make_single_segment("transition", found.n_frames, found.fps)
+    table = make_single_segment("transition", preview.n_frames, preview.fps)
     message = Recording(
         id=listed.id,
         name=listed.name,
-        n_frames=found.n_frames,
-        fps=found.fps,
+        n_frames=preview.n_frames,
+        fps=preview.fps,
         motion=head,
         matrix=MatrixHead(fps=1.0, tile=1, sizes=[]),
         segmentation=make_segments_message(table),

@@ -1,11 +1,9 @@
-"""Pages: their sources (``pages``), as built (``static``), and what they are told.
+"""Web pages: sources (``pages``), built files (``static``), and the data that they get.
 
-``page_data`` puts together what a page draws, whichever kind the recording is,
-from ``display`` (the poses), ``similarity`` and ``matrix`` (the tiles of the
-similarity matrix). ``curves`` are what is drawn over time, ``cycle_curves`` the
-repetitions of a cluster, as `kineme.cycles` measures them. The types of what pages are
-told are in ``messages``, of what they send in ``requests``; ``encoding`` turns both
-into JSON and back.
+``page_data`` collects what a page draws of any recording, from ``display`` (poses), ``curves``
+(channels over time), ``cycle_curves`` (repetitions of a cluster, measured by `kineme.cycles`) and
+``matrix`` (tiles of the similarity matrix). ``messages`` has the types that pages receive,
+``requests`` those that they send; ``encoding`` converts both to JSON and back.
 """
 
 from pathlib import Path

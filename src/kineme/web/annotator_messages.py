@@ -1,4 +1,4 @@
-"""What the pages and the server tell each other of several people's labels."""
+"""Messages about the labels of several people."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from kineme.web.requests import Request, Text
 
 
 class AnnotatorChoice(Struct, frozen=True, kw_only=True):
-    """Somebody who labelled so many recordings of the folder."""
+    """A person who labelled this number of recordings of the folder."""
 
     id: str
     name: str
@@ -17,13 +17,13 @@ class AnnotatorChoice(Struct, frozen=True, kw_only=True):
 
 
 class AgreementRequest(Request, frozen=True, kw_only=True):
-    """Who is to be compared, by their ids."""
+    """Ids of the people to compare."""
 
     annotators: list[Text]
 
 
 class AgreementPair(Struct, frozen=True, kw_only=True):
-    """How far two people agree, on the recordings that both labelled."""
+    """Agreement of two people on the recordings that both labelled."""
 
     annotators: tuple[str, str]
     cohen_kappa: float | None
@@ -32,7 +32,7 @@ class AgreementPair(Struct, frozen=True, kw_only=True):
 
 
 class Difference(Struct, frozen=True, kw_only=True):
-    """A span in seconds in which not all say the same, and what each says; empty is nothing."""
+    """A span in seconds where labels differ, and the label of each person; empty if unlabelled."""
 
     start_s: float
     stop_s: float
@@ -40,7 +40,7 @@ class Difference(Struct, frozen=True, kw_only=True):
 
 
 class RecordingAgreement(Struct, frozen=True, kw_only=True):
-    """How far those agree who labelled a recording, and where they differ."""
+    """Agreement of the people who labelled a recording, and where they differ."""
 
     id: str
     name: str
@@ -50,10 +50,10 @@ class RecordingAgreement(Struct, frozen=True, kw_only=True):
 
 
 class Agreement(Struct, frozen=True, kw_only=True):
-    """How far people agree over the folder.
+    """Agreement of people over the folder.
 
-    With ``by_names`` classes are names; else those of one stand for those of another by the best
-    mapping. ``failures`` are sentences on labels that could not be read.
+    With ``by_names`` labels are compared by name, else by the best mapping between people.
+    ``failures`` are sentences about labels that could not be read.
     """
 
     annotators: list[str]
@@ -65,7 +65,7 @@ class Agreement(Struct, frozen=True, kw_only=True):
 
 
 class LabelLane(Struct, frozen=True, kw_only=True):
-    """What somebody says of the open recording."""
+    """Labels of one person for the open recording."""
 
     name: str
     segmentation: Segments

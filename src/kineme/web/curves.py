@@ -1,9 +1,8 @@
-"""What a page draws as curves over time, at any zoom, a tile at a time.
+"""Curves over time for a page, at any zoom, in tiles.
 
-A curve has levels: at level ``l`` one number pair stands for ``FACTOR ** l`` frames, the least and
-the greatest value in them, so that a pixel wide as many frames shows everything that happens in
-them. Level 0 is the curve itself. A tile holds `TILE` pairs, 32-bit floats, little end first;
-nan where nothing was seen.
+At level ``l`` of a curve, one pair holds the minimum and maximum of ``FACTOR ** l`` frames, so that
+no peak is lost when a pixel covers that many frames. Level 0 is the curve itself. A tile has `TILE`
+pairs of little-endian 32-bit floats; missing values are nan.
 """
 
 from __future__ import annotations
@@ -18,24 +17,26 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
-from kineme.web.drawn import list_analog_curves, list_motion_curves, list_signal_curves
+from kineme.web.curve_sources import list_analog_curves, list_motion_curves, list_signal_curves
 from kineme.web.messages import Curve, CurveList
 
 Pairs = NDArray[np.float32]
 
 FACTOR = 4
+"""Frames per pair grow by this factor from level to level."""
 TILE = 1024
-MOST_BYTES = 4_000_000
-"""Of the tiles in a report."""
-MOST_IN_MEMORY = 24
-"""Curves whose levels stay in memory: 6 MB each for an hour at 120 Hz."""
+"""Pairs in a tile."""
+MAX_BYTES = 4_000_000
+"""Size of all curve tiles in a report."""
+MAX_CURVES = 24
+"""Curves cached in memory: 6 MB each for an hour at 120 Hz."""
 
 
 class Curves:
-    """Curves of a recording; those looked at last stay in memory.
+    """Curves of a recording; the most recently used ones are cached.
 
-    ``analog`` are channels beside a motion, at a rate of their own: of each frame the least and the
-    greatest value are drawn.
+    ``analog`` are channels beside a motion with their own sampling rate; the minimum and maximum in
+    each frame are drawn.
     """
 
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
@@ -52,8 +53,10 @@ class Curves:
         self._lock = Lock()
 
     def head(self) -> CurveList:
-        """Return which curves there are, and how their tiles are asked for."""
-        curves = [Curve(name=each.name, group=each.group, unit=each.unit) for each in self._drawn]
+        """Return the list of curves and the layout of their tiles."""
+        curves = [
+            Curve(name=curve.name, group=curve.group, unit=curve.unit) for curve in self._drawn
+        ]
         return CurveList(
             curves=curves, factor=FACTOR, tile=TILE, levels=len(compute_level_sizes(self.n_frames))
         )
@@ -65,10 +68,10 @@ class Curves:
         level: int,
         number: int,
     ) -> bytes | None:
-        """Some pairs of a curve; None where there are none.
+        """Return the pairs of a tile; None if there is no such tile.
 
-        ``read`` gives the recording where the curve is not in memory; with True, its analog
-        channels.
+        ``read`` returns the recording, or with True its analog channels; called if the curve is not
+        cached.
         """
         if not 0 <= curve < len(self._drawn):
             return None
@@ -76,52 +79,51 @@ class Curves:
             levels = self._recent.get(curve)
             if levels is None:
                 source = read(curve >= self._first_analog)
-                levels = self._recent[curve] = build_levels(self._drawn[curve].with_gaps(source))
+                levels = self._recent[curve] = build_levels(self._drawn[curve].compute(source))
             self._recent.move_to_end(curve)
-            while len(self._recent) > MOST_IN_MEMORY:
-                # Drop the curve that was looked at longest ago.
+            while len(self._recent) > MAX_CURVES:
+                # Drop the least recently used curve.
                 self._recent.popitem(last=False)
         if not 0 <= level < len(levels) or not 0 <= number * TILE < len(levels[level]):
             return None
-        # Pairs of 4-byte floats, little end first.
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
 
 
 def as_recording(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
-    """Return the recording; signals where it is an array (frames, channels) of that rate."""
+    """Return the recording; an array (frames, channels) becomes signals of this rate."""
     if isinstance(recording, Motion | Signals):
         return recording
     return Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
 
 
 def make_report_curves(
-    recording: Motion | Signals | ArrayLike, fps: float, most_bytes: int = MOST_BYTES
+    recording: Motion | Signals | ArrayLike, fps: float, max_bytes: int = MAX_BYTES
 ) -> tuple[CurveList, dict[str, bytes]]:
-    """Return the curves of signals, with tiles by "curve/level/number", for a page that cannot ask.
+    """Return the curves of signals for a report, with tiles by "curve/level/number".
 
-    ``fps`` is that of an array (frames, channels). Finer levels are left out where all together
-    would be longer than ``most_bytes``.
+    ``fps`` is the rate of an array (frames, channels). Finer levels are omitted once all tiles
+    exceed ``max_bytes``.
     """
     signals = as_recording(recording, fps)
     curves, tiles = Curves(signals), dict[str, bytes]()
-    head, left = curves.head(), most_bytes
-    # Coarse levels first: they cover the whole recording in little room.
+    head, bytes_left = curves.head(), max_bytes
+    # Coarse levels first: they cover the whole recording with few bytes.
     for level in reversed(range(head.levels)):
         bins = compute_level_sizes(signals.n_frames)[level]
-        places = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / TILE))]
-        # Two floats of 4 bytes a bin.
-        left -= 8 * bins * len(head.curves)
-        if left < 0 and tiles:
+        indices = [(c, level, n) for c in range(len(head.curves)) for n in range(ceil(bins / TILE))]
+        # Two floats of 4 bytes per bin.
+        bytes_left -= 8 * bins * len(head.curves)
+        if bytes_left < 0 and tiles:
             break
-        for place in places:
-            tiles["/".join(map(str, place))] = curves.tile(lambda _: signals, *place) or b""
+        for index in indices:
+            tiles["/".join(map(str, index))] = curves.tile(lambda _: signals, *index) or b""
     return head, tiles
 
 
 def build_levels(values: Floats) -> list[Pairs]:
-    """Least and greatest values (bins, 2) of ever more frames; the last has `TILE` bins at most.
+    """Return minimum and maximum (bins, 2) at each level; the last level has at most `TILE` bins.
 
-    Values are nan where nothing was seen; two are the least and the greatest of a frame.
+    ``values`` are (frames,), or (frames, 2) with a minimum and a maximum; nan if missing.
 
     Examples
     --------
@@ -131,7 +133,7 @@ def build_levels(values: Floats) -> list[Pairs]:
     pairs = values if values.ndim == 2 else np.repeat(values[:, None], 2, axis=1)
     levels = [pairs.astype("<f4")]
     for size in compute_level_sizes(len(values))[1:]:
-        # The first bin of each group; the last group may be shorter.
+        # First bin of each group of FACTOR bins; the last group may be shorter.
         at = np.arange(size) * FACTOR
         # `fmin` and `fmax` ignore nan unless all are nan.
         least = np.fmin.reduceat(levels[-1][:, 0], at)
@@ -141,7 +143,7 @@ def build_levels(values: Floats) -> list[Pairs]:
 
 
 def compute_level_sizes(n_frames: int) -> list[int]:
-    """Return how many bins each level has."""
+    """Return the number of bins of each level."""
     sizes = [n_frames]
     while sizes[-1] > TILE:
         sizes.append(ceil(sizes[-1] / FACTOR))

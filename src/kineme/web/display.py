@@ -1,14 +1,13 @@
-"""What a page draws of a motion: where its joints are, small enough to be sent once.
+"""Compress the joint positions of a motion, so that a page can load them at once.
 
-The poses are those at 0, 1/30, 2/30, ... seconds (those of the file if it has
-fewer), joined in straight lines. Each coordinate of each joint is a column of
-whole numbers: ``position = origin + step * number``; -32768 stands for what was
-not seen. Columns follow each other, joint by joint, x, y, z of each. A column
-holds its first number, then the differences, as 16-bit integers, little end
-first, which wrap around; all columns together are compressed with zlib.
+Poses are sampled at 30 Hz (or the frame rate if that is lower) and interpolated linearly. Each
+coordinate of each joint is a column of integers: ``position = origin + step * number``; -32768
+marks a missing value. Columns are ordered by joint, then x, y, z. A column holds its first number,
+then differences, as little-endian 16-bit integers that wrap around. All columns are compressed with
+zlib.
 
-``step`` is a ten-thousandth of the body, or a two-thousandth where that would
-be too long; motions longer still are shown at a lower rate.
+``step`` is 1/10000 of the body's extent, or 1/2000 if the data would get too large. Even longer
+motions are sampled at a lower rate.
 """
 
 from __future__ import annotations
@@ -26,11 +25,11 @@ from kineme.recordings import Motion
 from kineme.recordings.joint_names import PARENTS
 from kineme.web.messages import MotionHead
 
-RATE = 30.0  # poses per second: what a page plays without visible steps
-MOST_BYTES = 11_000_000  # so that the report of an hour, with all else in it, is under 30 MB
+RATE = 30.0  # poses per second; playback looks smooth
+MAX_BYTES = 11_000_000  # keeps the report of an hour under 30 MB
 MISSING = -32768
-BLOCK = 1000  # poses that stay in the processor's cache
-FINE, COARSE = 1e-4, 5e-4  # steps, as shares of the body's largest extent
+BLOCK = 1000  # poses that fit into the CPU cache
+FINE, COARSE = 1e-4, 5e-4  # steps relative to the largest extent of the body
 
 
 def display_motion(
@@ -38,12 +37,12 @@ def display_motion(
     *,
     effectors: Names | None = None,
     rate: float = RATE,
-    most_bytes: int = MOST_BYTES,
+    max_bytes: int = MAX_BYTES,
 ) -> tuple[MotionHead, bytes]:
-    """How to read the binary motion, and the binary motion, as described above.
+    """Return the header and the compressed poses of a motion, as described above.
 
-    ``effectors`` are as `kineme.features.end_effectors` takes them, ``rate`` is how many poses a
-    second are sent at most. Above ``most_bytes``, fewer digits are sent, then fewer poses.
+    ``effectors`` are passed to `kineme.features.end_effectors`. ``rate`` is the highest number of
+    poses per second. Above ``max_bytes``, coarser numbers are sent, then fewer poses.
 
     Examples
     --------
@@ -55,14 +54,14 @@ def display_motion(
     """
     fps = min(motion.fps, rate)
     positions = sample_poses(motion, fps)
-    # Fine numbers take more than a byte each, so that many of them need not be tried.
-    for share in (FINE, COARSE) if positions.size <= most_bytes else (COARSE,):
+    # Fine numbers take over a byte each, so skip them if there are more numbers than bytes.
+    for share in (FINE, COARSE) if positions.size <= max_bytes else (COARSE,):
         origin, step, data = encode_positions(positions, share)
-        if len(data) <= most_bytes:
+        if len(data) <= max_bytes:
             break
-    # Poses farther apart differ more, so that half of them take more than half the length.
-    while len(data) > most_bytes and len(positions) > 2:
-        fps *= max(0.25, 0.9 * most_bytes / len(data))
+    # Differences grow with the interval, so half the poses need more than half the bytes.
+    while len(data) > max_bytes and len(positions) > 2:
+        fps *= max(0.25, 0.9 * max_bytes / len(data))
         positions = sample_poses(motion, fps)
         origin, step, data = encode_positions(positions, COARSE)
     joints, angles = _find_headings(motion, effectors, len(positions), fps)
@@ -81,21 +80,21 @@ def display_motion(
 
 
 def sample_poses(motion: Motion, fps: float) -> Floats:
-    """Poses (samples, joints, 3) at another rate, on straight lines between frames; nan in gaps."""
+    """Return poses (samples, joints, 3) at another rate, interpolated linearly; nan in gaps."""
     ratio = motion.fps / fps
-    # The small number keeps a last pose that rounding would lose.
+    # The small number keeps the last pose despite rounding errors.
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
-    # It also keeps a frame that rounding puts just before itself.
+    # Here it keeps samples that coincide with a frame on that frame.
     before = np.floor(at + 1e-9).astype(np.intp)
     share = np.maximum(at - before, 0)[:, None, None]
     positions: Floats = motion.positions[before]
-    # Where all samples are frames there is nothing to interpolate.
+    # Nothing to interpolate if all samples coincide with frames.
     if share.max() > 1e-6:
         after = np.minimum(before + 1, motion.n_frames - 1)
         positions += share * (motion.positions[after] - positions)
     for start, stop in motion.gaps:
-        # A sample between a seen frame and one in a gap is not seen either.
+        # Samples between a frame and a gap are missing, too.
         positions[(at > start - 1) & (at < stop)] = np.nan
     return positions
 
@@ -103,44 +102,44 @@ def sample_poses(motion: Motion, fps: float) -> Floats:
 def encode_positions(
     positions: Floats, share: float
 ) -> tuple[tuple[float, float, float], float, bytes]:
-    """Origin and step in metres, and positions (samples, joints, 3) as whole numbers, compressed.
+    """Return origin and step in metres, and the compressed positions (samples, joints, 3).
 
-    The step is a share of the largest extent of the median pose. It becomes larger where 16 bits do
-    not reach both ends of the recording.
+    ``share`` is the step relative to the largest extent of the median pose. The step is larger if
+    the recording would exceed the range of 16-bit integers.
     """
     visible = np.asarray(np.isfinite(positions).all(axis=2))
-    everywhere = bool(visible.all())
-    # All of them without a copy, which would be of hours.
-    points = positions.reshape(-1, 3) if everywhere else positions[visible]
+    all_visible = bool(visible.all())
+    # Avoid a copy, which is large for hours of motion.
+    points = positions.reshape(-1, 3) if all_visible else positions[visible]
     if not len(points):
         points = np.zeros((1, 3))
     low, high = points.min(axis=0), points.max(axis=0)
     origin = (low + high) / 2
-    # A step so large that 16 bits reach both ends of the recording; 1 if nothing moves.
+    # 16 bits must reach both ends of the recording; 1 if nothing moves.
     step = (
         max(share * _measure_extent(positions, visible), float((high - low).max()) / 65000) or 1.0
     )
     numbers = np.full(positions.shape, MISSING, np.int16)
-    if everywhere:
-        # In blocks that stay in the cache, without a copy of the whole.
+    if all_visible:
+        # Convert in blocks that fit into the CPU cache.
         for first in range(0, len(positions), BLOCK):
             span = slice(first, first + BLOCK)
             numbers[span] = np.rint((positions[span] - origin) / step)
     else:
         numbers[visible] = np.rint((points[: visible.sum()] - origin) / step)
-    # One row for each coordinate of each joint.
+    # One row per coordinate of each joint.
     columns = np.ascontiguousarray(numbers.reshape(len(numbers), -1).T)
-    # Differences compress better; 16-bit integers wrap around, and so do their sums when decoded.
+    # Differences compress better; overflow is undone when the page sums them with wrap-around.
     columns[:, 1:] -= columns[:, :-1].copy()
     x, y, z = origin.tolist()
     return (x, y, z), step, zlib.compress(columns.astype("<i2").tobytes(), 6)
 
 
 def list_bones(motion: Motion) -> list[tuple[int, int]]:
-    """Pairs of joints (parent, child) to draw a line between.
+    """Return pairs of joints (parent, child) to connect with a line.
 
-    Of markers only the joints made from them are joined: the markers themselves hang on the pelvis
-    for want of anything better.
+    Markers have no bones: their parent is only formally the pelvis. Of marker data, only computed
+    joints are connected.
     """
     skeleton = motion.skeleton
     lengths = np.linalg.norm(skeleton.offsets, axis=1)
@@ -152,16 +151,16 @@ def list_bones(motion: Motion) -> list[tuple[int, int]]:
     if motion.rotations is not None:
         return pairs
     names = skeleton.names
-    of_bodies = [(a, b) for a, b in pairs if PARENTS.get(names[b]) == names[a]]
-    return of_bodies or pairs
+    computed = [(a, b) for a, b in pairs if PARENTS.get(names[b]) == names[a]]
+    return computed or pairs
 
 
 def _measure_extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
-    """Largest extent of the median pose along an axis, in metres."""
+    """Return the largest extent of the median pose along an axis, in metres."""
     complete = np.flatnonzero(visible.all(axis=1))
     if not len(complete):
         return 0.0
-    # Some thousand poses are enough for a median.
+    # About a thousand poses are enough for a median.
     few = positions[complete[:: max(1, len(complete) // 1000)]]
     return float(np.median(np.ptp(few, axis=1).max(axis=1)))
 
@@ -169,17 +168,17 @@ def _measure_extent(positions: Floats, visible: NDArray[np.bool_]) -> float:
 def _find_headings(
     motion: Motion, effectors: Names | None, n_samples: int, fps: float
 ) -> tuple[dict[str, int], list[float] | None]:
-    """Joints of the parts and of the pelvis, and the heading of each sample, where known."""
+    """Return the joints of body parts and pelvis, and the heading of each sample, if known."""
     try:
-        found = end_effectors(motion, names=effectors)
+        effector_joints = end_effectors(motion, names=effectors)
     except MotionError:
         return {}, None
-    joints = dict(zip(PARTS, found.indices, strict=True))
+    joints = dict(zip(PARTS, effector_joints.indices, strict=True))
     try:
-        pelvis, angles = compute_heading(motion, effectors=found)
+        pelvis, angles = compute_heading(motion, effectors=effector_joints)
     except MotionError:
         return joints, None
-    # Nearest frame of each sample: angles cannot be interpolated across ±180°.
+    # Take the nearest frame, since angles cannot be interpolated across ±180°.
     nearest = np.rint(np.arange(n_samples) * (motion.fps / fps)).astype(np.intp)
-    shown = angles[np.minimum(nearest, motion.n_frames - 1)].round(3)
-    return {**joints, "pelvis": pelvis}, shown.tolist()
+    sampled_angles = angles[np.minimum(nearest, motion.n_frames - 1)].round(3)
+    return {**joints, "pelvis": pelvis}, sampled_angles.tolist()

@@ -1,4 +1,4 @@
-"""Messages to JSON and back, checked against their types."""
+"""Convert messages to JSON and back, and check them against their types."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ Message = TypeVar("Message")
 
 
 def to_json(message: object) -> bytes:
-    """Return a message as JSON; numbers that are not finite are null.
+    """Return a message as JSON; numbers that are not finite become null.
 
-    What is not Unicode in the name of a file becomes "?".
+    Invalid Unicode in file names becomes "?".
 
     Examples
     --------
@@ -24,14 +24,14 @@ def to_json(message: object) -> bytes:
     """
     try:
         return msgspec.json.encode(message)
-    except UnicodeEncodeError:  # names of files may hold any bytes
+    except UnicodeEncodeError:  # file names may contain arbitrary bytes
         return msgspec.json.encode(_replace_invalid_unicode(msgspec.to_builtins(message)))
 
 
 def from_json(body: bytes, kind: type[Message]) -> Message:
-    """Return the message in a body, whose fields are of their types and within their limits.
+    """Return the message in a request body.
 
-    ParameterError where it is no such message: which field, and what is wrong with it.
+    ParameterError names the field with a wrong type or a value out of range.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What the page of a library is told, and what it sends; see `kineme.web.messages`."""
+"""Messages of the library page, received and sent; see `kineme.web.messages`."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from kineme.web.messages import MotionHead
 from kineme.web.requests import EditBase, Integer, Request, Text
 
 MOST_EXAMPLES = 500
-"""Examples, or counter-examples, of one search."""
+"""Positive or negative examples of one search."""
 Seconds = Annotated[float, Meta(ge=0, le=1e7)]
 Path = Annotated[str, Meta(max_length=5000)]
 
 
 class LibraryRecording(Struct, frozen=True, kw_only=True):
-    """A recording of a library; ``id`` is what the studio opens it by, empty where it is gone."""
+    """A recording of a library; ``id`` opens it in the studio and is empty if its file is gone."""
 
     recording: str
     id: str
@@ -26,10 +26,10 @@ class LibraryRecording(Struct, frozen=True, kw_only=True):
 
 
 class LibraryCluster(Struct, frozen=True, kw_only=True):
-    """A cluster of a library, as `kineme.library.open_library.Cluster` tells it.
+    """A cluster of a library; see `kineme.library.open_library.Cluster`.
 
-    ``recordings`` are places in the list of all; ``unsure`` counts those of single recordings that
-    may as well be in another cluster.
+    ``recordings`` are indices into the list of recordings. ``unsure`` counts its parts in single
+    recordings that may belong to another cluster.
     """
 
     cluster: int
@@ -47,9 +47,9 @@ class LibraryCluster(Struct, frozen=True, kw_only=True):
 
 
 class LibraryState(Struct, frozen=True, kw_only=True):
-    """A library: its recordings, its clusters, and what could not be read, with the reason.
+    """A library: its recordings, its clusters, and files that could not be read, with the reason.
 
-    ``undo`` is the last edit of its clusters, in words, where that can be taken back.
+    ``undo`` describes the last edit of its clusters, if that can be undone.
     """
 
     folder: str
@@ -61,7 +61,7 @@ class LibraryState(Struct, frozen=True, kw_only=True):
 
 
 class LibraryHit(Struct, frozen=True, kw_only=True):
-    """Where a recording is like an example; ``label`` is that of the cluster.
+    """A match of a search; ``label`` is that of the cluster.
 
     ``name`` is that of the segment there, in the table beside the recording.
     """
@@ -76,22 +76,22 @@ class LibraryHit(Struct, frozen=True, kw_only=True):
 
 
 class LibraryHits(Struct, frozen=True, kw_only=True):
-    """What a search found, the nearest first."""
+    """Matches of a search, the nearest first."""
 
     hits: list[LibraryHit]
 
 
 class NamedHits(Struct, frozen=True, kw_only=True):
-    """How many hits have the name now, and which have not, with the reason."""
+    """Number of hits that were named, and reasons for those that were not."""
 
     named: int
     left: list[str]
 
 
 class LibraryFigure(Struct, frozen=True, kw_only=True):
-    """A span of a recording to be drawn small: a motion, its numbers in base 64, or curves.
+    """A small figure of a span: a motion with its numbers in base 64, or curves.
 
-    Curves are those of the first channels, from 0 to 1.
+    Curves are the first channels, scaled to 0 to 1.
     """
 
     motion: MotionHead | None
@@ -108,7 +108,7 @@ class Span(Request, frozen=True, kw_only=True):
 
 
 class SearchRequest(Request, frozen=True, kw_only=True):
-    """What is searched for: any of the spans, or what is typical of a cluster; and unlike what."""
+    """Search for the spans in ``like`` or a cluster; leave out what is nearer to ``unlike``."""
 
     like: Annotated[list[Span], Meta(max_length=MOST_EXAMPLES)]
     unlike: Annotated[list[Span], Meta(max_length=MOST_EXAMPLES)]
@@ -119,28 +119,28 @@ class SearchRequest(Request, frozen=True, kw_only=True):
 
 
 class CallHits(Request, frozen=True, kw_only=True):
-    """A name for the segments that hits show, each alone; an empty one takes it away."""
+    """Name the segments that hits show; an empty name removes the name."""
 
     name: Text
     hits: Annotated[list[Span], Meta(max_length=MOST_EXAMPLES)]
 
 
 class CallCluster(EditBase, frozen=True, kw_only=True, tag="name"):
-    """A name for a cluster of the library; an empty one takes it away."""
+    """Name a cluster of the library; an empty name removes the name."""
 
     cluster: Integer
     name: Text
 
 
 class JoinClusters(EditBase, frozen=True, kw_only=True, tag="merge"):
-    """Others become part of a cluster of the library, which keeps its number and name."""
+    """Merge other clusters into a cluster of the library, which keeps its number and name."""
 
     cluster: Integer
     others: list[Integer]
 
 
 class PartCluster(EditBase, frozen=True, kw_only=True, tag="split"):
-    """What a cluster of the library has in some recordings becomes a cluster of its own."""
+    """Move the part of a cluster in some recordings to a new cluster."""
 
     cluster: Integer
     recordings: list[Path]
@@ -154,18 +154,18 @@ LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit
 
 
 class TablesRequest(Request, frozen=True, kw_only=True):
-    """Saved tables take numbers and names of clusters from the library.
+    """Update clusters and names of saved tables from the library.
 
-    Clusters that have another name keep it, unless ``names``: then they take it, too.
+    Clusters with a different name keep it unless ``names`` is true.
     """
 
     names: bool
 
 
 class CallEverywhere(Request, frozen=True, kw_only=True):
-    """What a cluster of one recording is called now holds for it in all recordings.
+    """Rename a cluster of one recording in all recordings.
 
-    In a library for the cluster of it; else for what is called ``before`` elsewhere.
+    In a library, its library cluster is renamed; else everything called ``before``.
     """
 
     recording: Text
@@ -175,7 +175,7 @@ class CallEverywhere(Request, frozen=True, kw_only=True):
 
 
 class TablesChanged(Struct, frozen=True, kw_only=True):
-    """How many tables were changed, how many clusters keep another name, and what failed, why."""
+    """Number of changed tables, number of clusters that kept another name, and failures."""
 
     tables: int
     others: int

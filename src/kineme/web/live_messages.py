@@ -1,4 +1,4 @@
-"""What the page of a stream is told; see `kineme.web.messages`."""
+"""Messages of the page of a stream; see `kineme.web.messages`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from msgspec import Struct
 
 
 class LiveEvent(Struct, frozen=True, kw_only=True):
-    """An event of a stream; 0 or empty is what its kind does not have."""
+    """An event of a stream; fields that its kind does not have are 0 or empty."""
 
     event: Literal["ActivityStarted", "ActivityEnded", "Repetition", "Gap", "Notice"]
     at_s: float
@@ -23,7 +23,7 @@ class LiveEvent(Struct, frozen=True, kw_only=True):
 
 
 class LiveHead(Struct, frozen=True, kw_only=True):
-    """What does not change in a stream: names of the curves, and joints that are connected."""
+    """Constant data of a stream: names of the curves, and joints that are connected."""
 
     channels: list[str]
     sample_fps: float
@@ -31,11 +31,11 @@ class LiveHead(Struct, frozen=True, kw_only=True):
 
 
 class LiveUpdate(Struct, frozen=True, kw_only=True):
-    """What is new since the update before; the first one has a head.
+    """Changes since the previous update; only the first one has a head.
 
-    ``now_s`` is how long the stream is, ``silent_s`` how long no row has come. ``samples`` are rows
-    of the curves from ``first_s`` on, null where nothing was recorded, ``pose`` right and up of
-    each joint in metres.
+    ``now_s`` is the length of the stream, ``silent_s`` the time since the last row. ``samples`` are
+    rows of the curves from ``first_s`` on, null if missing. ``pose`` has right and up of each joint
+    in metres.
     """
 
     head: LiveHead | None

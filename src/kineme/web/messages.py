@@ -1,8 +1,8 @@
-"""What the pages are told: one msgspec ``Struct`` a message, each of them plain JSON.
+"""Messages that pages receive: one msgspec ``Struct`` each, sent as JSON.
 
-The report carries one `Recording` inside its file; the studio's server
-sends the same over HTTP. What pages send is in `kineme.web.requests`; the
-TypeScript types (``web/pages/src/messages.ts``) are made from both modules.
+A report contains one `Recording`; the studio's server sends the same over HTTP. Messages that pages
+send are in `kineme.web.requests`. The TypeScript types (``web/pages/src/messages.ts``) are
+generated from both modules.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from kineme.web.requests import Edit
 
 @dataclass(frozen=True, slots=True)
 class Segment(table.Segment):
-    """A row of the segment table, and what people did to it where they did something.
+    """A row of the segment table with its annotations, which are unset by default.
 
-    It is ``excluded`` where it counts in no mean.
+    An ``excluded`` row counts in no mean.
     """
 
     checked: bool | UnsetType = UNSET
@@ -30,9 +30,9 @@ class Segment(table.Segment):
 
 
 class Segments(Struct, frozen=True, kw_only=True):
-    """A segment table as its JSON file has it (``kineme.segments/2``), marks in its rows.
+    """A segment table in its JSON format (``kineme.segments/2``), with annotations in the rows.
 
-    ``cluster_names`` has the names of clusters by their numbers.
+    ``cluster_names`` has the names of clusters by number.
     """
 
     schema: str
@@ -45,13 +45,13 @@ class Segments(Struct, frozen=True, kw_only=True):
 
 
 class MotionHead(Struct, frozen=True, kw_only=True):
-    """How to read the binary motion; see `kineme.web.display`.
+    """Layout of the binary motion; see `kineme.web.display`.
 
-    ``n_samples`` poses at ``sample_fps``; position of a joint in metres, y up:
-    ``origin + step * integer``. ``heading`` is where the body looks at each
-    sample: radians about y from +z towards +x; null where it is not known.
-    ``effectors`` has the joint of ``left_ankle``, ``right_ankle``, ``head``,
-    ``left_wrist``, ``right_wrist`` and ``pelvis``; it is empty without a body.
+    There are ``n_samples`` poses at ``sample_fps``. A joint's position in metres, y up, is ``origin
+    + step * integer``. ``heading`` is the direction in which the body looks at each sample, in
+    radians about y from +z towards +x; null if unknown. ``effectors`` has the joints of
+    ``left_ankle``, ``right_ankle``, ``head``, ``left_wrist``, ``right_wrist`` and ``pelvis``; it is
+    empty without a body.
     """
 
     n_samples: int
@@ -68,11 +68,10 @@ class MotionHead(Struct, frozen=True, kw_only=True):
 class MatrixHead(Struct, frozen=True, kw_only=True):
     """Pyramid of self-similarity tiles; see `kineme.web.matrix`.
 
-    Level 0 has one cell per sample of ``fps`` and ``sizes[0]`` cells a side;
-    each next level halves that; the last is one tile. Tiles are square, ``tile``
-    cells a side, the last of a row or column cut off at the end of the recording.
-    A report has the tiles with row >= column only, the others being their mirror
-    images; of the finer levels it may lack those off the diagonal, too.
+    Level 0 has one cell per sample at ``fps`` and ``sizes[0]`` cells per side. Each next level has
+    half as many; the last is one tile. Tiles have ``tile`` cells per side; the last in a row or
+    column are cut off at the end of the recording. A report has only tiles with row >= column,
+    since the others are mirrored. Of fine levels it may lack tiles off the diagonal.
     """
 
     fps: float
@@ -81,7 +80,7 @@ class MatrixHead(Struct, frozen=True, kw_only=True):
 
 
 class Curve(Struct, frozen=True, kw_only=True):
-    """A curve over time: a joint's height, a channel; ``group`` says what it is of that name."""
+    """A curve over time, such as a joint's height or a channel; ``group`` is its quantity."""
 
     name: str
     group: str
@@ -89,7 +88,7 @@ class Curve(Struct, frozen=True, kw_only=True):
 
 
 class CurveList(Struct, frozen=True, kw_only=True):
-    """Curves of a recording and their levels; see `kineme.web.curves`."""
+    """Curves of a recording and the layout of their levels; see `kineme.web.curves`."""
 
     curves: list[Curve]
     factor: int
@@ -98,9 +97,9 @@ class CurveList(Struct, frozen=True, kw_only=True):
 
 
 class CycleChannel(Struct, frozen=True, kw_only=True):
-    """What can be measured of a repetition, as ``kineme info --channels`` has it.
+    """A channel that can be measured for each repetition, as in ``kineme info --channels``.
 
-    ``opposite`` is the channel of the other side of the body; empty where there is none.
+    ``opposite`` is the channel of the other side of the body, or empty.
     """
 
     name: str
@@ -110,17 +109,17 @@ class CycleChannel(Struct, frozen=True, kw_only=True):
 
 
 class CycleChannels(Struct, frozen=True, kw_only=True):
-    """Channels of a recording, those first that are measured where nobody says which."""
+    """Channels of a recording; those measured by default come first."""
 
     channels: list[CycleChannel]
 
 
 class CycleCurve(Struct, frozen=True, kw_only=True):
-    """A repetition: from 0 to 100 % of the cycle, evenly; null where nothing was recorded.
+    """A repetition, sampled evenly from 0 to 100 % of the cycle; null if missing.
 
-    ``start_frame`` is that of its segment, ``start_s`` and ``stop_s`` where it was measured.
-    Where it ``counts`` it is part of the mean; else ``note`` says why not. ``distance`` is how far
-    it is from the mean: the root of the mean square.
+    ``start_frame`` is that of its segment; ``start_s`` and ``stop_s`` are its measured borders. If
+    it ``counts`` it is part of the mean, else ``note`` says why not. ``distance`` is the root mean
+    square distance from the mean.
     """
 
     start_frame: int
@@ -133,9 +132,9 @@ class CycleCurve(Struct, frozen=True, kw_only=True):
 
 
 class OtherSession(Struct, frozen=True, kw_only=True):
-    """Mean curve of the same movement in another recording, of ``n`` of ``total`` repetitions.
+    """Mean curve of the same movement in another recording, over ``n`` of ``total`` repetitions.
 
-    ``differs`` says where the bounds of the difference leave out 0.
+    ``differs`` is true where the confidence bounds of the difference exclude 0.
     """
 
     n: int
@@ -146,13 +145,13 @@ class OtherSession(Struct, frozen=True, kw_only=True):
 
 
 class ClusterCurves(Struct, frozen=True, kw_only=True):
-    """A channel over the repetitions of a cluster, and of those with the same name.
+    """A channel over the repetitions of a cluster, and of clusters with the same name.
 
-    Mean and standard deviation are of ``n`` of ``total`` repetitions: of the inner ones, or where
-    there are none (``ends``) of all; ``left_out`` counts those that people left out. ``cycles`` are
-    those drawn: those farthest from the mean first, after them those that do not count. ``turned``
-    counts activities that were cut at another phase than the others. ``beside`` is of another
-    recording, where one was asked for and has the movement and the channel.
+    Mean and standard deviation are over ``n`` of ``total`` repetitions: the inner ones, or all
+    (``ends``) if there are none. ``left_out`` counts those excluded by hand. ``cycles`` are the
+    drawn ones: first those that count, the farthest from the mean first, then the others.
+    ``turned`` counts activities that were cut at another phase than the others. ``beside`` is the
+    same movement in another recording, if requested and available.
     """
 
     channel: str
@@ -171,8 +170,8 @@ class ClusterCurves(Struct, frozen=True, kw_only=True):
 class ReportCurves(Struct, frozen=True, kw_only=True):
     """Curves in a report.
 
-    ``curves`` have them by channel, ``tables`` by cluster the number of those, for the table that
-    is shown and then for each of the ``levels`` of a `Recording`.
+    ``curves`` has groups of curves by channel. ``tables`` has the index of the group of each
+    cluster, for the shown table and then for each of the ``levels`` of a `Recording`.
     """
 
     channels: list[CycleChannel]
@@ -181,14 +180,14 @@ class ReportCurves(Struct, frozen=True, kw_only=True):
 
 
 class TableAtDetail(Struct, frozen=True, kw_only=True):
-    """Same recording, coarser (``detail`` below 1) or finer."""
+    """Table of the same recording at another detail; below 1 is coarser."""
 
     detail: float
     segments: list[Segment]
 
 
 class Picture(Struct, frozen=True, kw_only=True):
-    """What is drawn over a video, whose picture has so many pixels; see `kineme.web.film`."""
+    """Keypoints drawn over a video with this size in pixels; see `kineme.web.video`."""
 
     width: int
     height: int
@@ -196,10 +195,10 @@ class Picture(Struct, frozen=True, kw_only=True):
 
 
 class Video(Struct, frozen=True, kw_only=True):
-    """A video of the recording, and when in it the recording starts, seconds.
+    """A video of the recording, and the time in it at which the recording starts, in seconds.
 
-    ``picture`` is there where the poses come from it; ``address`` in a report, relative to its
-    page.
+    ``picture`` is set if the poses come from the video. ``address`` is set in a report, relative to
+    its page.
     """
 
     name: str
@@ -209,15 +208,14 @@ class Video(Struct, frozen=True, kw_only=True):
 
 
 class Recording(Struct, frozen=True, kw_only=True):
-    """Everything a page needs of one recording but the binary parts.
+    """Everything that a page needs of a recording except the binary parts.
 
-    ``read_options`` has what people said of how it is read (`kineme.web.requests.ReadRequest`),
-    ``takes`` the animations in its file, of which ``take`` is this one, ``people`` those in it,
-    where there are several, of whom ``person`` is this one: what has the same ``file`` is of the
-    same time and space. ``levels`` are the tables at all details, coarsest first, in a report; the
-    studio's server is asked for them.
-    While ``finding`` its segments are still to be found, and the table is a single transition;
-    while ``being_read`` its file is still being read, and few of its poses are here.
+    ``read_options`` are those that the user set (`kineme.web.requests.ReadRequest`). ``takes`` are
+    the animations in the file, of which ``take`` is this one. ``people`` are the people in the file
+    if there are several, of whom ``person`` is this one; recordings with the same ``file`` share
+    time and space. ``levels`` are the tables at all details, coarsest first, in reports only. While
+    ``finding`` the recording is being segmented, and the table is a single transition. While
+    ``being_read`` the file is being read, and only some poses are available.
     """
 
     id: str
@@ -247,8 +245,8 @@ class Recording(Struct, frozen=True, kw_only=True):
 class TableChange(Struct, frozen=True, kw_only=True):
     """Rows in which a table differs from that of the revision ``of``.
 
-    A row is known by its level and first frame: ``removed`` ones are there no more, ``rows`` are
-    new, or have changed. The numbers of the activities that rows lie in (``activity``) follow.
+    A row is identified by level and first frame. ``removed`` rows no longer exist; ``rows`` are new
+    or changed. The page renumbers the activities of rows (``activity``) itself.
     """
 
     of: int
@@ -258,9 +256,9 @@ class TableChange(Struct, frozen=True, kw_only=True):
 
 
 class Edited(Struct, frozen=True, kw_only=True):
-    """What an edit made, already on the disk as ``saved``.
+    """Result of an edit, already saved in the file ``saved``.
 
-    It is a ``change`` of the table that was edited, or another table, ``segmentation``.
+    It is either a ``change`` of the table, or another table, ``segmentation``.
     """
 
     revision: int
@@ -273,17 +271,17 @@ class Edited(Struct, frozen=True, kw_only=True):
 
 
 class ScoreMeaning(Struct, frozen=True, kw_only=True):
-    """What people call a score, and what it measures."""
+    """Title of a score, and what it measures."""
 
     title: str
     help: str
 
 
 class Comparison(Struct, frozen=True, kw_only=True):
-    """Other result, and how well the shown one agrees with it.
+    """Another result, and the agreement of the shown table with it.
 
-    ``meanings`` are those of the scores; ``differences`` are spans in seconds, in order, in which
-    the two say different things.
+    ``meanings`` explain the scores. ``differences`` are the spans in seconds in which the two
+    differ.
     """
 
     name: str
@@ -294,11 +292,11 @@ class Comparison(Struct, frozen=True, kw_only=True):
 
 
 class Preview(Struct, frozen=True, kw_only=True):
-    """A table that would take the place of the present one.
+    """A table that could replace the present one.
 
-    ``corrections`` (segments made by hand or checked) and ``names`` are those of the present
-    table; ``lost`` says, in a sentence each, what the new one would not have of them.
-    ``details`` are those that make a difference, ``detail`` the one of them that is shown.
+    ``corrections`` (segments edited or checked by hand) and ``names`` count those of the present
+    table. ``lost`` are sentences about what would be lost. ``details`` are the levels of detail
+    with different segments, ``detail`` the shown one.
     """
 
     segmentation: Segments
@@ -310,7 +308,7 @@ class Preview(Struct, frozen=True, kw_only=True):
 
 
 class Version(Struct, frozen=True, kw_only=True):
-    """A table that was replaced; ``edit`` made it, null: it was found, or came from elsewhere."""
+    """A table that was replaced; ``edit`` made it, null for a segmentation or a foreign table."""
 
     number: int
     at: str
@@ -327,9 +325,9 @@ class Versions(Struct, frozen=True, kw_only=True):
 
 
 class LoopRow(Struct, frozen=True, kw_only=True):
-    """A repetition as a loop: the number of its row in the table, and how good it would be.
+    """A repetition as a loop: the number of its row in the table, and its quality.
 
-    ``slide_m_s`` is null where no foot is planted; ``rank`` 1 is the best of a cluster.
+    ``slide_m_s`` is null if no foot touches the ground; ``rank`` 1 is the best of a cluster.
     """
 
     number: int
@@ -342,16 +340,16 @@ class LoopRow(Struct, frozen=True, kw_only=True):
 
 
 class Loops(Struct, frozen=True, kw_only=True):
-    """Repetitions of a recording as loops, those of a cluster together, the best first."""
+    """Repetitions of a recording as loops, grouped by cluster, the best first."""
 
     loops: list[LoopRow]
 
 
 class PlayedLoop(Struct, frozen=True, kw_only=True):
-    """A round of a loop as it would be written, its first frame again at the end.
+    """One round of a loop as it would be exported; the first frame is repeated at the end.
 
-    ``numbers`` are all its frames, as `kineme.web.display` has them, in base 64. The next round is
-    turned by ``turn`` radians about the vertical axis, then moved by ``x`` and ``z`` metres.
+    ``numbers`` are the frames as in `kineme.web.display`, in base 64. The next round is rotated by
+    ``turn`` radians about the vertical axis, then moved by ``x`` and ``z`` metres.
     """
 
     motion: MotionHead
@@ -362,9 +360,9 @@ class PlayedLoop(Struct, frozen=True, kw_only=True):
 
 
 class BriefTable(Struct, frozen=True, kw_only=True):
-    """What the page of a folder shows of a segment table: its columns, and what people did.
+    """Columns of a segment table that the page of a folder shows, and its annotations.
 
-    ``checked`` are numbers of rows, ``comments`` counts them.
+    ``checked`` are row numbers, ``comments`` is their count.
     """
 
     n_frames: int
@@ -383,7 +381,7 @@ class BriefTable(Struct, frozen=True, kw_only=True):
 
 
 class FolderRecording(Struct, frozen=True, kw_only=True):
-    """A recording of the folder and its table; null where nobody has segmented it yet."""
+    """A recording of the folder and its table; null if it is not segmented yet."""
 
     id: str
     table: BriefTable | None
@@ -396,9 +394,9 @@ class FolderTables(Struct, frozen=True, kw_only=True):
 
 
 class Progress(Struct, frozen=True, kw_only=True):
-    """What is being computed for a recording, and how much of that is done, 0 to 1.
+    """Stage of the computation for a recording, and the completed fraction, 0 to 1.
 
-    ``stage`` is empty where nothing is, ``share`` null where nobody knows.
+    ``stage`` is empty if nothing is running, ``share`` null if unknown.
     """
 
     stage: str
@@ -406,10 +404,10 @@ class Progress(Struct, frozen=True, kw_only=True):
 
 
 class PosesProgress(Struct, frozen=True, kw_only=True):
-    """Poses that are being estimated of the video ``recording``, empty where none are.
+    """Progress of pose estimation for the video ``recording``, which is empty if idle.
 
-    ``done`` of ``all`` videos are; ``share`` of this one, null where nobody knows, at a ``pace`` in
-    frames a second. ``failed`` says in a sentence each what went wrong.
+    ``done`` of ``all`` videos are done. ``share`` is the completed fraction of this one, null if
+    unknown, and ``pace`` the speed in frames per second. ``failed`` are sentences about errors.
     """
 
     recording: str
@@ -422,17 +420,17 @@ class PosesProgress(Struct, frozen=True, kw_only=True):
 
 
 class Changed(Struct, frozen=True, kw_only=True):
-    """Sent to every page when a recording's table changed or a file came."""
+    """Sent to every page when a table has changed or a file was added."""
 
     recording: str
     revision: int
 
 
 class Failure(Struct, frozen=True, kw_only=True):
-    """Why a request was refused, in one sentence; ``people`` are those one of whom is to be chosen.
+    """Reason why a request was refused, in one sentence; ``people`` are the people to choose from.
 
-    ``reading`` says that the recording could not be read as it was told to be, ``poses`` that it is
-    a video whose poses have to be estimated first.
+    ``reading`` is true if the recording cannot be read with its options, ``poses`` if it is a video
+    whose poses must be estimated first.
     """
 
     error: str
@@ -454,10 +452,10 @@ class Parameter(Struct, frozen=True, kw_only=True):
 
 
 class PresetChoice(Struct, frozen=True, kw_only=True):
-    """A preset, and those of its constants that the page offers to change.
+    """A preset and its constants that the page offers to change.
 
-    ``signal_parameters`` are the same for signals, where lengths are in
-    standard deviations of the channels.
+    ``signal_parameters`` are those for signals, with lengths in standard deviations of the
+    channels.
     """
 
     name: str
@@ -469,9 +467,9 @@ class PresetChoice(Struct, frozen=True, kw_only=True):
 class Listing(Struct, frozen=True, kw_only=True):
     """A recording of the folder, opened or not; people in the same file have the same ``file``.
 
-    It ``needs_poses`` where it is a video whose poses have not been estimated. ``segments``,
-    ``checked`` and ``named`` count the rows of its table, if it has been saved (``corrected``),
-    that are there, checked, have a name, and are no transitions.
+    ``needs_poses`` is true for a video without estimated poses, ``corrected`` if a table is saved.
+    ``segments``, ``checked``, ``named`` and ``to_name`` count rows of that table: all, checked,
+    with a name, and other than transitions.
     """
 
     id: str
@@ -487,14 +485,14 @@ class Listing(Struct, frozen=True, kw_only=True):
 
 
 class FileChoice(Struct, frozen=True, kw_only=True):
-    """A file of the folder that an operation can use: a knowledge base, a label file."""
+    """A knowledge base or label file of the folder."""
 
     id: str
     name: str
 
 
 class ExportFormat(Struct, frozen=True, kw_only=True):
-    """A format that segments can be written in, and the suffix of what is downloaded."""
+    """A format in which segments can be downloaded, and its suffix."""
 
     name: str
     suffix: str
@@ -502,12 +500,12 @@ class ExportFormat(Struct, frozen=True, kw_only=True):
 
 
 class State(Struct, frozen=True, kw_only=True):
-    """What the studio offers: the first message a page asks for.
+    """What the studio offers; the first message that a page requests.
 
-    ``suffixes`` are those of files that can be recordings, ``details`` the levels of detail that
-    a segmentation may have, ``labels`` those that all recordings share, ``of_library`` whether the
-    recordings are those of a library. ``install`` says what to install before poses of videos can
-    be estimated; it is empty where nothing is to be.
+    ``suffixes`` are those of recordings, ``details`` the available levels of detail, ``labels`` the
+    labels that all recordings share. ``of_library`` tells whether the recordings are those of a
+    library. ``install`` tells what to install for pose estimation; it is empty if nothing is
+    missing.
     """
 
     version: str

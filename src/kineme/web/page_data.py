@@ -1,4 +1,4 @@
-"""What a page shows of a recording, whichever kind it is, and of its segments."""
+"""Collect what a page shows of a recording and its segments."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from kineme.web.matrix import make_head
 from kineme.web.messages import MotionHead, Recording, TableAtDetail
 from kineme.web.tables import find_marks, make_rows, make_segments_message
 
-MOST_ROWS = 12_000
-"""Of all details in a report, about a fifth of a kilobyte each."""
+MAX_ROWS = 12_000
+"""Rows of all detail tables in a report, about 200 bytes each."""
 Shown = Motion | Signals | ArrayLike
 
 
 @dataclass(frozen=True, eq=False)
 class PageData:
-    """All that a page draws of a recording, whatever becomes of its segments.
+    """Everything that a page draws of a recording except the segments.
 
-    ``motion`` says how to read ``binary``, the poses (`kineme.web.display`): None and empty for
-    signals.
+    ``motion`` tells how to read the poses in ``binary`` (`kineme.web.display`); signals have
+    neither.
     """
 
     n_frames: int
@@ -45,9 +45,9 @@ class PageData:
 def make_page_data(
     recording: Shown, *, fps: float | None = None, effectors: Names | None = None
 ) -> PageData:
-    """What a page draws of a motion, of signals, or of an array (frames, channels) with its rate.
+    """Return the page data of a motion, signals, or an array (frames, channels) with its rate.
 
-    ParameterError for an array without frame rate, or of another shape.
+    ParameterError for an array without a frame rate or with another shape.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def make_page_data(
         warned = [str(note) for note in recording.provenance.warnings]
         return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
     if fps is None:
-        raise ParameterError("an array does not tell its frame rate: give fps")
+        raise ParameterError("an array has no frame rate: give fps")
     matrix = compare_frames_of_signal(recording, fps)
     return PageData(len(np.asarray(recording)), float(fps), None, b"", matrix)
 
@@ -74,10 +74,10 @@ def make_recording_message(
     name: str,
     levels: bool = False,
 ) -> Recording:
-    """Return the message that goes with the binary parts of a report.
+    """Return the message about a recording and its segments.
 
-    With ``levels`` the tables at all details go along, unless they are too long. ParameterError
-    where the segments are of a recording of another length or frame rate.
+    With ``levels`` it includes the tables at all details, unless they are too long. ParameterError
+    if the segments have another length or frame rate than the recording.
     """
     frames, fps = segmentation.n_frames, segmentation.fps
     if frames != data.n_frames or not np.isclose(fps, data.fps, rtol=1e-6, atol=0):
@@ -105,12 +105,9 @@ def make_recording_message(
 
 
 def _list_detail_tables(segmentation: Segmentation) -> list[TableAtDetail]:
-    """Return the tables at all details.
-
-    None where there is one, or where they would fill the page.
-    """
+    """Return the tables at all details; empty if there is one only, or if they are too long."""
     hierarchy = segmentation.hierarchy
-    if hierarchy is None or sum(map(len, hierarchy.tables)) > MOST_ROWS:
+    if hierarchy is None or sum(map(len, hierarchy.tables)) > MAX_ROWS:
         return []
     note = segmentation.annotation
     tables = zip(hierarchy.details, hierarchy.tables, strict=True)

@@ -1,7 +1,7 @@
-"""What the pages send: edits of a table, and what to make of it or compare it with.
+"""Messages that pages send: edits of a table, and requests for segmentations and comparisons.
 
-Fields are checked as they are decoded (`kineme.web.encoding.from_json`):
-types strictly, texts and numbers within the limits below, no unknown fields.
+Messages are validated when they are decoded (`kineme.web.encoding.from_json`): strict types, limits
+for texts and numbers, no unknown fields.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 from kineme.segments.table import Kind, Level
 
 LONGEST_TEXT = 500
-"""Characters; nobody names a movement with more."""
+"""Characters of a name or label."""
 LONGEST_COMMENT = 5000
+"""Characters of a comment."""
 LARGEST = 2**53
-"""Whole numbers up to here are the same in the page and in Python."""
+"""Integers up to this are exact in JavaScript."""
 
 Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
 Integer = Annotated[int, Meta(ge=-LARGEST, le=LARGEST)]
@@ -24,11 +25,11 @@ Number = Annotated[float, Meta(ge=-LARGEST, le=LARGEST)]
 
 
 class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """What every request has in common."""
+    """Base of all requests."""
 
 
 class EditBase(Request, frozen=True, kw_only=True, tag_field="kind"):
-    """An edit; ``kind`` tells which."""
+    """Base of all edits; ``kind`` tells which edit it is."""
 
 
 class MoveBorder(EditBase, frozen=True, kw_only=True, tag="move_border"):
@@ -40,14 +41,14 @@ class MoveBorder(EditBase, frozen=True, kw_only=True, tag="move_border"):
 
 
 class Split(EditBase, frozen=True, kw_only=True, tag="split"):
-    """A new border at ``frame``."""
+    """Insert a border at ``frame``."""
 
     level: Level
     frame: Integer
 
 
 class Merge(EditBase, frozen=True, kw_only=True, tag="merge"):
-    """Make the segments of ``[start_frame, stop_frame)`` one."""
+    """Merge the segments in ``[start_frame, stop_frame)``."""
 
     level: Level
     start_frame: Integer
@@ -55,7 +56,7 @@ class Merge(EditBase, frozen=True, kw_only=True, tag="merge"):
 
 
 class DeleteBorder(EditBase, frozen=True, kw_only=True, tag="delete_border"):
-    """Make the two segments that meet at ``frame`` one, like the longer of them."""
+    """Merge the two segments that meet at ``frame``; the longer one sets label and cluster."""
 
     level: Level
     frame: Integer
@@ -70,14 +71,14 @@ class NameSegment(EditBase, frozen=True, kw_only=True, tag="name_segment"):
 
 
 class NameCluster(EditBase, frozen=True, kw_only=True, tag="name_cluster"):
-    """All segments of a cluster, of both levels, get a label."""
+    """Label all segments of a cluster, on both levels."""
 
     cluster: Integer
     label: Text
 
 
 class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
-    """Put the segment that starts at ``frame`` into a cluster; -1: into none."""
+    """Move the segment that starts at ``frame`` to a cluster; -1 means none."""
 
     level: Level
     frame: Integer
@@ -85,9 +86,9 @@ class SetCluster(EditBase, frozen=True, kw_only=True, tag="set_cluster"):
 
 
 class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
-    """Make the segment that starts at ``frame`` a transition in no cluster, or no transition.
+    """Turn the segment that starts at ``frame`` into a transition without cluster, or back.
 
-    ``to`` is ``transition``, or what its level says.
+    ``to`` is ``transition`` or the name of the level.
     """
 
     level: Level
@@ -96,9 +97,9 @@ class SetKind(EditBase, frozen=True, kw_only=True, tag="set_kind"):
 
 
 class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
-    """Segment the recording again by a preset; ``keep`` takes over corrections and names.
+    """Segment the recording again by a preset; ``keep`` transfers corrections and names.
 
-    ``detail`` is 1 by default, less is coarser.
+    ``detail`` is 1 by default; lower is coarser.
     """
 
     preset: Text
@@ -108,27 +109,27 @@ class SegmentAgain(EditBase, frozen=True, kw_only=True, tag="segment"):
 
 
 class MergeClusters(EditBase, frozen=True, kw_only=True, tag="merge_clusters"):
-    """Move the segments of a cluster into another one, ``into``."""
+    """Move all segments of a cluster to the cluster ``into``."""
 
     cluster: Integer
     into: Integer
 
 
 class SplitCluster(EditBase, frozen=True, kw_only=True, tag="split_cluster"):
-    """Move the primitives of a cluster that start at ``frames`` into a new cluster."""
+    """Move the primitives that start at ``frames`` from their cluster to a new one."""
 
     cluster: Integer
     frames: list[Integer]
 
 
 class OrderClusters(EditBase, frozen=True, kw_only=True, tag="order_clusters"):
-    """Number the clusters in this order."""
+    """Renumber the clusters in this order."""
 
     order: list[Integer]
 
 
 class Remark(EditBase, frozen=True, kw_only=True, tag="comment"):
-    """Comment the segment that starts at ``frame``; an empty comment removes it."""
+    """Comment on the segment that starts at ``frame``; an empty comment removes it."""
 
     level: Level
     frame: Integer
@@ -136,7 +137,7 @@ class Remark(EditBase, frozen=True, kw_only=True, tag="comment"):
 
 
 class Check(EditBase, frozen=True, kw_only=True, tag="check"):
-    """Mark the segments that start at ``frames`` as checked, or no longer."""
+    """Mark the segments that start at ``frames`` as checked or unchecked."""
 
     level: Level
     frames: list[Integer]
@@ -144,26 +145,26 @@ class Check(EditBase, frozen=True, kw_only=True, tag="check"):
 
 
 class Exclude(EditBase, frozen=True, kw_only=True, tag="exclude"):
-    """Leave the primitives that start at ``frames`` out of all means, or count them again."""
+    """Exclude the primitives that start at ``frames`` from all means, or include them again."""
 
     frames: list[Integer]
     excluded: bool
 
 
 class TakeLabels(EditBase, frozen=True, kw_only=True, tag="take_labels"):
-    """What a label file of the folder says becomes the table."""
+    """Replace the table by a label file of the folder."""
 
     annotation: Text
 
 
 class Restore(EditBase, frozen=True, kw_only=True, tag="restore"):
-    """A table that was replaced is the present one again."""
+    """Restore a table that was replaced."""
 
     version: Integer
 
 
 class Transfer(EditBase, frozen=True, kw_only=True, tag="transfer"):
-    """Labels from a knowledge base of the folder."""
+    """Label segments from a knowledge base of the folder."""
 
     knowledge_base: Text
     threshold: Number | UnsetType = UNSET
@@ -175,7 +176,7 @@ class Undo(EditBase, frozen=True, kw_only=True, tag="undo"):
 
 
 class Redo(EditBase, frozen=True, kw_only=True, tag="redo"):
-    """Redo the last edit that was undone."""
+    """Redo the edit that was undone last."""
 
 
 ByHand = (
@@ -197,7 +198,7 @@ ByHand = (
 
 
 class Together(EditBase, frozen=True, kw_only=True, tag="together"):
-    """Several edits, one after the other, which are one step of undo; all of them or none."""
+    """Apply several edits as one undo step; all or none."""
 
     edits: list[ByHand]
 
@@ -206,9 +207,10 @@ Edit = ByHand | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo
 
 
 class EditRequest(Request, frozen=True, kw_only=True):
-    """An edit of the table as it was at ``revision``.
+    """An edit of the table with this revision.
 
-    ``name`` is the edit's own: one that is sent again, for want of an answer, is made once.
+    ``name`` identifies the edit: if it is sent again, because no answer arrived, it is applied
+    once.
     """
 
     revision: Integer
@@ -217,7 +219,7 @@ class EditRequest(Request, frozen=True, kw_only=True):
 
 
 class PreviewRequest(Request, frozen=True, kw_only=True):
-    """A segmentation to look at, as ``SegmentAgain`` would make it."""
+    """Preview the result of ``SegmentAgain``."""
 
     preset: Text
     parameters: dict[Text, Number]
@@ -226,27 +228,27 @@ class PreviewRequest(Request, frozen=True, kw_only=True):
 
 
 class LabelsRequest(Request, frozen=True, kw_only=True):
-    """Labels that all recordings of the folder share, those on the keys 1 to 9 first."""
+    """Labels that all recordings of the folder share; the first nine are on the keys 1 to 9."""
 
     labels: list[Text]
 
 
 class KnowledgeRequest(Request, frozen=True, kw_only=True):
-    """A knowledge base of that name, of the named primitives of recordings."""
+    """Create a knowledge base with this name from the named primitives of recordings."""
 
     name: Text
     recordings: list[Text]
 
 
 class ClipsRequest(Request, frozen=True, kw_only=True):
-    """Segments by their rows in the table, as motion files; with ``loops`` made to close."""
+    """Export these rows of the table as motion files; with ``loops`` their ends are blended."""
 
     rows: list[Integer]
     loops: bool
 
 
 class VideoRequest(Request, frozen=True, kw_only=True):
-    """Where the recording starts in its reference video, seconds."""
+    """Time in the reference video at which the recording starts, in seconds."""
 
     offset_s: Number
 
@@ -258,9 +260,9 @@ class PosesRequest(Request, frozen=True, kw_only=True):
 
 
 class ReadRequest(Request, frozen=True, kw_only=True):
-    """How a recording is read: what is to be other than the file says, by its name.
+    """Reading options of a recording by name; they replace what the file states.
 
-    The names are those of `kineme.formats.ReadOptions`. ``everybody`` shows all people in it.
+    The names are those of `kineme.formats.ReadOptions`. ``everybody`` opens all people in the file.
     """
 
     options: dict[Text, Text | Number | bool | list[Text]]
@@ -268,7 +270,7 @@ class ReadRequest(Request, frozen=True, kw_only=True):
 
 
 class CompareRequest(Request, frozen=True, kw_only=True):
-    """Another result to lay beside the shown one: a preset's, or a file's of the folder."""
+    """Compare with another result: that of a preset, or a label file of the folder."""
 
     preset: Text | UnsetType = UNSET
     annotation: Text | UnsetType = UNSET

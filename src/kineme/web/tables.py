@@ -1,7 +1,7 @@
-"""Segment tables as pages have them, and which of their rows an edit changed.
+"""Segment tables as messages, and the rows that an edit changed.
 
-The table of an hour has thousands of rows, of which most edits change a few.
-``editing/changes.ts`` of the pages makes the new table of them.
+The table of an hour has thousands of rows, and most edits change a few. ``editing/changes.ts`` of
+the pages applies the changes.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from kineme.web.messages import Segment, Segments, TableChange
 
 Integers = NDArray[np.int64]
 Marks = dict[int, dict[str, Any]]
-"""Fields of `kineme.web.messages.Segment` by the number of the row; most rows have none."""
+"""Optional fields of `kineme.web.messages.Segment` by row number; most rows have none."""
 
 
 def make_segments_message(segmentation: Segmentation) -> Segments:
-    """Return a segment table as pages have it."""
+    """Return a segment table as a message."""
     table, annotation = segmentation.table, segmentation.annotation
     return Segments(
         schema=SCHEMA,
@@ -40,7 +40,7 @@ def make_segments_message(segmentation: Segmentation) -> Segments:
 
 
 def find_marks(table: SegmentTable, annotation: Annotation) -> Marks:
-    """Return what people did to the rows of a table.
+    """Return the annotations of a table's rows: checked, excluded, comment.
 
     Examples
     --------
@@ -57,15 +57,15 @@ def find_marks(table: SegmentTable, annotation: Annotation) -> Marks:
     for span in annotation.checked:
         if span in rows:
             marks[rows[span]]["checked"] = True
-    of_level = {level: np.flatnonzero(table.level == level) for level in get_args(Level)}
-    held: list[tuple[Level, int, str, Any]] = [
+    rows_of_level = {level: np.flatnonzero(table.level == level) for level in get_args(Level)}
+    marked: list[tuple[Level, int, str, Any]] = [
         *(("primitive", frame, "excluded", True) for frame in annotation.excluded),
         *((level, frame, "comment", text) for level, frame, text in sorted(annotation.comments)),
     ]
-    for level, frame, name, value in held:
-        # The segments of a level tile, so the last that starts by then holds the frame.
-        before = np.searchsorted(table.start_frame[of_level[level]], frame, side="right")
-        row = int(of_level[level][before - 1]) if before else -1
+    for level, frame, name, value in marked:
+        # The segments of a level have no gaps: the last one that starts by then holds the frame.
+        before = np.searchsorted(table.start_frame[rows_of_level[level]], frame, side="right")
+        row = int(rows_of_level[level][before - 1]) if before else -1
         if row < 0 or frame >= columns[2][row]:
             continue
         mark = marks[row]
@@ -74,19 +74,19 @@ def find_marks(table: SegmentTable, annotation: Annotation) -> Marks:
 
 
 def make_rows(table: SegmentTable, marks: Marks, numbers: Sequence[int] = ()) -> list[Segment]:
-    """Return the rows of a table with these marks, or those with these ``numbers``."""
+    """Return the rows of a table with these marks, or only the rows with these ``numbers``."""
     chosen = table[np.asarray(numbers, int)] if len(numbers) else table
     cells = zip(*(column.tolist() for column in chosen.columns().values()), strict=True)
-    of_rows = numbers if len(numbers) else range(len(table))
-    return [Segment(*row, **marks.get(i, {})) for i, row in zip(of_rows, cells, strict=True)]
+    row_numbers = numbers if len(numbers) else range(len(table))
+    return [Segment(*row, **marks.get(i, {})) for i, row in zip(row_numbers, cells, strict=True)]
 
 
 def make_table_change(
     before: Segmentation, now: Segmentation, *, revision: int
 ) -> TableChange | None:
-    """Return the rows in which a table differs from the one before, which has that revision.
+    """Return the rows in which a table differs from ``before``, which has this revision.
 
-    None where the table is another one: of another length, or of another provenance.
+    None if the length or the provenance differs, so that the whole table must be sent.
 
     Examples
     --------
@@ -119,27 +119,28 @@ def make_table_change(
 
 
 def _find_changed_rows(before: Segmentation, now: Segmentation, marks: Marks) -> list[int]:
-    """Return the numbers of the rows that are new or not as they were."""
+    """Return the numbers of the rows that are new or different."""
     _, old, new = np.intersect1d(
         _make_row_keys(before), _make_row_keys(now), assume_unique=True, return_indices=True
     )
     same = np.ones(len(old), bool)
     for name, column in before.table.columns().items():
-        if name == "activity":  # a split renumbers all activities after it: pages do so, too
+        if name == "activity":  # pages renumber activities after a split themselves
             continue
-        was, is_now = column[old], getattr(now.table, name)[new]
-        same &= (was == is_now) | ((was != was) & (is_now != is_now))  # noqa: PLR0124 (nan)
+        left, right = column[old], getattr(now.table, name)[new]
+        # Equal, or both nan.
+        same &= (left == right) | ((left != left) & (right != right))  # noqa: PLR0124
     earlier, pairs = find_marks(before.table, before.annotation), zip(old, new, strict=True)
-    same &= [earlier.get(was) == marks.get(is_now) for was, is_now in pairs]
+    same &= [earlier.get(old_row) == marks.get(new_row) for old_row, new_row in pairs]
     changed: list[int] = np.setdiff1d(np.arange(len(now)), new[same], assume_unique=True).tolist()
     return changed
 
 
 def _make_row_keys(segmentation: Segmentation) -> Integers:
-    """Return one number for level and first frame of each row; no two rows have the same."""
+    """Return a unique number for each row, from its level and first frame."""
     table = segmentation.table
-    places: Integers = table.start_frame + segmentation.n_frames * (table.level == "primitive")
-    return places
+    keys: Integers = table.start_frame + segmentation.n_frames * (table.level == "primitive")
+    return keys
 
 
 def _name_clusters(segmentation: Segmentation) -> dict[str, str]:

@@ -1,3 +1,3 @@
-"""``kineme evaluate``: methods on the benchmark or any folder, or one result against its truth."""
+"""``kineme evaluate``: score methods on the benchmark or a folder, or a single result."""
 
 from kineme.cli.evaluate.command import evaluate as evaluate

@@ -1,4 +1,4 @@
-"""Options of ``kineme evaluate``, and which of its kinds of run they ask for."""
+"""Options of ``kineme evaluate``, and the choice of what to evaluate."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ def evaluate(
         list[Path] | None,
         option(
             FOLDER,
-            "What people say of the recordings: a table with recording, start_s, stop_s, "
-            "label; or a folder of label files. Several: how far people agree.",
+            "Labels of the recordings: a table with recording, start_s, stop_s, "
+            "label; or a folder of label files. Repeat to measure agreement.",
             metavar="FILE|FOLDER",
         ),
     ] = None,
@@ -63,8 +63,7 @@ def evaluate(
         int | None,
         option(
             FOLDER,
-            "With --mapping folder: join the clusters of signals into so many; found out by "
-            "default.",
+            "With --mapping folder: number of clusters of signals; inferred by default.",
             metavar="N",
             min=1,
         ),
@@ -121,7 +120,7 @@ def evaluate(
     ] = None,
     figures: Annotated[
         Path | None,
-        option(BENCH, "Make the figures and tables of the paper anew.", metavar="FOLDER"),
+        option(BENCH, "Make the figures and tables of the paper.", metavar="FOLDER"),
     ] = None,
     output: Annotated[
         Path | None, option(OUTPUT, "Write all scores: .json or .csv.", "--output", "-o")
@@ -130,7 +129,7 @@ def evaluate(
 ) -> None:
     """Score segments of a file, folder or benchmark against labels."""
     failures = Failures()
-    with failures.caught(what):
+    with failures.catch_errors(what):
         _check_output(output)
         names = [*split_names(*(method or ()))]
         if what != BENCHMARK and Path(what).is_dir():
@@ -146,7 +145,7 @@ def evaluate(
                 run_people(Path(what), labels, output=output, as_json=as_json, quiet=quiet)
                 raise typer.Exit
             if clusters is not None and mapping != "folder":
-                raise typer.BadParameter("--clusters N is of --mapping folder")
+                raise typer.BadParameter("--clusters N needs --mapping folder")
             from kineme.cli.evaluate.folder import run_folder
 
             scored = run_folder(
@@ -164,7 +163,9 @@ def evaluate(
             )
             raise typer.Exit(0 if scored else 1)
         if constants:
-            raise typer.BadParameter("constants are of a folder of recordings", param_hint=SET)
+            raise typer.BadParameter(
+                "constants can be set for a folder of recordings only", param_hint=SET
+            )
         if what != BENCHMARK:
             if labels and not Path(what).exists():
                 raise ReadError(what, "there is no such folder")
@@ -194,7 +195,7 @@ def _output_records(
 
 
 def _load_benchmark() -> Callable[..., list[dict[str, Any]]]:
-    """Return what runs the benchmark: it comes with a package of its own, which names it."""
+    """Return the function that runs the benchmark, from the package that registers it."""
     from importlib.metadata import entry_points
 
     for point in entry_points(group="kineme.benchmarks", name=BENCHMARK):
@@ -206,7 +207,7 @@ def _load_benchmark() -> Callable[..., list[dict[str, Any]]]:
 
 
 def _check_output(output: Path | None) -> None:
-    """WriteError before the work for what could not be written after it."""
+    """Raise WriteError for an output that cannot be written, before any work is done."""
     if output is None:
         return
     from kineme.evaluation.score import OUTPUTS

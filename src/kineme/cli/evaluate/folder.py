@@ -1,4 +1,4 @@
-"""``kineme evaluate FOLDER``: methods side by side on recordings that people have labelled."""
+"""``kineme evaluate FOLDER``: compare methods on recordings that people labelled."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ from kineme.evaluation.score import (
 from kineme.formats.options import ReadOptions
 from kineme.labels.collections import find_labels_and_unmatched
 
-NAMED = 5
-"""Names that a list of files shows before it only counts."""
+MAX_NAMES = 5
+"""File names printed; the rest is only counted."""
 
 
 def run_folder(
@@ -49,7 +49,7 @@ def run_folder(
     as_json: bool,
     quiet: bool,
 ) -> bool:
-    """Print and write the scores of the methods; whether any recording could be scored."""
+    """Print and write the scores of the methods; return whether any recording was scored."""
     try:
         for name in methods:
             check_method(name)
@@ -58,9 +58,9 @@ def run_folder(
     with show_progress(folder, quiet=quiet or as_json) as stage:
         stage("looking for recordings")
         recordings = find_recordings(folder)
-        found, strays = find_labels_and_unmatched(recordings, labels)
+        labelled, strays = find_labels_and_unmatched(recordings, labels)
         result = evaluate_folder(
-            found,
+            labelled,
             methods,
             mapping=mapping,
             n_clusters=n_clusters,
@@ -72,7 +72,7 @@ def run_folder(
     if not quiet:
         _print_names("labels of recordings that are not there", strays)
         _print_names(
-            "without labels, left out", [path.name for path in recordings if path not in found]
+            "without labels, left out", [path.name for path in recordings if path not in labelled]
         )
     _print_problems(result, quiet=quiet)
     if as_json:
@@ -86,11 +86,11 @@ def run_folder(
 
 def _print_names(what: str, names: Sequence[str]) -> None:
     if names:
-        typer.echo(escape_controls(f"{what}: {join_names(names, NAMED)}"), err=True)
+        typer.echo(escape_controls(f"{what}: {join_names(names, MAX_NAMES)}"), err=True)
 
 
 def _print_problems(result: FolderScores, *, quiet: bool) -> None:
-    """Say which recordings failed and why, and what is unusual about the labels of others."""
+    """Print which recordings failed and why, and notes on the labels of the others."""
     for name, ones in result.methods.items():
         for one in ones:
             if one.error:
@@ -101,21 +101,22 @@ def _print_problems(result: FolderScores, *, quiet: bool) -> None:
 
 
 def _show(result: FolderScores) -> None:
-    """Print the scores of each recording by the methods, then those over all of them."""
+    """Print the scores of each recording by method, then the scores over all recordings."""
     columns: dict[str, Any] = {method: result.pool_scores(method) for method in result.methods}
-    ones = [one for some in result.methods.values() for one in some]
-    counts = [name for name in ("count_error",) if any(name in one.scores for one in ones)]
-    short = ("mof", "edit", "f1@50", "border_f1", *counts)
+    evaluated = [one for some in result.methods.values() for one in some]
+    counts = [name for name in ("count_error",) if any(name in one.scores for one in evaluated)]
+    score_names = ("mof", "edit", "f1@50", "border_f1", *counts)
     by_method = [
         (
             method if len(columns) > 1 else "",
-            [(one.recording, _format_row(one, short)) for one in ones],
+            [(one.recording, _format_row(one, score_names)) for one in evaluated],
         )
-        for method, ones in result.methods.items()
+        for method, evaluated in result.methods.items()
     ]
-    show_table("by recording", [scores()[name].title for name in short], by_method)
+    show_table("by recording", [scores()[name].title for name in score_names], by_method)
     counted = [
-        f"{sum(not one.error for one in ones)} of {len(ones)}" for ones in result.methods.values()
+        f"{sum(not one.error for one in evaluated)} of {len(evaluated)}"
+        for evaluated in result.methods.values()
     ]
     groups = [*score_rows(columns), ("recordings", [("recordings scored", counted)])]
     title = f"over all recordings, one mapping for each {result.mapping}"

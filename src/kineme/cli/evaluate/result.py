@@ -1,4 +1,4 @@
-"""``kineme evaluate SEGMENTS``: one result against its truth, from files."""
+"""``kineme evaluate SEGMENTS``: compare a result with the truth, both from files."""
 
 from __future__ import annotations
 
@@ -25,20 +25,18 @@ def score_file(
     *,
     quiet: bool,
 ) -> list[dict[str, Any]]:
-    """Return the scores of a result as records; printed unless quiet."""
-    found = read_result(path, fps=fps)
-    n_frames, rate = make_comparison(found)
+    """Return the scores of a result as records; print them unless quiet."""
+    result = read_result(path, fps=fps)
+    n_frames, rate = make_comparison(result)
     if is_annotations(labels):
-        recorded = (found.provenance.get("input") or {}).get("path") or ""
-        truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
+        recording_path = (result.provenance.get("input") or {}).get("path") or ""
+        truth = read_trial(labels, trials[0] if trials else Path(recording_path).stem, fps=rate)
         if truth.frames != n_frames:
             seconds = truth.frames / rate
-            raise ReadError(
-                labels, f"speaks of {seconds:.2f} s, the result of {n_frames / rate:.2f} s"
-            )
+            raise ReadError(labels, f"covers {seconds:.2f} s, the result {n_frames / rate:.2f} s")
     else:
-        truth = read_truth(labels, found, fps=fps)
-    scores = score(truth, found)
+        truth = read_truth(labels, result, fps=fps)
+    scores = score(truth, result)
     if not quiet:
         show_scores(path.name, {"score": scores})
     return [{"result": path.name, "truth": labels.name, **scores}]

@@ -1,4 +1,4 @@
-"""``kineme library``: collections of recordings, built once, searched and asked."""
+"""``kineme library``: build collections of recordings, and search them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import typer
 
 from kineme.cli.help import make_lazy_group
 
-HOMES = {
+MODULES = {
     "build": "kineme.cli.library.build",
     "show": "kineme.cli.library.commands",
     "search": "kineme.cli.library.search",
@@ -19,7 +19,7 @@ HOMES = {
 
 library = typer.Typer(
     name="library",
-    cls=make_lazy_group(HOMES),
+    cls=make_lazy_group(MODULES),
     help="Build and search collections of recordings.",
     no_args_is_help=True,
     add_completion=False,

@@ -1,4 +1,4 @@
-"""``kineme library build``: recordings in, a library of them out."""
+"""``kineme library build``: build a library from recordings."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def build(
         bool | None,
         option(
             INPUT,
-            "Whether to look into the folders of a folder, too.",
+            "Whether to include subfolders.",
             "--recursive/--flat",
             "-r",
             show_default="as the last time",
@@ -79,16 +79,16 @@ def build(
 ) -> None:
     """Segment a collection and index it for search.
 
-    What is there already is kept, and goes on where it ended. How recordings are read and
-    segmented stays as it was; where an option says otherwise, all are segmented anew.
+    Recordings in the library are kept, and an interrupted build is resumed. Options for reading and
+    segmenting stay as before; if one is changed, all recordings are segmented again.
     """
     failures = Failures()
     processes = jobs or count_threads()
-    with failures.caught(into):
+    with failures.catch_errors(into):
         if processes > 1 and scheduler is None and _needs_processes(files or (), into):
             from kineme.library.executors import start_fork_server
 
-            start_fork_server()  # what is imported next takes a while as well
+            start_fork_server()  # worker processes start while modules are imported
         from kineme.library.building import build as build_library
         from kineme.library.planning import change_sources
         from kineme.library.storage.places import is_remote
@@ -109,23 +109,23 @@ def build(
             )
         if not quiet:
             typer.echo(_summarize(built))
-        elsewhere = {path for path in sources if is_remote(path)}
-        here = [path for path in sources if path not in elsewhere]
-        _report_remote_failures(built, elsewhere)
-        _report_and_exit(built, Batch(here, recursive=built.recursive))
+        remote = {path for path in sources if is_remote(path)}
+        local = [path for path in sources if path not in remote]
+        _report_remote_failures(built, remote)
+        _report_and_exit(built, Batch(local, recursive=built.recursive))
     failures.exit()
 
 
 def _needs_processes(files: Sequence[Path], into: Path) -> bool:
-    """Return whether there is work for several processes, as far as a glance tells."""
+    """Return whether there is probably work for several processes."""
     from kineme.library.storage.layout import HEAD
 
-    fresh = not (into / HEAD).exists()
-    return fresh and (len(files) > 1 or any(file.is_dir() for file in files))
+    is_new = not (into / HEAD).exists()
+    return is_new and (len(files) > 1 or any(file.is_dir() for file in files))
 
 
 def _report_remote_failures(built: Built, sources: set[Path]) -> None:
-    """Say what failed that was to be read from URLs; end with 1 if a source itself did."""
+    """Print what failed at URLs; exit with code 1 if it was named by the user."""
     failed = {path: reason for path, reason in built.failed.items() if hasattr(path, "protocol")}
     for path, reason in failed.items():
         print_skipped(format_line(reason, subject=path))
@@ -134,11 +134,11 @@ def _report_remote_failures(built: Built, sources: set[Path]) -> None:
 
 
 def _report_and_exit(built: Built, batch: Batch) -> None:
-    """Say what was left out and why; end with code 1 if something named gave nothing."""
+    """Print what failed; exit with code 1 if it was named by the user."""
     from kineme.errors import KinemeError
 
     for path in batch.paths:
-        with batch.caught(path):
+        with batch.catch_errors(path):
             if path in built.failed:
                 raise KinemeError(built.failed[path])
     batch.exit()

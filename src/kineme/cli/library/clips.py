@@ -1,4 +1,4 @@
-"""``kineme library split`` and ``coverage``: clips of all recordings, and what there is of them."""
+"""``kineme library split`` and ``coverage``: clips of all recordings, and their variety."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ def split(
     """Write the best loops of each cluster, or split a cluster in two.
 
     For example: kineme library split LIB --best 3 --per cluster -o loops. Near duplicates are left
-    out. With a cluster and recordings the segments of these move to a new cluster, whose number is
-    printed.
+    out. With a cluster and recordings, the segments in these recordings move to a new cluster,
+    whose number is printed.
     """
     if cluster is not None:
         if not recordings:
@@ -50,19 +50,19 @@ def split(
         with open_library(folder) as library:
             typer.echo(library.split(cluster, recordings))
         return
-    place = output or Path(f"{folder.name}_loops")
+    target = output or Path(f"{folder.name}_loops")
     with open_library(folder) as library:
-        clips = library.loops(place, best=best, per=per, **clip_options)
-        typer.echo(f"{format_count(len(clips), 'clip')} in {place}")
+        clips = library.loops(target, best=best, per=per, **clip_options)
+        typer.echo(f"{format_count(len(clips), 'clip')} in {target}")
 
 
 def coverage(folder: Folder, json: Json = False) -> None:
-    """Show which directions, speeds and turns there are of each cluster."""
+    """Show the directions, speeds and turns in each cluster."""
     with open_library(folder) as library:
         covered = library.coverage()
         if json:
-            for each in covered:
-                typer.echo(dumps(each._asdict()))
+            for row in covered:
+                typer.echo(dumps(row._asdict()))
             return
         from rich.text import Text
 
@@ -72,18 +72,18 @@ def coverage(folder: Folder, json: Json = False) -> None:
         table = make_table(
             "cluster", "label", "direction", "clips", "seconds", "m/s", "turn °", "starts", "stops"
         )
-        for each in covered:
-            turns = [f"{each.left_deg:.0f} left"] * (each.left_deg >= 1)
-            turns += [f"{each.right_deg:.0f} right"] * (each.right_deg >= 1)
+        for row in covered:
+            turns = [f"{row.left_deg:.0f} left"] * (row.left_deg >= 1)
+            turns += [f"{row.right_deg:.0f} right"] * (row.right_deg >= 1)
             table.add_row(
-                format_cluster(each.cluster),
-                Text(each.label),
-                each.direction,
-                str(each.clips),
-                f"{each.seconds:.1f}",
-                f"{each.slowest_m_s:.1f}-{each.fastest_m_s:.1f}",
+                format_cluster(row.cluster),
+                Text(row.label),
+                row.direction,
+                str(row.clips),
+                f"{row.seconds:.1f}",
+                f"{row.slowest_m_s:.1f}-{row.fastest_m_s:.1f}",
                 ", ".join(turns),
-                str(each.starts),
-                str(each.stops),
+                str(row.starts),
+                str(row.stops),
             )
         Console(highlight=False).print(table)

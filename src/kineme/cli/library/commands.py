@@ -1,6 +1,6 @@
-"""``kineme library show``, ``query``, ``export``, ``name``, ``merge``: what is kept.
+"""``kineme library show``, ``query``, ``export``, ``name``, ``merge``.
 
-Each opens the library first, the argument ``LIB``.
+Each command opens the library in the argument ``LIB``.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from kineme.cli.messages import Failures, format_line
 if TYPE_CHECKING:
     from kineme.library import Library
 
-UNSURE = 8
-"""Of what is unsure, so many are shown."""
-SHOWN = 1000
-"""Rows of an answer that are printed as a table."""
+MAX_UNSURE = 8
+"""Unsure clusters printed."""
+MAX_ROWS = 1000
+"""Rows of a query result printed as a table."""
 
 
 def parse_path_or_url(text: str) -> Path:
-    """Return a place that was typed."""
+    """Return a path or URL that the user typed."""
     from kineme.errors import KinemeError
     from kineme.library.storage.places import make_path
 
@@ -58,9 +58,9 @@ Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")
 
 @contextmanager
 def open_library(folder: Path) -> Iterator[Library]:
-    """Open the library; an error with it in the block is printed, and ends the command with 1."""
+    """Open a library; print an error in the block and exit with code 1."""
     failures = Failures()
-    with failures.caught(folder):
+    with failures.catch_errors(folder):
         from kineme.library import Library
 
         yield Library(folder)
@@ -100,7 +100,7 @@ def query(
     ],
     json: Json = False,
 ) -> None:
-    """Ask a library in SQL, by DuckDB."""
+    """Query a library in SQL, by DuckDB."""
     with open_library(folder) as library:
         answer = library.query(sql)
         if json:
@@ -168,20 +168,20 @@ def _show_library(library: Library) -> None:
 
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
-    n = len(library)
-    console.print(f"{format_count(n, 'recording')}, {library.hours:.2f} h")
+    n_recordings = len(library)
+    console.print(f"{format_count(n_recordings, 'recording')}, {library.hours:.2f} h")
     table = make_table(
         "cluster", "label", "recordings", "activities", "repetitions", "minutes", "typical s",
         "example",
     )  # fmt: skip
-    for each in library.clusters():
+    for cluster in library.clusters():
         table.add_row(
-            format_cluster(each.cluster),
-            Text(each.label),
-            *map(str, (each.recordings, each.activities, each.repetitions)),
-            f"{each.seconds / 60:.1f}",
-            f"{each.typical_s:.2f}",
-            Text(f"{each.example}@{each.start_s:.2f}-{each.stop_s:.2f}"),
+            format_cluster(cluster.cluster),
+            Text(cluster.label),
+            *map(str, (cluster.recordings, cluster.activities, cluster.repetitions)),
+            f"{cluster.seconds / 60:.1f}",
+            f"{cluster.typical_s:.2f}",
+            Text(f"{cluster.example}@{cluster.start_s:.2f}-{cluster.stop_s:.2f}"),
         )
     console.print(table)
     unsure = library.unsure()
@@ -189,10 +189,10 @@ def _show_library(library: Library) -> None:
         "unsure: cluster {cluster} in {recording}, {start_s:.2f} to {stop_s:.2f} s, "
         "may be {next_cluster}"
     )
-    for part in unsure[:UNSURE]:
+    for part in unsure[:MAX_UNSURE]:
         console.print(Text(line.format(**part), style="dim"))
-    if len(unsure) > UNSURE:
-        console.print(Text(f"and {len(unsure) - UNSURE} more that are unsure", style="dim"))
+    if len(unsure) > MAX_UNSURE:
+        console.print(Text(f"and {len(unsure) - MAX_UNSURE} more that are unsure", style="dim"))
     for path, reason in library.failed.items():
         console.print(Text(f"failed: {format_line(reason, subject=path)}"), soft_wrap=True)
 
@@ -205,11 +205,11 @@ def _show_answer(answer: Any) -> None:
 
     console = Console(highlight=False)
     table = make_table(*answer.column_names)
-    for row in answer.slice(0, SHOWN).to_pylist():
+    for row in answer.slice(0, MAX_ROWS).to_pylist():
         table.add_row(*(Text(_format_cell(value)) for value in row.values()))
     console.print(table)
-    if len(answer) > SHOWN:
-        console.print(f"and {format_count(len(answer) - SHOWN, 'row')} more: --json prints all")
+    if len(answer) > MAX_ROWS:
+        console.print(f"and {format_count(len(answer) - MAX_ROWS, 'row')} more: --json prints all")
 
 
 def _format_cell(value: object) -> str:

@@ -1,4 +1,4 @@
-"""``kineme library search``: where recordings are like an example."""
+"""``kineme library search``: find movements that are similar to an example."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _SPAN = re.compile(r"(?P<name>.+)@(?P<start>[0-9.]+)-(?P<stop>[0-9.]+)")
 SPAN = "RECORDING[@START-STOP]"
-SOUGHT = "What is sought"
+QUERY = "Query"
 
 
 def search(
@@ -28,35 +28,37 @@ def search(
     like: Annotated[
         list[str] | None,
         option(
-            SOUGHT,
+            QUERY,
             "An example: a recording, or the name of one in the library, and the seconds of "
-            "it that count. May be given again: what is like any of them is found.",
+            "it to compare. May be repeated: hits match any of them.",
             metavar=SPAN,
         ),
     ] = None,
     start: Annotated[
-        float, option(SOUGHT, "Where a single --like starts.", metavar="SECONDS")
+        float, option(QUERY, "Where a single --like starts.", metavar="SECONDS")
     ] = 0.0,
     stop: Annotated[
-        float | None, option(SOUGHT, "Where it stops.", metavar="SECONDS", show_default="its end")
+        float | None, option(QUERY, "Where it stops.", metavar="SECONDS", show_default="its end")
     ] = None,
     cluster: Annotated[
         str | None,
         option(
-            SOUGHT,
-            "Search for what is typical of a cluster, by its number or name.",
+            QUERY,
+            "Search for typical movements of a cluster, by number or name.",
             metavar="NAME",
         ),
     ] = None,
     unlike: Annotated[
         list[str] | None,
-        option(SOUGHT, "Leave out what is more like this; may be given again.", metavar=SPAN),
+        option(
+            QUERY, "Leave out hits that are more similar to this; may be repeated.", metavar=SPAN
+        ),
     ] = None,
     mirror: Annotated[
         bool,
         option(
-            SOUGHT,
-            "Bodies: search for it with left and right exchanged, too.",
+            QUERY,
+            "Bodies: also search with left and right exchanged.",
             "--mirror/--no-mirror",
         ),
     ] = True,
@@ -64,13 +66,13 @@ def search(
         float | None,
         option(
             OUTPUT,
-            "Largest distance, from 0 to 2; lower finds less, more of it right.",
+            "Largest distance, 0 to 2; lower finds fewer, better hits.",
             show_default="0.85",
         ),
     ] = None,
-    top: Annotated[int, option(OUTPUT, "How many to find, at most.", min=1)] = 50,
+    top: Annotated[int, option(OUTPUT, "Largest number of hits.", min=1)] = 50,
     max_per_recording: Annotated[
-        int | None, option(OUTPUT, "How many in one recording, at most.", min=1)
+        int | None, option(OUTPUT, "Largest number of hits per recording.", min=1)
     ] = None,
     tag: Annotated[
         str | None,
@@ -98,9 +100,7 @@ def search(
     """
     examples = [_parse_example(text) for text in like or ()]
     if (start or stop is not None) and len(examples) != 1:
-        raise typer.BadParameter(
-            f"--start and --stop are of a single --like; give several as {SPAN}"
-        )
+        raise typer.BadParameter(f"--start and --stop need a single --like; give several as {SPAN}")
     if (start or stop is not None) and "@" not in (like or [""])[0]:
         examples = [_make_example(like[0] if like else "", start, stop)]
     if not examples and cluster is None:
@@ -132,12 +132,12 @@ def search(
 
 
 def _parse_example(text: str) -> Example:
-    """Return a recording and its span, as typed; one whose name looks like that is itself."""
-    found = None if Path(text).exists() else _SPAN.fullmatch(text)
-    if found is None:
+    """Parse ``RECORDING@START-STOP``; an existing file of that name is taken as a whole."""
+    match = None if Path(text).exists() else _SPAN.fullmatch(text)
+    if match is None:
         return _make_example(text, 0.0, None)
     try:
-        return _make_example(found["name"], float(found["start"]), float(found["stop"]))
+        return _make_example(match["name"], float(match["start"]), float(match["stop"]))
     except ValueError as error:
         raise typer.BadParameter(f"{text!r} is not {SPAN}") from error
 

@@ -1,1 +1,1 @@
-"""What several commands ask for: recordings, how to read them, where to write, constants."""
+"""Options that several commands share: recordings, reading, outputs, constants."""

@@ -1,6 +1,6 @@
-"""How clips are shaped, named and written: what ``split`` and ``library split`` share.
+"""Options for the shape, names and format of clips, for ``split`` and ``library split``.
 
-`kineme.cli.options.declare.add_options` gives them to a command.
+`kineme.cli.options.declare.add_options` adds them to a command.
 """
 
 from __future__ import annotations
@@ -63,11 +63,11 @@ CLIPS: dict[str, Any] = {
     "sheet": Sheet,
     "motion_matching": MotionMatching,
 }
-"""Keywords of `kineme.clips.split.split`; the format and rate of clips are not those of files."""
+"""Options by keyword of `kineme.clips.split.split`, except format and rate of clips."""
 
 
 def make_clip_options(
-    *, to_format: str | None, to_fps: float | None, close: bool | None, **given: Any
+    *, to_format: str | None, to_fps: float | None, close: bool | None, **options: Any
 ) -> dict[str, Any]:
-    """Return the keywords as `kineme.clips.split.split` takes them."""
-    return {"format": to_format, "fps": to_fps, "close": bool(close), **given}
+    """Return the options as keywords of `kineme.clips.split.split`."""
+    return {"format": to_format, "fps": to_fps, "close": bool(close), **options}

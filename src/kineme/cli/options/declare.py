@@ -1,4 +1,4 @@
-"""Declare how a command reads, segments and writes clips: what it gets of its options."""
+"""Add groups of options to commands: reading, segmenting, clips."""
 
 from __future__ import annotations
 
@@ -17,33 +17,37 @@ from kineme.cli.options.reading import make_read_options
 def add_options(
     options: Mapping[str, Any], **groups: Mapping[str, Any]
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command options for reading, for segmenting, and for clips, if these are among them.
+    """Add options for reading, segmenting and clips to a command.
 
-    They reach it as ``read_options``, a `ReadOptions`, ``segment_options``, a `SegmentOptions`,
-    and ``clip_options``, keywords of `kineme.clips.split.split`. Each of ``groups`` reaches it as
-    a dictionary of the options that were given.
+    The command receives them as ``read_options`` (`ReadOptions`), ``segment_options``
+    (`SegmentOptions`) and ``clip_options`` (keywords of `kineme.clips.split.split`). Each of
+    ``groups`` is passed as a dictionary of the options that were set.
     """
     added = [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=option)
-        for each in (options, *groups.values())
-        for name, option in each.items()
+        for group in (options, *groups.values())
+        for name, option in group.items()
     ]
 
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
         signature = inspect.signature(command, eval_str=True)
-        made = ("read_options", "segment_options", "clip_options", *groups)
-        own = [each for name, each in signature.parameters.items() if name not in made]
+        injected = ("read_options", "segment_options", "clip_options", *groups)
+        own = [
+            parameter for name, parameter in signature.parameters.items() if name not in injected
+        ]
 
         @wraps(command)
         def wrapped(**values: Any) -> None:
             for group, members in groups.items():
-                found = {name: values.pop(name) for name in members}
-                values[group] = {name: each for name, each in found.items() if each is not None}
-            given = {name: values.pop(name) for name in options}
-            method = {name: given.pop(name) for name in SEGMENTING if name in given}
-            clips = {name: given.pop(name) for name in CLIPS if name in given}
-            if given:
-                values["read_options"] = make_read_options(**given)
+                group_values = {name: values.pop(name) for name in members}
+                values[group] = {
+                    name: value for name, value in group_values.items() if value is not None
+                }
+            read_values = {name: values.pop(name) for name in options}
+            method = {name: read_values.pop(name) for name in SEGMENTING if name in read_values}
+            clips = {name: read_values.pop(name) for name in CLIPS if name in read_values}
+            if read_values:
+                values["read_options"] = make_read_options(**read_values)
             if method:
                 emg = values["read_options"].emg
                 values["segment_options"] = make_segment_options(**method, emg=emg)
@@ -51,7 +55,7 @@ def add_options(
                 values["clip_options"] = make_clip_options(**clips)
             command(**values)
 
-        # typer declares the options of a command by its signature.
+        # typer reads the options of a command from its signature.
         wrapped.__signature__ = signature.replace(parameters=[*own, *added])  # type: ignore[attr-defined]
         return wrapped
 
@@ -59,6 +63,6 @@ def add_options(
 
 
 def are_given(context: typer.Context, options: Iterable[str]) -> bool:
-    """Return whether a user gave any of these options."""
+    """Return whether the user set any of these options."""
     sources = map(context.get_parameter_source, options)
     return any(source is not None and source.name == "COMMANDLINE" for source in sources)

@@ -1,8 +1,8 @@
-"""What is given as FILES: recordings, or folders of them, gone through one by one.
+"""Process FILES: recordings or folders of recordings, one after another.
 
-One rule for every command: what is wrong with one recording costs that one only and is
-said at the end, by name and reason. The exit code is 1 where something asked for by name,
-a file or a folder, gave nothing, and where a result could not be written, as on a full disk.
+The rules are the same for every command. An error with one recording does not stop the others and
+is reported at the end, with name and reason. The exit code is 1 if a file or folder named by the
+user gave no result, or if a result could not be written.
 """
 
 from __future__ import annotations
@@ -34,9 +34,7 @@ FilesOfFormats = Annotated[
     list[Path],
     typer.Argument(metavar="FILES", help=f"Recordings, or folders of them: {RECORDINGS}."),
 ]
-Recursive = Annotated[
-    bool, option(INPUT, "Look into the folders of a folder, too.", "--recursive", "-r")
-]
+Recursive = Annotated[bool, option(INPUT, "Include subfolders.", "--recursive", "-r")]
 SegmentTable = Annotated[
     Path | None,
     option(
@@ -47,86 +45,86 @@ SegmentTable = Annotated[
 ]
 
 SKELETON, MOTION = ".asf", ".amc"
-"""Of what lies in two files, which ``*`` gives both of."""
+"""Suffixes of motions in two files; ``*`` in a shell gives both."""
 
 
 class Batch:
-    """Recordings of a command, given by themselves or by folder; each may fail by itself."""
+    """Recordings of a command, from files and folders; each may fail separately."""
 
-    def __init__(self, given: list[Path], *, recursive: bool = False, quiet: bool = False):
+    def __init__(self, inputs: list[Path], *, recursive: bool = False, quiet: bool = False):
         self._quiet = quiet
-        self._missing = set(given)
+        self._missing = set(inputs)
         self._unwritten = False
         self._messages: list[tuple[Callable[[str], None], str]] = []
-        self._at = 0
-        self._given_as: dict[Path, set[Path]] = {}
+        self._count = 0
+        self._origins: dict[Path, set[Path]] = {}
         self._tables: dict[tuple[str, Path | None, str], dict[Path, Path | None]] = {}
         self.paths: list[Path] = []
-        if Path("-") in given and not Path("-").exists():
+        if Path("-") in inputs and not Path("-").exists():
             raise typer.BadParameter(
-                "recordings are not read from standard input, for a file's name tells what it "
-                "is: save it as one, such as take.bvh or take.csv, and name that",
+                "recordings are not read from standard input, since the file name tells the "
+                "format: save it as take.bvh or take.csv, for example, and give that name",
                 param_hint="FILES",
             )
-        with_motions = {path.parent for path in given if path.suffix.lower() == MOTION}
-        for path in given:
+        with_motions = {path.parent for path in inputs if path.suffix.lower() == MOTION}
+        for path in inputs:
             if path.suffix.lower() == SKELETON and path.parent in with_motions:
-                self._missing.discard(path)  # read with the motions beside it
+                self._missing.discard(path)  # the motions beside it read it
                 continue
-            found = self._recordings_in(path, recursive=recursive) if path.is_dir() else [path]
-            for recording in found:
-                origins = self._given_as.setdefault(make_absolute(recording), set())
+            paths = self._list_recordings(path, recursive=recursive) if path.is_dir() else [path]
+            for recording in paths:
+                origins = self._origins.setdefault(make_absolute(recording), set())
                 if not origins:
                     self.paths.append(recording)
                 origins.add(path)
 
     @property
     def single(self) -> bool:
-        """Return whether there is one recording, given by its own name."""
+        """Whether there is one recording, named by the user."""
         return len(self.paths) == 1 and self._is_named(self.paths[0])
 
     def join(self) -> list[Path]:
-        """Return all recordings, of which the first stands for all from now on."""
-        together = self.paths
-        if len(together) > 1:
-            self.paths = together[:1]
-            first = self._given_as[make_absolute(together[0])]
-            for path in together[1:]:
-                first |= self._given_as[make_absolute(path)]
-        return together
+        """Return all recordings; afterwards the first one stands for all of them."""
+        paths = self.paths
+        if len(paths) > 1:
+            self.paths = paths[:1]
+            first = self._origins[make_absolute(paths[0])]
+            for path in paths[1:]:
+                first |= self._origins[make_absolute(path)]
+        return paths
 
-    def targets(self, option: str, given: Path | None, suffix: str) -> list[Path | None]:
-        """Where the result of each recording goes; see `kineme.cli.options.targets`."""
-        if given is None:
+    def targets(self, option: str, target: Path | None, suffix: str) -> list[Path | None]:
+        """Return where the result of each recording goes; see `kineme.cli.options.targets`."""
+        if target is None:
             return [None] * len(self.paths)
-        return [*self.files(option, given, suffix)]
+        return [*self.files(option, target, suffix)]
 
-    def files(self, option: str, given: Path, suffix: str = "") -> list[Path]:
-        """Return the same where the option is never left out."""
-        with self._nothing_without():
-            return choose_files(option, given, self.paths, suffix)
+    def files(self, option: str, target: Path, suffix: str = "") -> list[Path]:
+        """Return where results go for an option that is always set."""
+        with self._exit_on_error():
+            return choose_files(option, target, self.paths, suffix)
 
-    def folders(self, option: str, given: Path) -> list[Path]:
-        """Return the folder that each recording gets; the one given where it is a single one's."""
-        with self._nothing_without():
-            return choose_folders(option, given, self.paths, single=self.single)
+    def folders(self, option: str, target: Path) -> list[Path]:
+        """Return the folder for each recording; a single recording gets the given one."""
+        with self._exit_on_error():
+            return choose_folders(option, target, self.paths, single=self.single)
 
-    def tables(self, option: str, given: Path | None, person: str = "") -> list[Path | None]:
-        """Return table or label file that belongs to each recording, or to this person in it."""
-        if given is None:
+    def tables(self, option: str, source: Path | None, person: str = "") -> list[Path | None]:
+        """Return the table or label file of each recording, or of this person in it."""
+        if source is None:
             return [None] * len(self.paths)
-        with self._nothing_without():
-            return [*find_tables(option, given, self.paths, person)]
+        with self._exit_on_error():
+            return [*find_tables(option, source, self.paths, person)]
 
-    def table(self, path: Path, option: str, given: Path | None, person: str = "") -> Path | None:
-        """That of a recording among `tables`."""
-        key = option, given, person
+    def table(self, path: Path, option: str, source: Path | None, person: str = "") -> Path | None:
+        """Return the entry of `tables` for one recording."""
+        key = option, source, person
         if key not in self._tables:
-            tables = self.tables(option, given, person)
+            tables = self.tables(option, source, person)
             self._tables[key] = dict(zip(self.paths, tables, strict=True))
         return self._tables[key][path]
 
-    def each_person(
+    def run_each_person(
         self,
         path: Path,
         read_options: ReadOptions,
@@ -134,60 +132,60 @@ class Batch:
         *targets: Path | None,
         tables: tuple[str, Path | None] = ("", None),
     ) -> None:
-        """Have work done for each of the people in a recording who are asked for; once by default.
+        """Call ``work`` for each selected person in a recording; once by default.
 
-        It is called with the path, how that person is read, the table of that person where
-        ``tables`` are given by option and place, and the targets, called after the person. What is
-        wrong with one person costs that one alone.
+        It gets the path, the reading options for the person, the person's table (if ``tables`` has
+        an option and a path), and the targets with the person's name. An error with one person does
+        not stop the others.
         """
-        with self.caught(path):
+        with self.catch_errors(path):
             failures = []
             for person, options in expand_read_options(path, read_options):
                 table = self.table(path, *tables, options.person or "")
-                places = [each and add_person(each, person) for each in targets]
+                person_targets = [target and add_person(target, person) for target in targets]
                 try:
-                    work(path, options, table, *places)
+                    work(path, options, table, *person_targets)
                 except ReadError as error:
                     failures.append(error)
             if failures:
                 raise failures[0]
 
     @contextmanager
-    def caught(self, path: Path) -> Iterator[None]:
-        """Keep a failure with one of the recordings in the block for the end."""
-        self._at += 1
+    def catch_errors(self, path: Path) -> Iterator[None]:
+        """Keep an error with a recording in the block for the report at the end."""
+        self._count += 1
         try:
             yield
         except KinemeError as error:
-            unwritten = isinstance(error, WriteError)  # not the fault of the recording
+            unwritten = isinstance(error, WriteError)  # not caused by the recording
             self._unwritten |= unwritten
-            say = print_error if unwritten or self._is_named(path) else print_skipped
-            self._messages.append((say, format_line(error, subject=path)))
+            report = print_error if unwritten or self._is_named(path) else print_skipped
+            self._messages.append((report, format_line(error, subject=path)))
         else:
-            self._missing -= self._given_as[make_absolute(path)]
+            self._missing -= self._origins[make_absolute(path)]
 
     def leave_out(self, path: Path, reason: str) -> None:
-        """Say why a recording that could be read has no part in the result."""
-        named = self._is_named(path)
-        self._messages.append((print_error if named else print_skipped, f"{path}: {reason}"))
-        self._missing |= {path} if named else set()
+        """Report why a readable recording is not part of the result."""
+        is_named = self._is_named(path)
+        self._messages.append((print_error if is_named else print_skipped, f"{path}: {reason}"))
+        self._missing |= {path} if is_named else set()
 
     def progress(self, path: Path) -> AbstractContextManager[Callable[[str], None]]:
-        """Return a function that shows the stage at work on the recording whose turn it is."""
-        turn = f" ({self._at} of {len(self.paths)})" if len(self.paths) > 1 else ""
-        return show_progress(f"{path.name}{turn}", quiet=self._quiet)
+        """Return a function that shows the current stage of this recording."""
+        position = f" ({self._count} of {len(self.paths)})" if len(self.paths) > 1 else ""
+        return show_progress(f"{path.name}{position}", quiet=self._quiet)
 
     def exit(self) -> None:
-        """Say what was left out and why.
+        """Print what was skipped and why.
 
-        End with code 1 if something named gave nothing, or a result could not be written.
+        Exit with code 1 if anything named by the user gave no result, or a result was not written.
         """
-        for say, text in self._messages:
-            say(text)
+        for report, text in self._messages:
+            report(text)
         if self._missing or self._unwritten:
             raise typer.Exit(1)
 
-    def _recordings_in(self, folder: Path, *, recursive: bool) -> list[Path]:
+    def _list_recordings(self, folder: Path, *, recursive: bool) -> list[Path]:
         from kineme.formats.listing import scan_folder
 
         listing = scan_folder(folder, recursive=recursive)
@@ -196,25 +194,25 @@ class Batch:
         ]
         names = ", ".join(path.name for path in listing.folders[:3])
         more = ", …" if len(listing.folders) > 3 else ""
-        deeper = f"--recursive looks into its folders ({names}{more})" if names else ""
+        hint = f"--recursive looks into its folders ({names}{more})" if names else ""
         if not listing.recordings:
             if folder not in (path for path, _ in listing.passed_over):
-                alone = any(path.suffix.lower() == SKELETON for path in folder.iterdir())
-                why = "a skeleton (.asf) needs the motion (.amc) beside it" if alone else ""
-                reasons = filter(None, ("there is no recording in this folder", why, deeper))
+                has_skeleton = any(path.suffix.lower() == SKELETON for path in folder.iterdir())
+                why = "a skeleton (.asf) needs the motion (.amc) beside it" if has_skeleton else ""
+                reasons = filter(None, ("there is no recording in this folder", why, hint))
                 self._messages.append((print_error, f"{folder}: {'; '.join(reasons)}"))
-        elif deeper:
-            self._messages.append((print_skipped, f"{folder}: {deeper}"))
+        elif hint:
+            self._messages.append((print_skipped, f"{folder}: {hint}"))
         return listing.recordings
 
     def _is_named(self, path: Path) -> bool:
-        """Return whether a recording was asked for by its own name, not found in a folder."""
-        place = make_absolute(path)
-        return any(make_absolute(origin) == place for origin in self._given_as[place])
+        """Return whether the user named this recording itself, not only its folder."""
+        absolute = make_absolute(path)
+        return any(make_absolute(origin) == absolute for origin in self._origins[absolute])
 
     @contextmanager
-    def _nothing_without(self) -> Iterator[None]:
-        """End at once where there is no place for any result, or no table for any recording."""
+    def _exit_on_error(self) -> Iterator[None]:
+        """Exit if no result can be written, or no table can be found for any recording."""
         try:
             yield
         except (ReadError, WriteError) as error:

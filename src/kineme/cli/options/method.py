@@ -1,8 +1,8 @@
-"""How a command segments: ``--preset``, ``--set NAME=VALUE``, ``--detail``, ``--effectors``.
+"""Segmentation options: ``--preset``, ``--set NAME=VALUE``, ``--detail``, ``--effectors``.
 
-All of it comes from the registered presets and what each `Constant` says of itself. A preset
-or a constant that is added, here or by another package, can be given to every command that
-segments. Values are typed as they are shown: ``0.5``, ``none``, ``yes``, ``1,1 2,1``.
+They are derived from the registered presets and their `Constant` objects, so a preset or constant
+added by another package works with every command. Values are typed as they are printed: ``0.5``,
+``none``, ``yes``, ``1,1 2,1``.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ SEGMENTING: dict[str, Any] = {
     "constants": Constants,
     "effectors": Effectors,
 }
-"""What `kineme.segment` takes besides the recording."""
+"""Options of `kineme.segment`."""
 
 
 def make_segment_options(
@@ -72,7 +72,7 @@ def make_segment_options(
     effectors: str | None = None,
     emg: bool = False,
 ) -> SegmentOptions:
-    """Return the options as they were typed; typer.BadParameter where one makes no sense."""
+    """Return the options from texts; typer.BadParameter if one is invalid."""
     chosen = preset or DEFAULT
     try:
         return SegmentOptions(
@@ -87,7 +87,7 @@ def make_segment_options(
 
 
 def parse_effectors(text: str | None) -> Mapping[str, str] | list[str] | None:
-    """Return joint names as `end_effectors` takes them."""
+    """Return joint names in the form that `end_effectors` takes."""
     if text is None:
         return None
     names = text.split(",")
@@ -97,27 +97,31 @@ def parse_effectors(text: str | None) -> Mapping[str, str] | list[str] | None:
     return {part.strip().replace(" ", "_"): name for part, _, name in pairs}
 
 
-def parse_constants(presets: Sequence[str], given: Sequence[str]) -> dict[str, Any]:
-    """Return the constants in texts such as ``min_action=2``, checked.
+def parse_constants(presets: Sequence[str], settings: Sequence[str]) -> dict[str, Any]:
+    """Parse texts such as ``min_action=2`` into checked constants.
 
-    Each preset takes those it has.
-
-    typer.BadParameter names what is wrong: a preset, a constant that none has, or its value.
+    Each preset takes the constants that it has. typer.BadParameter names an unknown preset, a
+    constant that no preset has, or an invalid value.
 
     Examples
     --------
     >>> parse_constants(["kineme"], ["min-action=2", "bands=0.5,2"])
     {'min_action': 2.0, 'bands': (0.5, 2.0)}
     """
-    typed = dict(map(_split_setting, given))
+    typed = dict(map(_split_setting, settings))
     try:
         chosen = [resolve_preset(name) for name in presets]
     except ParameterError as error:
         raise typer.BadParameter(str(error), param_hint="--preset") from error
     try:
-        constants = {each.name: each for preset in reversed(chosen) for each in preset.constants()}
+        constants = {
+            constant.name: constant
+            for preset in reversed(chosen)
+            for constant in preset.constants()
+        }
         for name in typed.keys() - constants.keys():
-            resolve_preset(presets[0], signals=False, **{name: typed[name]})  # says which
+            # Raises an error that suggests similar names.
+            resolve_preset(presets[0], signals=False, **{name: typed[name]})
         values = {name: parse_value(constants[name], text) for name, text in typed.items()}
         for preset in chosen:
             parameters = preset.parameters()
@@ -136,7 +140,7 @@ def _split_setting(text: str) -> tuple[str, str]:
 
 
 def parse_value(constant: Constant, text: str) -> Any:
-    """A text as a value of the type that a constant has; ParameterError says which would be one.
+    """Parse a text as a value of a constant; ParameterError describes valid values.
 
     Examples
     --------
@@ -154,7 +158,7 @@ def parse_value(constant: Constant, text: str) -> Any:
 
 
 def format_value(value: Any) -> str:
-    """Return a value as it would be typed, numbers to four digits.
+    """Return a value as it would be typed; floats have four digits.
 
     Examples
     --------
@@ -164,8 +168,8 @@ def format_value(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, tuple):
-        between = " " if value and isinstance(value[0], tuple) else ","
-        return between.join(map(format_value, value))
+        separator = " " if value and isinstance(value[0], tuple) else ","
+        return separator.join(map(format_value, value))
     if isinstance(value, float):
         text = f"{value:.4g}"
         return f"{value:.0f}" if "e+" in text else text
@@ -173,7 +177,7 @@ def format_value(value: Any) -> str:
 
 
 def _describe_type(hint: Any) -> str:
-    """Return what values of a type are, before the values that they may take."""
+    """Return the kind of value that a type takes, for messages."""
     members = get_args(hint)
     if NoneType in members:
         hint = _drop_none(hint)

@@ -1,7 +1,7 @@
-"""How a command reads recordings: what people say of them that their files do not.
+"""Reading options: properties of recordings that their files do not state.
 
-`BODY` and `READING` are the keywords of `kineme.read`; `kineme.cli.options.declare.add_options`
-gives them to a command.
+`BODY` and `READING` are keywords of `kineme.read`; `kineme.cli.options.declare.add_options` adds
+them to a command.
 """
 
 from __future__ import annotations
@@ -71,39 +71,39 @@ BODY: dict[str, Any] = {
     "confidence": Confidence,
     "take": Take,
 }
-"""What `kineme.read` takes besides the path, for a motion."""
+"""Options of `kineme.read` for a motion."""
 READING: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
-"""And for either kind of recording."""
-EVERYTHING = "all"
-"""With --person or --take: each of those in a recording."""
+"""Options of `kineme.read` for motions and signals."""
+ALL = "all"
+"""Value of --person and --take that selects each of them."""
 
 
-def make_read_options(*, emg: bool | None = None, **given: Any) -> ReadOptions:
-    """Return the options as they were typed; typer.BadParameter where one makes no sense."""
+def make_read_options(*, emg: bool | None = None, **options: Any) -> ReadOptions:
+    """Return the options from texts; typer.BadParameter if one is invalid."""
     with suppress(KeyError, TypeError, ValueError):
-        given["unit"] = float(given["unit"])
-    if (columns := given.get("columns")) is not None:
-        given["columns"] = split_names(columns)
-        if not given["columns"]:
+        options["unit"] = float(options["unit"])
+    if (columns := options.get("columns")) is not None:
+        options["columns"] = split_names(columns)
+        if not options["columns"]:
             raise typer.BadParameter("names no column", param_hint="--columns")
     try:
-        return ReadOptions(**given, emg=bool(emg))
+        return ReadOptions(**options, emg=bool(emg))
     except ParameterError as error:
         raise typer.BadParameter(str(error)) from error
 
 
 def split_names(*texts: str | None) -> tuple[str, ...]:
-    """Return the names in texts with commas between them."""
+    """Return the names in comma-separated texts."""
     names = (name.strip() for text in texts if text for name in text.split(","))
     return tuple(name for name in names if name)
 
 
 def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, ReadOptions]]:
-    """Return the people and takes in a file where all are asked for, and how each is read.
+    """Return a name and reading options for each selected person and take of a file.
 
-    A single one, or the one that was named, goes without a name.
+    The name is empty for a single one, and for one that the user selected.
     """
-    if options.take == EVERYTHING:
+    if options.take == ALL:
         from kineme.formats import list_takes
 
         takes = list_takes(path, replace(options, person=None, take=None)) or (None,)
@@ -112,7 +112,7 @@ def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, Rea
             for take in takes
             for who, each in expand_read_options(path, replace(options, take=take))
         ]
-    if options.person != EVERYTHING:
+    if options.person != ALL:
         return [("", options)]
     from kineme.formats import list_people
 

@@ -1,11 +1,11 @@
-"""Where results go: a file, a folder, or a pattern with ``{name}`` and ``{parent}`` in it.
+"""Paths of results: a file, a folder, or a pattern with ``{name}`` and ``{parent}``.
 
-One rule for every command. A folder, one that exists or any path without a suffix, gets a
-file per recording, called as that is. ``{name}`` stands for the recording's name,
-``{parent}`` for its folder's. Recordings of one name are told apart by their folders:
+The rules are the same for every command. A folder (an existing one, or a path without suffix) gets
+one file per recording, named after it. ``{name}`` is replaced by the recording's name, ``{parent}``
+by the name of its folder. Recordings with the same name are distinguished by their folders:
 ``a/take.bvh`` and ``b/take.bvh`` become ``a_take`` and ``b_take``.
 
-Folders are made; that which is to hold all of them must have a folder to lie in.
+Folders are created, but the parent of the topmost new one must exist.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ PAGES = (".html", ".htm")
 _FIELD = re.compile(r"\{(name|parent)\}")
 
 
-def choose_files(option: str, given: Path, inputs: list[Path], suffix: str = "") -> list[Path]:
-    """One path per recording, none of which is a recording itself."""
-    pattern = given / f"{NAME}{suffix}" if _is_folder(given) else given
+def choose_files(option: str, target: Path, inputs: list[Path], suffix: str = "") -> list[Path]:
+    """Return one path per recording, none of which is a recording itself."""
+    pattern = target / f"{NAME}{suffix}" if _is_folder(target) else target
     paths = _fill_patterns(option, pattern, inputs)
     recordings = {path.resolve() for path in inputs}
     for path in paths:
@@ -43,56 +43,56 @@ def choose_files(option: str, given: Path, inputs: list[Path], suffix: str = "")
     return paths
 
 
-def choose_folders(option: str, given: Path, inputs: list[Path], *, single: bool) -> list[Path]:
-    """One folder per recording: the one given for a single one, else one of its own in it."""
-    if single and not _FIELD.search(str(given)):
-        return [given]
-    pattern = given if _FIELD.search(str(given)) else given / NAME
+def choose_folders(option: str, target: Path, inputs: list[Path], *, single: bool) -> list[Path]:
+    """Return one folder per recording; a single recording gets the given one."""
+    if single and not _FIELD.search(str(target)):
+        return [target]
+    pattern = target if _FIELD.search(str(target)) else target / NAME
     paths = _fill_patterns(option, pattern, inputs)
     check_target_folder(pattern)
     return paths
 
 
-def find_tables(option: str, given: Path, inputs: list[Path], person: str = "") -> list[Path]:
-    """Return table of each recording: a file of all, by a pattern, or that of its name in a folder.
+def find_tables(option: str, source: Path, inputs: list[Path], person: str = "") -> list[Path]:
+    """Return the table of each recording: one for all, from a pattern, or from a folder by name.
 
-    In a folder that of this ``person`` in it, where there is one.
+    In a folder, the table of this ``person`` is preferred.
     """
-    if not _is_folder(given):
-        of_all = "recording" in read_columns(given)  # a table that says whose each row is
-        return [given] * len(inputs) if of_all else _fill_patterns(option, given, inputs)
-    if not given.exists() and not _FIELD.search(str(given)):
-        raise ReadError(given, "there is no such file or folder")
-    recordings, paths = set(inputs), _fill_patterns(option, given / NAME, inputs)
-    usual = [_find_table_file(path, recordings) for path in paths]
+    if not _is_folder(source):
+        is_shared = "recording" in read_columns(source)  # one table for several recordings
+        return [source] * len(inputs) if is_shared else _fill_patterns(option, source, inputs)
+    if not source.exists() and not _FIELD.search(str(source)):
+        raise ReadError(source, "there is no such file or folder")
+    recordings, paths = set(inputs), _fill_patterns(option, source / NAME, inputs)
+    tables = [_find_table_file(path, recordings) for path in paths]
     if not person:
-        return usual
-    named = [
+        return tables
+    person_tables = [
         _find_table_file(path.with_name(f"{path.name}{make_person_suffix(person)}"), recordings)
         for path in paths
     ]
     return [
-        one if one.exists() or not other.exists() else other
-        for one, other in zip(named, usual, strict=True)
+        person_table if person_table.exists() or not table.exists() else table
+        for person_table, table in zip(person_tables, tables, strict=True)
     ]
 
 
 def check_target_folder(pattern: Path) -> None:
-    """WriteError where the folder that is to hold all results has none to lie in."""
-    fixed = pattern.parent
-    while _FIELD.search(str(fixed)):
-        fixed = fixed.parent
-    if not fixed.exists() and not fixed.parent.is_dir():
-        reason = f"the folder {fixed} cannot be made: there is no {fixed.parent}"
+    """Raise WriteError if the folder for all results cannot be created."""
+    folder = pattern.parent
+    while _FIELD.search(str(folder)):
+        folder = folder.parent
+    if not folder.exists() and not folder.parent.is_dir():
+        reason = f"the folder {folder} cannot be made: there is no {folder.parent}"
         raise WriteError(pattern, reason)
 
 
 def check_writable(
     table: Path | None = None, picture: Path | None = None, page: Path | None = None
 ) -> None:
-    """WriteError for results that could not be written, before any work is done.
+    """Raise WriteError for results that cannot be written, before any work is done.
 
-    Makes the folders that they go to.
+    Creates their folders.
     """
     from kineme.labels import list_written_suffixes
 
@@ -105,7 +105,7 @@ def check_writable(
 
 
 def make_parent_folder(path: Path) -> None:
-    """Make the folder that a file or a folder is to lie in; WriteError if that cannot be."""
+    """Create the folder of a file or folder; WriteError if that is impossible."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -116,16 +116,16 @@ def make_parent_folder(path: Path) -> None:
 
 
 def make_absolute(path: Path) -> Path:
-    """Return the path from the root, under the names that it was given: links are not followed."""
+    """Return the absolute path without resolving links, so that given names are kept."""
     return Path(os.path.abspath(path))  # noqa: PTH100
 
 
-def _is_folder(given: Path) -> bool:
-    return given.is_dir() or not given.suffix
+def _is_folder(path: Path) -> bool:
+    return path.is_dir() or not path.suffix
 
 
 def _fill_patterns(option: str, pattern: Path, inputs: list[Path]) -> list[Path]:
-    """Return the pattern filled in for each recording, all of them different."""
+    """Return the pattern filled in for each recording; the results are unique."""
     if len(inputs) > 1 and not _FIELD.search(str(pattern)):
         raise typer.BadParameter(
             f"one file for {len(inputs)} recordings; give a folder or a name with {NAME} in it",
@@ -138,23 +138,24 @@ def _fill_patterns(option: str, pattern: Path, inputs: list[Path]) -> list[Path]
             _fill_pattern(pattern, name, folder, depth)
             for name, folder, depth in zip(names, folders, depths, strict=True)
         ]
-        count = Counter(paths)
-        clashing = [i for i, path in enumerate(paths) if count[path] > 1]
-        deeper = [i for i in clashing if depths[i] < len(folders[i])]
+        counts = Counter(paths)
+        ambiguous = [i for i, path in enumerate(paths) if counts[path] > 1]
+        deeper = [i for i in ambiguous if depths[i] < len(folders[i])]
         if not deeper:
             break
+        # Tell ambiguous names apart by one more of their parent folders.
         for i in deeper:
             depths[i] += 1
-    if clashing:
+    if ambiguous:
         raise typer.BadParameter(
-            f"several recordings would become {paths[clashing[0]]}; put {NAME} in it",
+            f"several recordings would become {paths[ambiguous[0]]}; put {NAME} in it",
             param_hint=option,
         )
     return paths
 
 
 def _make_names(inputs: list[Path]) -> list[str]:
-    """Names without suffixes, but for recordings that differ in nothing else."""
+    """Return names without suffixes; keep suffixes of files that differ in nothing else."""
     count = Counter(path.with_suffix("") for path in inputs)
     return [
         path.name
@@ -165,7 +166,7 @@ def _make_names(inputs: list[Path]) -> list[str]:
 
 
 def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int) -> Path:
-    """Return the pattern with a recording's name and folder, and more of its folders the deeper."""
+    """Return the pattern with a recording's name and folder, and ``depth`` more parents."""
     if PARENT in str(pattern):
         parent = "_".join(folders[-1 - depth :])
     else:
@@ -175,7 +176,7 @@ def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int
 
 
 def _find_table_file(path: Path, recordings: set[Path]) -> Path:
-    """Return the first file of a name, with one of the suffixes of tables, that is no recording."""
+    """Return the first existing table with this name, but no recording."""
     from kineme.labels import list_written_suffixes
 
     candidates = [

@@ -1,5 +1,5 @@
-"""What comes and goes over the network: bodies of requests, answers, events, who may ask."""
+"""HTTP: request and response bodies, uploads, server-sent events and access control."""
 
 import mimetypes
 
-mimetypes.add_type("text/javascript", ".js")  # the registry of Windows may say something else
+mimetypes.add_type("text/javascript", ".js")  # the Windows registry may map it to another type

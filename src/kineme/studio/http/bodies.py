@@ -1,6 +1,6 @@
-"""What requests send and answers hold: messages as JSON, files, uploads into the folder.
+"""Request and response bodies: JSON messages, files, and uploads into the folder.
 
-Requests are read no farther than they may be long, and no longer than something comes.
+Requests are limited in size, and time out if no data arrives.
 """
 
 from __future__ import annotations
@@ -31,93 +31,101 @@ from kineme.formats import supported_formats
 from kineme.labels import label_formats
 from kineme.web.encoding import from_json, to_json
 
-SLOWEST = 60.0
-"""Seconds between two pieces of a request."""
-MOST_JSON = 1_000_000
-"""Bytes of a request that is no upload."""
-LIMIT = 10**9
+CHUNK_TIMEOUT_S = 60.0
+"""Largest time between two chunks of a request."""
+MAX_JSON = 1_000_000
+"""Bytes of a request other than an upload."""
+MAX_UPLOAD = 10**9
 """Bytes; an hour of motion takes a quarter of that as text."""
 DRAFT = re.compile(r"\.upload-[0-9a-f]{16}\.part")
-FORGOTTEN = 3600.0
-"""Seconds after which a draft belongs to a server that was killed."""
-LONGEST = 180  # bytes of a name; file systems take 255, and ours grow by a suffix
+"""Name of a file that is being uploaded."""
+DRAFT_LIFETIME_S = 3600.0
+"""Age after which a draft must belong to a server that was killed."""
+MAX_NAME = 180
+"""Bytes; file systems allow 255, and names of saved tables get longer suffixes."""
 RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
+"""Names that Windows does not allow."""
 
 
 class MessageResponse(JSONResponse):
-    """A message as JSON."""
+    """Response with a message as JSON."""
 
     def render(self, content: object) -> bytes:
         return to_json(content)
 
 
 def make_file_response(name: str, content: bytes) -> Response:
-    """Return a file to keep; what is not Unicode in its name becomes "?"."""
+    """Return a response that downloads a file; invalid Unicode in its name becomes "?"."""
     quoted = quote(name.encode(errors="replace"), safe="")
     headers = {"content-disposition": f"attachment; filename*=UTF-8''{quoted}"}
     return Response(content, headers=headers, media_type="application/octet-stream")
 
 
 def parse_number(text: str) -> int:
-    """Return the number in an address; -1, which nothing has, for anything else."""
+    """Return the number in a URL; -1, which is no valid index, for anything else."""
     return int(text) if text.isascii() and text.isdigit() and len(text) < 9 else -1
 
 
 def make_route(path: str, work: Callable[..., object], sent: Any = None) -> Route:
-    """An address that is answered from a thread of its own; with ``sent``, by what is sent there.
+    """Return a route that runs ``work`` in a thread; with ``sent`` it takes POST requests.
 
-    ``work`` takes the request and the message of that type, and gives a message or a response.
+    ``work`` gets the request and, with ``sent``, the decoded message of that type. It returns a
+    message or a response.
     """
 
     async def answer(request: Request) -> Response:
-        given = () if sent is None else (from_json(await read_body(request), sent),)
-        found = await run_in_threadpool(work, request, *given)
-        return found if isinstance(found, Response) else MessageResponse(found)
+        arguments = () if sent is None else (from_json(await read_body(request), sent),)
+        result = await run_in_threadpool(work, request, *arguments)
+        return result if isinstance(result, Response) else MessageResponse(result)
 
     return Route(path, answer, methods=["GET" if sent is None else "POST"])
 
 
 class TooSlowError(Exception):
-    """A request of which nothing more came."""
+    """Raised if a request stops sending."""
 
 
 class TooLargeError(Exception):
-    """More bytes than an upload may have, or than there is room for."""
+    """Raised for an upload over the limit, or larger than the free disk space."""
 
 
 async def read_chunks(request: Request) -> AsyncIterator[bytes]:
-    """Yield what is sent, piece by piece; TooSlowError where the next one does not come."""
-    sent = request.stream()
+    """Yield the body chunk by chunk; TooSlowError if the next one does not arrive in time."""
+    stream = request.stream()
     while True:
         try:
-            async with asyncio.timeout(SLOWEST):
-                chunk = await anext(sent)
+            async with asyncio.timeout(CHUNK_TIMEOUT_S):
+                chunk = await anext(stream)
         except StopAsyncIteration:
             return
         except TimeoutError:
-            raise TooSlowError(f"nothing came for {SLOWEST:g} s: send it again") from None
+            raise TooSlowError(
+                f"no data arrived for {CHUNK_TIMEOUT_S:g} s: send it again"
+            ) from None
         yield chunk
 
 
 async def read_body(request: Request) -> bytes:
-    """Return what was sent, which is read no farther than a request may be long."""
-    sent = bytearray()
+    """Return the body; TooLargeError above `MAX_JSON`."""
+    content = bytearray()
     async for chunk in read_chunks(request):
-        sent += chunk
-        if len(sent) > MOST_JSON:
-            raise TooLargeError(f"a request has at most {MOST_JSON} bytes")
-    return bytes(sent)
+        content += chunk
+        if len(content) > MAX_JSON:
+            raise TooLargeError(f"a request has at most {MAX_JSON} bytes")
+    return bytes(content)
 
 
 class Upload:
-    """A file on its way in; leaving the block removes what was not given its name.
+    """A file that is being uploaded; leaving the block deletes it unless it was finished.
 
-    ``length`` is what the page announces. Refused are names that no file the studio opens has
-    (ParameterError), what is too long or has no room (TooLargeError), and what cannot be written
-    (WriteError).
+    ``length`` is the announced size. Raises ParameterError for a suffix that the studio cannot
+    open, TooLargeError above the limit or the free disk space, and WriteError if the file cannot be
+    written.
     """
 
-    def __init__(self, root: Path, name: str, *, length: int | None = None, limit: int = LIMIT):
+    def __init__(
+        self, root: Path, name: str, *, length: int | None = None, limit: int = MAX_UPLOAD
+    ):
         self.name = make_safe_name(name)
         if Path(self.name).suffix.lower() not in _list_upload_suffixes():
             allowed = ", ".join(sorted(_list_upload_suffixes()))
@@ -134,7 +142,7 @@ class Upload:
             self._file = self._draft.open("xb")
         except OSError as error:
             raise WriteError(root, f"cannot be written to: {error.strerror}") from error
-        # Held, so that other servers do not take it for abandoned.
+        # Lock the draft, so that other servers do not delete it as abandoned.
         lock_shared(self._file.fileno())
 
     def __enter__(self) -> Self:
@@ -147,7 +155,7 @@ class Upload:
         self._draft.unlink(missing_ok=True)
 
     def write(self, chunk: bytes) -> None:
-        """Add bytes; TooLargeError once they are more than the limit, whatever was announced."""
+        """Append bytes; TooLargeError above the limit, whatever size was announced."""
         self._size += len(chunk)
         if self._size > self._limit:
             raise TooLargeError(f"{self.name} is larger than {self._limit} bytes")
@@ -158,62 +166,62 @@ class Upload:
             raise TooLargeError(f"{self.name} cannot be written: {error.strerror}") from error
 
     def finish(self) -> Path:
-        """Return the path under which the file is there now, or was before."""
+        """Give the file its name and return the path; an equal file that exists is kept instead."""
         self._file.close()
         for path in _list_candidate_paths(self._root / self.name):
-            # The same content is there already.
-            if path.is_file() and self._is_in(path):
+            if path.is_file() and self._matches(path):
                 return path
             if _move_if_free(self._draft, path):
                 return path
-        raise WriteError(self._root / self.name, "every name like it is taken")
+        raise WriteError(self._root / self.name, "cannot be stored: all similar names are in use")
 
-    def _is_in(self, path: Path) -> bool:
+    def _matches(self, path: Path) -> bool:
         same_size = path.stat().st_size == self._size
         return same_size and sha256(path.read_bytes()).digest() == self._digest.digest()
 
 
 def make_safe_name(name: str) -> str:
-    """Return a file's name without folders, and without what some system does not allow in it."""
-    # Composed letters, so that one name is not two; a path of any system loses its folders.
+    """Return a file name without folders, and without characters that some system forbids."""
+    # NFC, so that one name has one spelling; both kinds of slashes separate folders.
     last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
     plain = "".join(c if c.isprintable() and c not in '<>:"|?*' else "_" for c in last).strip(" .")
     stem, suffix = Path(plain).stem, Path(plain).suffix
-    # Cut by letters, since a limit in bytes could part one.
-    while len((stem + suffix).encode(errors="replace")) > LONGEST and stem:
+    # Cut whole characters, since cutting bytes could split one.
+    while len((stem + suffix).encode(errors="replace")) > MAX_NAME and stem:
         stem = stem[:-1]
     return ("_" if RESERVED.fullmatch(stem) else "") + stem + suffix
 
 
 def remove_abandoned_drafts(root: Path) -> None:
-    """Remove what a killed server left of uploads; not what another one still writes."""
+    """Delete drafts of killed servers; keep those that another server still writes."""
     for path in root.glob(".upload-*.part"):
         if not DRAFT.fullmatch(path.name):
             continue
-        with suppress(OSError):  # another server may have been quicker
-            if time.time() - path.stat().st_mtime > FORGOTTEN and not is_locked(path):
+        with suppress(OSError):  # another server may have deleted it
+            if time.time() - path.stat().st_mtime > DRAFT_LIFETIME_S and not is_locked(path):
                 path.unlink()
 
 
 def list_recording_suffixes() -> list[str]:
-    """Return the suffixes of files that can be recordings, in alphabetical order."""
+    """Return the suffixes of files that can be recordings, sorted."""
     return sorted({suffix for each in supported_formats() if each.read for suffix in each.suffixes})
 
 
 def _list_upload_suffixes() -> set[str]:
-    """Of all that may be sent: recordings and their skeletons, labels, knowledge bases."""
+    """Return the suffixes of recordings, skeletons, labels and knowledge bases."""
     labels = {suffix for each in label_formats().values() for suffix in each.suffixes}
     return {*list_recording_suffixes(), ".asf", ".npz", *labels}
 
 
 def _list_candidate_paths(path: Path) -> list[Path]:
+    """Return the path, then numbered ones."""
     return [path, *(path.with_stem(f"{path.stem}_{number}") for number in range(2, 1000))]
 
 
 def _move_if_free(draft: Path, path: Path) -> bool:
-    """Return whether the draft now has this name; not if another file has."""
+    """Move the draft to this path unless it exists; return whether it was moved."""
     try:
-        # A link fails if the name exists, so two uploads cannot take one name.
+        # Linking fails if the path exists, so two uploads cannot get the same name.
         os.link(draft, path)
     except FileExistsError:
         return False
@@ -224,7 +232,7 @@ def _move_if_free(draft: Path, path: Path) -> bool:
         except FileExistsError:
             return False
         except OSError:
-            # A copy that broke off must not keep the name.
+            # Delete a partial copy.
             path.unlink(missing_ok=True)
             raise
     return True

@@ -1,4 +1,4 @@
-"""News for every open page: which table has changed, which file has come."""
+"""Server-sent events: tell every open page which table has changed and which file was added."""
 
 from __future__ import annotations
 
@@ -10,54 +10,55 @@ from contextlib import suppress
 from kineme.web.encoding import to_json
 from kineme.web.messages import Changed
 
-HEARTBEAT = 15.0  # seconds; without it nobody would notice a line that is dead
-LONGEST = 256
-"""News that wait for a page; one that takes none for so long is asleep and asks anew later."""
+HEARTBEAT_S = 15.0
+"""Time between two keep-alive comments, which reveal a dead connection."""
+MAX_QUEUE = 256
+"""Events queued for a page; a page that falls further behind reloads its state later."""
 
 
 class Hub:
-    """Where news come in, from any thread, and go out to the pages."""
+    """Take events from any thread and send them to all pages."""
 
     def __init__(self) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._pages: set[asyncio.Queue[Changed | None]] = set()
         self._closed = False
-        self.listened = threading.Event()
-        """Set once a page listens, which it does when it has listed the recordings."""
+        self.has_listener = threading.Event()
+        """Set once a page listens, which is after it has listed the recordings."""
 
     def tell(self, recording: str, revision: int) -> None:
-        """Send every page the revision of a recording's table; 0: the recording is new."""
+        """Send every page the new revision of a table; 0 means that the recording is new."""
         if self._loop is not None:
-            news = Changed(recording=recording, revision=revision)
+            event = Changed(recording=recording, revision=revision)
             with suppress(RuntimeError):  # the server has ended
-                self._loop.call_soon_threadsafe(self._spread, news)
+                self._loop.call_soon_threadsafe(self._broadcast, event)
 
     def close(self) -> None:
-        """End every stream, so that the server can."""
+        """End every stream, so that the server can shut down."""
         self._closed = True
-        self._spread(None)
+        self._broadcast(None)
 
     async def stream(self) -> AsyncIterator[str]:
-        """Yield the news as ``text/event-stream``."""
+        """Yield the events as ``text/event-stream``."""
         self._loop = asyncio.get_running_loop()
-        queue: asyncio.Queue[Changed | None] = asyncio.Queue(LONGEST)
+        queue: asyncio.Queue[Changed | None] = asyncio.Queue(MAX_QUEUE)
         self._pages.add(queue)
-        self.listened.set()
+        self.has_listener.set()
         try:
             yield ": welcome\n\n"
             while not self._closed:
                 try:
-                    news = await asyncio.wait_for(queue.get(), HEARTBEAT)
+                    event = await asyncio.wait_for(queue.get(), HEARTBEAT_S)
                 except TimeoutError:
                     yield ": still here\n\n"
                     continue
-                if news is None:
+                if event is None:
                     return
-                yield f"data: {to_json(news).decode()}\n\n"
+                yield f"data: {to_json(event).decode()}\n\n"
         finally:
             self._pages.discard(queue)
 
-    def _spread(self, news: Changed | None) -> None:
+    def _broadcast(self, event: Changed | None) -> None:
         for queue in self._pages:
             with suppress(asyncio.QueueFull):
-                queue.put_nowait(news)
+                queue.put_nowait(event)

@@ -1,12 +1,11 @@
-"""Who may ask: pages of this very server, whoever holds its token, and who asks in time.
+"""Access control: accept requests only with the token, from this server's own pages, in time.
 
-The server listens on this machine only. That keeps other machines out, but not
-other pages in the same browser, nor names of other hosts made to point here.
-So a request must name this server as its host, must not come from the page of
-another origin, and, for anything but the page's own files, must carry the
-token, which only the address printed at the start has. What is answered is
-never stored, framed, sniffed or mixed with anything from elsewhere. Connections
-on which no whole request comes are closed, so that nobody can hold them all open.
+The server listens on this machine only. That keeps out other machines, but neither other pages in
+the same browser nor foreign host names that resolve to this machine. So a request must name this
+server as its host and must not come from a page of another origin. Everything except the page's own
+files needs the token, which is only in the printed address. Responses may not be stored, framed,
+sniffed or mixed with content from elsewhere. Connections without a complete request are closed, so
+that nobody can hold them all open.
 """
 
 from __future__ import annotations
@@ -24,12 +23,16 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from uvicorn.protocols.http.auto import AutoHTTPProtocol
 
 TOKEN_HEADER = "x-kineme-token"  # noqa: S105 (a header's name)
-IN_ADDRESS = ("/", "/api/events")
+TOKEN_IN_URL = ("/", "/api/events")
+"""Paths that accept the token in the URL."""
 VIDEO = "/video"
-"""Paths that take the token in their address: browsers send no headers for these."""
+"""Path suffix that accepts the token in the URL, like `TOKEN_IN_URL`: browsers send no headers for
+these.
+"""
 TRUSTED = "kineme.trusted"
+"""Key of the ASGI scope: whether the request carries the token."""
 DEVELOPMENT = "http://127.0.0.1:5173"
-"""Where ``npm run dev`` serves the pages from their sources."""
+"""Origin at which ``npm run dev`` serves the pages from their sources."""
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
@@ -45,17 +48,18 @@ HEADERS = {
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
 }
-WITHIN = 20.0
-"""Seconds in which the headers of a request are there once the first of their bytes is."""
+"""Security headers of every response."""
+HEADER_TIMEOUT_S = 20.0
+"""Time to receive all headers of a request, from their first byte."""
 
 
 def make_token() -> str:
-    """Return a token that cannot be guessed."""
+    """Return a random token that cannot be guessed."""
     return secrets.token_urlsafe(24)
 
 
 class Guard:
-    """An application behind these rules; in ``development`` its server may ask, too."""
+    """Wrap an application with these checks; ``development`` also accepts the Vite server."""
 
     def __init__(self, app: ASGIApp, *, token: str, port: int, development: bool = False):
         self._app = app
@@ -67,7 +71,7 @@ class Guard:
         self._hosts = {*hosts, "127.0.0.1", "localhost"} if port == 80 else {*hosts}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request, or refuse it."""
+        """Answer a request, or refuse it with status 403."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
@@ -77,23 +81,23 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers[name] = value
-                # The page's page files may be kept, if the browser asks each time for newer ones.
-                page = not scope["path"].startswith("/api")
-                headers.setdefault("cache-control", "no-cache" if page else "no-store")
+                # The browser may cache page files if it checks for newer ones each time.
+                is_page = not scope["path"].startswith("/api")
+                headers.setdefault("cache-control", "no-cache" if is_page else "no-store")
             await send(message)
 
-        scope[TRUSTED] = scope["type"] == "http" and self._knows(scope, Headers(scope=scope))
-        refusal = self._refusal(scope)
+        scope[TRUSTED] = scope["type"] == "http" and self._has_token(scope, Headers(scope=scope))
+        refusal = self._find_refusal(scope)
         if refusal is None:
             await self._app(scope, receive, send_with_headers)
         else:
-            answer = JSONResponse({"error": refusal}, status_code=403)
-            await answer(scope, receive, send_with_headers)
+            response = JSONResponse({"error": refusal}, status_code=403)
+            await response(scope, receive, send_with_headers)
 
-    def _refusal(self, scope: MutableMapping[str, Any]) -> str | None:
-        """Why a request is refused, if it is."""
+    def _find_refusal(self, scope: MutableMapping[str, Any]) -> str | None:
+        """Return why a request is refused; None if it is allowed."""
         if scope["type"] != "http":
-            return "only plain HTTP is spoken here"
+            return "only plain HTTP is supported"
         headers = Headers(scope=scope)
         # Exactly one host header, with a name of this server.
         if headers.getlist("host") not in [[host] for host in self._hosts]:
@@ -106,55 +110,55 @@ class Guard:
             return "the token is missing or wrong: use the address that kineme printed"
         return None
 
-    def _knows(self, scope: MutableMapping[str, Any], headers: Headers) -> bool:
+    def _has_token(self, scope: MutableMapping[str, Any], headers: Headers) -> bool:
         token = headers.get(TOKEN_HEADER)
         path = scope["path"]
-        if token is None and (path in IN_ADDRESS or path.endswith(VIDEO)):
+        if token is None and (path in TOKEN_IN_URL or path.endswith(VIDEO)):
             token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-        # The comparison takes as long for a wrong token as for one that is nearly right.
+        # Compare in constant time, so that the duration does not reveal a partial match.
         return token is not None and secrets.compare_digest(token.encode(), self._token)
 
 
 def is_trusted(request: Request) -> bool:
-    """Return whether a request that has passed the guard carries the token."""
+    """Return whether a request that passed the guard carries the token."""
     return bool(request.scope[TRUSTED])
 
 
-class HeadersInTime(AutoHTTPProtocol):  # type: ignore[misc, valid-type]  # one of two classes
-    """HTTP as uvicorn speaks it, whose requests have begun only for so long."""
+class HeaderTimeoutProtocol(AutoHTTPProtocol):  # type: ignore[misc, valid-type]  # one of two classes
+    """HTTP protocol of uvicorn that closes connections whose request headers are late."""
 
     _late: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:
-        """A new connection has to send a request, too."""
+        """Start the timer: a new connection must send a request."""
         super().connection_made(transport)
-        self._wait()
+        self._start_timer()
 
     def data_received(self, data: bytes) -> None:
-        """More of a request; body and answer of one with whole headers take their time."""
-        if self._late is None and self._is_idle():
-            self._wait()
+        """Start the timer at the first byte of a request; stop it once the headers are complete."""
+        if self._timer is None and self._is_idle():
+            self._start_timer()
         super().data_received(data)
         if not self._is_idle():
-            self._stop_waiting()
+            self._stop_timer()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._stop_waiting()
+        self._stop_timer()
         super().connection_lost(exc)
 
     def _is_idle(self) -> bool:
         """Return whether no request is being answered."""
         return self.cycle is None or self.cycle.response_complete
 
-    def _wait(self) -> None:
-        self._late = self.loop.call_later(WITHIN, self._close)
+    def _start_timer(self) -> None:
+        self._timer = self.loop.call_later(HEADER_TIMEOUT_S, self._close_if_idle)
 
-    def _stop_waiting(self) -> None:
-        if self._late is not None:
-            self._late.cancel()
-            self._late = None
+    def _stop_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
 
-    def _close(self) -> None:
-        self._late = None
+    def _close_if_idle(self) -> None:
+        self._timer = None
         if self._is_idle() and not self.transport.is_closing():
             self.transport.close()

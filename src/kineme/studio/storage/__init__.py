@@ -1,1 +1,1 @@
-"""What lies beside recordings: tables, their history, and small files in ``.kineme``."""
+"""Files beside recordings: tables, their history, and settings in ``.kineme``."""

@@ -1,17 +1,16 @@
-"""What became of a table, kept on the disk: undo, redo, and every table that was replaced.
+"""Edit history of a table on the disk: undo, redo, and every replaced table.
 
-It lies in a hidden folder beside the table, ``.kineme/walk.segments/`` for
-``walk.segments.json``:
+It is a hidden folder beside the table, ``.kineme/walk.segments/`` for ``walk.segments.json``:
 
-- ``history.json``: which table is the present one, which come back with undo and with redo,
-  which were replaced and kept, and for each the time, the edit that made it and its digest;
-- ``1.json``, ``2.json``, …: the tables themselves, each as `kineme.read_segments` reads it.
+- ``history.json``: the numbers of the present table, of those that undo and redo restore, and of
+  replaced tables; for each the time, the edit that made it, and its digest;
+- ``1.json``, ``2.json``, …: the tables, in the format that `kineme.read_segments` reads.
 
-A table is written before the history that names it, and the history before the table that
-people have (`kineme.studio.storage.tables`). So an edit that was acknowledged is in all three; of
-one that was cut short by a killed server the last is missing, and it is taken back when the
-history is read again. Undo goes back `kineme.segments.history.LONGEST` steps; of the tables
-that were replaced the last `MOST_KEPT` are there.
+A table is written before the history that names it, and the history before the user's table
+(`kineme.studio.storage.tables`). So an acknowledged edit is in all three. If the server was killed
+during an edit, the user's table is still the old one, and the edit is dropped when the history is
+read again. Undo goes back `kineme.segments.history.LONGEST` steps; the last `MAX_VERSIONS` replaced
+tables are kept.
 """
 
 from __future__ import annotations
@@ -34,18 +33,19 @@ from kineme.studio.storage.sidecars import FOLDER, delete_file, read_sidecar, wr
 from kineme.studio.storage.tables import encode_table
 from kineme.web.requests import Edit
 
-MOST_KEPT = 200
-MOST_NAMES = 200
-"""Edits whose names are known, so that one that is sent again is not made again."""
+MAX_VERSIONS = 200
+"""Replaced tables that are kept."""
+MAX_NAMES = 200
+"""Names of edits that are remembered, so that an edit sent twice is applied once."""
 SCHEMA = "kineme.history/1"
 HISTORY = "history.json"
 
 
 @dataclass(frozen=True)
 class Step:
-    """A table of the history: when it came about (ISO 8601), its digest, and by which edit.
+    """A table of the history: its time (ISO 8601), its digest, and the edit that made it.
 
-    None is for what was found, or written by another program.
+    ``edit`` is None for a segmentation, or a table that another program wrote.
     """
 
     at: str
@@ -56,9 +56,9 @@ class Step:
 
 @dataclass(frozen=True)
 class Record:
-    """What ``history.json`` holds; tables by their numbers.
+    """Content of ``history.json``; tables are given by number.
 
-    ``names`` are those of the last changes, empty for one without.
+    ``names`` are those of the last edits, empty for an edit without a name.
     """
 
     schema: str = SCHEMA
@@ -71,7 +71,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Change:
-    """A history that has not been written yet, its present table, and what files hold of that."""
+    """A history that is not written yet, its present table, and the file content of that table."""
 
     record: Record
     table: Segmentation
@@ -79,11 +79,11 @@ class Change:
 
 
 class Journal:
-    """History of one table; ``notes`` say that a damaged one was left alone.
+    """Edit history of one table; ``notes`` tell the user about a damaged history.
 
-    ``table`` is what the file that people have holds, or what was found if it is not there. Where
-    the history ends with another table, that one is kept. Nothing is written before the first
-    change.
+    ``table`` is the content of the user's file, or the segmentation if there is no file. If the
+    history ends with a different table, that one is kept as a version. Nothing is written before
+    the first change.
     """
 
     def __init__(self, table_path: Path, table: Segmentation):
@@ -93,84 +93,86 @@ class Journal:
         history, steps = self._record.history, self._record.steps
         digest = sha256(encode_table(table)).hexdigest()
         if steps and steps[history.present].n_frames == table.n_frames:
-            # The present table, else that before or after the last change, which was cut short.
+            # The file holds the present table, or the one before or after an interrupted change.
             for step in (history, _try_step(history.undone), _try_step(history.redone)):
-                if step is not None and self._is(step.present, table, digest):
-                    if step is not history:  # the last change was cut short, and has no answer
+                if step is not None and self._matches(step.present, table, digest):
+                    if step is not history:  # the change was interrupted and never acknowledged
                         names, revision = self._record.names[:-1], self._record.revision - 1
                         self._record = replace(
                             self._record, history=step, names=names, revision=revision
                         )
                     return
-            self._record = self.changed(table, None, replaced=True).record
+            self._record = self.make_change(table, None, replaced=True).record
         else:
-            # A history of a recording of another length is of no use.
+            # The recording has another length now, so its old tables are useless.
             self._record = replace(self._record, history=History(0))
-            start = self.changed(table, None).record
+            start = self.make_change(table, None).record
             self._record = replace(start, history=History(start.history.present))
 
     @property
     def revision(self) -> int:
-        """It grows with every change, and outlives the server."""
+        """Number that grows with every change and survives restarts of the server."""
         return self._record.revision
 
     @property
     def can_undo(self) -> bool:
-        """Return whether there is a table before the present one."""
+        """Whether there is a step to undo."""
         return bool(self._record.history.past)
 
     @property
     def can_redo(self) -> bool:
-        """Return whether one was taken back."""
+        """Whether there is a step to redo."""
         return bool(self._record.history.future)
 
     def knows(self, name: str) -> bool:
-        """Return whether the edit of that name has been made."""
+        """Return whether the edit with this name was applied already."""
         return bool(name) and name in self._record.names
 
     def versions(self) -> dict[int, Step]:
-        """Return the tables that were replaced, the latest first."""
+        """Return the replaced tables, the latest first."""
         steps = self._record.steps
         n_frames = steps[self._record.history.present].n_frames
         numbers = reversed(self._record.kept)
         return {number: steps[number] for number in numbers if steps[number].n_frames == n_frames}
 
     def table(self, number: int) -> Segmentation:
-        """Return a table of the history; ReadError where it is not there any more."""
+        """Return a table of the history; ReadError if its file is missing."""
         if number in self._unsaved:
             return self._unsaved[number].table
-        return self._kept(number)[1]
+        return self._read_table(number)[1]
 
-    def changed(self, table: Segmentation, edit: Edit | None, *, replaced: bool = False) -> Change:
-        """Return the history with a new table, made by an edit or by nobody.
+    def make_change(
+        self, table: Segmentation, edit: Edit | None, *, replaced: bool = False
+    ) -> Change:
+        """Return the history with a new table, made by ``edit`` or by another program (None).
 
-        The present one is kept where it is ``replaced``; so is, in any case, the last of those that
-        could have been redone.
+        The present table is kept as a version if it is ``replaced``. The last table that could be
+        redone is always kept.
         """
         history, steps = self._record.history, self._record.steps
-        # Above every number in the folder, also of files that the history does not name.
-        number = max([0, *steps, *self._numbers()]) + 1
-        # A table that could have been redone is about to be lost.
-        before = [*history.future[-1:], *([history.present] if replaced else [])]
-        at = datetime.now(UTC).isoformat(timespec="seconds")
+        # Avoid all numbers in the folder, even those that the history does not name.
+        number = max([0, *steps, *self._list_numbers()]) + 1
+        # A new edit discards the redo steps; keep the last of them as a version.
+        kept = [*history.future[-1:], *([history.present] if replaced else [])]
+        now = datetime.now(UTC).isoformat(timespec="seconds")
         content = encode_table(table)
-        step = Step(at, sha256(content).hexdigest(), table.n_frames, edit)
+        step = Step(now, sha256(content).hexdigest(), table.n_frames, edit)
         record = replace(
             self._record,
             history=history.followed_by(number),
-            kept=tuple(dict.fromkeys([*self._record.kept, *before]))[-MOST_KEPT:],
+            kept=tuple(dict.fromkeys([*self._record.kept, *kept]))[-MAX_VERSIONS:],
             steps={**steps, number: step},
         )
         change = self._unsaved[number] = Change(record, table, content)
         return change
 
-    def undone(self) -> Change:
-        """Return the history one step back; ParameterError where there is nothing to undo."""
-        return self._moved_to(self._record.history.undone())
+    def make_undo(self) -> Change:
+        """Return the history one step back; ParameterError without a step to undo."""
+        return self._move_to(self._record.history.undone())
 
-    def redone(self) -> Change:
-        """Return the history one step forward again; ParameterError where nothing was undone."""
-        return self._moved_to(self._record.history.redone())
+    def make_redo(self) -> Change:
+        """Return the history one step forward; ParameterError without a step to redo."""
+        return self._move_to(self._record.history.redone())
 
     def write(
         self,
@@ -180,25 +182,26 @@ class Journal:
         revision: int,
         name: str = "",
     ) -> None:
-        """Have a change on the disk, and then what ``save`` does with the content of its table.
+        """Write a change to the disk, then call ``save`` with the content of its table.
 
-        Where that raises, the change has not been made. From then on the table has this revision,
-        and the edit is known by its name.
+        If ``save`` raises, the change has not been made. Otherwise the table has this revision, and
+        the edit is known by its name.
         """
-        names = (*self._record.names, name)[-MOST_NAMES:]
+        names = (*self._record.names, name)[-MAX_NAMES:]
         record = prune_steps(replace(change.record, revision=revision, names=names))
         try:
             self._write(record)
             save(change.content)
         finally:
             if not self.folder.parent.is_symlink():
-                for place in (self.folder, self.folder.parent):  # empty where nothing was written
+                # Removes only empty folders, after a failed first write.
+                for folder in (self.folder, self.folder.parent):
                     with suppress(OSError):
-                        place.rmdir()
-        forgotten = self._record.steps.keys() - record.steps.keys()
+                        folder.rmdir()
+        unused = self._record.steps.keys() - record.steps.keys()
         self._record, self._unsaved = record, {}
-        # Only once the new history is on the disk.
-        for number in forgotten:
+        # Delete only after the new history is on the disk.
+        for number in unused:
             delete_file(self._path(number))
 
     def _write(self, record: Record) -> None:
@@ -206,19 +209,19 @@ class Journal:
             write_file(self._path(number), self._unsaved[number].content)
         write_record(self.folder, record)
 
-    def _moved_to(self, history: History[int]) -> Change:
-        content, table = self._kept(history.present)
+    def _move_to(self, history: History[int]) -> Change:
+        content, table = self._read_table(history.present)
         return Change(replace(self._record, history=history), table, content)
 
-    def _kept(self, number: int) -> tuple[bytes, Segmentation]:
-        """What the file of a table holds; ReadError where it is not there any more, or damaged."""
+    def _read_table(self, number: int) -> tuple[bytes, Segmentation]:
+        """Return content and table of a file; ReadError if it is missing or damaged."""
         path = self._path(number)
         with translate_read_errors(path):
             content = path.read_bytes()
             return content, json_table.loads(content, path)
 
-    def _is(self, number: int, table: Segmentation, digest: str) -> bool:
-        """Whether a table of the history is this one, by whichever version it was written."""
+    def _matches(self, number: int, table: Segmentation, digest: str) -> bool:
+        """Return whether a table of the history equals this one, whichever version wrote it."""
         if self._record.steps[number].sha256 == digest:
             return True
         try:
@@ -226,8 +229,8 @@ class Journal:
         except ReadError:
             return False
 
-    def _numbers(self) -> set[int]:
-        """Of the tables in the folder."""
+    def _list_numbers(self) -> set[int]:
+        """Return the numbers of the table files in the folder."""
         return {int(path.stem) for path in self.folder.glob("*.json") if path.stem.isdecimal()}
 
     def _path(self, number: int) -> Path:
@@ -235,7 +238,7 @@ class Journal:
 
 
 def read_record(folder: Path) -> tuple[Record, list[str]]:
-    """Return the history in a folder, empty where none can be read, and notes on it."""
+    """Return the history in a folder, empty if it cannot be read, and notes on it."""
     record, notes = read_sidecar(folder / HISTORY, Record, Record())
     complete = record.schema == SCHEMA and find_needed_tables(record) <= record.steps.keys()
     if complete or record == Record():
@@ -244,19 +247,19 @@ def read_record(folder: Path) -> tuple[Record, list[str]]:
 
 
 def write_record(folder: Path, record: Record) -> None:
-    """Have the history on the disk: whole or not at all."""
+    """Write the history to the disk, completely or not at all."""
     content = msgspec.json.format(msgspec.json.encode(record), indent=1)
     write_file(folder / HISTORY, content)
 
 
 def prune_steps(record: Record) -> Record:
-    """Return the record without the steps that nothing needs any more."""
+    """Return the record without steps that are no longer needed."""
     needed = find_needed_tables(record)
     return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
 
 
 def find_needed_tables(record: Record) -> set[int]:
-    """Return the numbers of the tables that a record names."""
+    """Return the numbers of the tables that a record uses."""
     history = record.history
     return {*history.past, history.present, *history.future, *record.kept}
 

@@ -1,9 +1,9 @@
-"""Where a recording's table is saved, and whether somebody else has changed it there.
+"""File in which a recording's table is saved; detects changes by other programs.
 
-It is ``walk.segments.json`` beside ``walk.bvh``. Where that file is the table of
-another recording (``walk.c3d``), of an earlier one of that name, or no table at
-all, it is left alone, and ``walk.bvh.segments.json`` or a numbered name serves. That of one of
-several people is called after them, too: ``walk_anna.segments.json``.
+``walk.bvh`` has ``walk.segments.json`` beside it. If that file belongs to another recording
+(``walk.c3d``), to an older recording of that name, or is not a table, it is left alone, and
+``walk.bvh.segments.json`` or a numbered name is used. With several people, the name includes the
+person: ``walk_anna.segments.json``.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from kineme._util.files import CORRECTED, atomic_write, refuse_pipe
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.storage.listed_recording import ListedRecording
 
 
 class ChangedOnDiskError(Exception):
-    """Raised where the file is not the one that was last read or written here."""
+    """Raised if the file has changed since it was last read or written here."""
 
 
 class TableFile:
-    """File that a table is saved in, as it was last read or written here; or will be."""
+    """File of a table, which may not exist yet; remembers its last known content."""
 
     def __init__(self, path: Path):
         self.path = path
@@ -34,39 +34,37 @@ class TableFile:
 
     @property
     def exists(self) -> bool:
-        """Return whether the table has been saved."""
+        """Whether the table has been saved."""
         return self._digest is not None
 
-    def changed(self) -> bool:
-        """Return whether the file is another than the one last read or written here."""
+    def has_changed(self) -> bool:
+        """Return whether another program has changed the file."""
         if _read_stamp(self.path) == self._stamp:
             return False
         return _compute_digest(self.path) != self._digest
 
     def read(self) -> Segmentation:
-        """Return the table in the file, which counts as seen from now on."""
+        """Return the table in the file and remember its content."""
         self._stamp, self._digest = _read_stamp(self.path), _compute_digest(self.path)
         return read_segments(self.path, format="json")
 
     def write(self, content: bytes) -> None:
-        """Save a table, as `encode_table` has it, on the disk; all of it, or nothing.
+        """Save a table that `encode_table` encoded, completely or not at all.
 
-        ChangedOnDiskError where somebody else has changed the file, which stays as it is;
-        WriteError where it cannot be written, or is a link to elsewhere.
+        ChangedOnDiskError if another program has changed the file, which is kept; WriteError if it
+        cannot be written, or is a link to elsewhere.
         """
         with atomic_write(self.path) as draft:
             with draft.open("wb") as file:
                 file.write(content)
-            if self.changed():
+            if self.has_changed():
                 raise ChangedOnDiskError
-            stamp = _read_stamp(
-                draft
-            )  # which stays with it under its name; later it may be another's
+            stamp = _read_stamp(draft)  # unchanged by the rename; later another program may write
         self._stamp, self._digest = stamp, sha256(content).digest()
 
 
 def encode_table(table: Segmentation) -> bytes:
-    """Return what a file holds of a table."""
+    """Return the file content of a table."""
     return json_table.dumps(table).encode()
 
 
@@ -77,11 +75,11 @@ def find_saved_table(
     *,
     of_another: Callable[[Segmentation], bool] = lambda _: False,
 ) -> tuple[TableFile, Segmentation | None, list[str]]:
-    """Where the recording's table is saved, the table if it has been, and files left alone.
+    """Return the table file of a recording, its table if it is saved, and notes on skipped files.
 
-    ``fits`` says whether a table is of this recording, ``of_another`` whether it is of another
-    take or person of its file, which is no news; ``others`` hold the tables of other recordings.
-    WriteError where no name is left.
+    ``fits`` tells whether a table is of this recording. ``of_another`` tells whether it is of
+    another take or person of its file, which is skipped silently. ``others`` are the table files of
+    other recordings. WriteError if no name is left.
     """
     notes: list[str] = []
     for path in _list_candidate_paths(listed):
@@ -100,34 +98,34 @@ def find_saved_table(
             return file, table, notes
         if not of_another(table):
             notes.append(f"{path.name} was left alone: it is the table of another recording")
-    raise WriteError(listed.path, "has no name left for its table")
+    raise WriteError(listed.path, "has no free file name for its table")
 
 
 def list_default_table_paths(listed: ListedRecording) -> list[Path]:
-    """Return the two names that nearly every recording's table has."""
-    after = listed.with_table
-    return [after.with_name(name + CORRECTED) for name in (after.stem, after.name)]
+    """Return the two names that nearly every table has."""
+    base = listed.table_base
+    return [base.with_name(name + CORRECTED) for name in (base.stem, base.name)]
 
 
 def find_table_path(listed: ListedRecording) -> Path | None:
-    """That of them which is there, if one is."""
+    """Return the first of these that exists."""
     return next((path for path in list_default_table_paths(listed) if path.is_file()), None)
 
 
 def _list_candidate_paths(listed: ListedRecording) -> Iterator[Path]:
     yield from list_default_table_paths(listed)
-    after = listed.with_table
+    base = listed.table_base
     for number in count(2):
-        yield after.with_name(f"{after.name}.{number}{CORRECTED}")
+        yield base.with_name(f"{base.name}.{number}{CORRECTED}")
 
 
 def _read_stamp(path: Path) -> tuple[int, int, int] | None:
-    """Return what changes when a file is written; None where there is none."""
+    """Return values that change when a file is written; None if it is missing."""
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError:
         return None
-    return found.st_ino, found.st_mtime_ns, found.st_size
+    return status.st_ino, status.st_mtime_ns, status.st_size
 
 
 def _compute_digest(path: Path) -> bytes | None:

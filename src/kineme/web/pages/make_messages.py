@@ -1,14 +1,13 @@
-"""TypeScript types of the messages and of the server's paths.
+"""Generate TypeScript types of the messages and of the server's paths.
 
     python src/kineme/web/pages/make_messages.py
 
-writes ``src/messages.ts`` beside this file from `kineme.web.messages`,
-`kineme.web.requests`, `kineme.web.annotator_messages`, `kineme.web.library_messages` and
-`kineme.web.live_messages`: the same names, with
-what their docstrings begin with. Generators that start from JSON Schema lose the names of
-``Level`` and ``Edit`` and need a node package more; this one reads
-``msgspec.inspect``. ``src/studio/server/paths.ts`` has the paths of
-`kineme.studio`. A test fails while the two sides differ.
+writes ``src/messages.ts`` from `kineme.web.messages`, `kineme.web.requests`,
+`kineme.web.annotator_messages`, `kineme.web.library_messages` and `kineme.web.live_messages`, with
+the same names and the first paragraphs of docstrings. Generators that start from JSON Schema lose
+the names of ``Level`` and ``Edit`` and need another node package; this one reads
+``msgspec.inspect``. ``src/studio/server/paths.ts`` has the paths of `kineme.studio`. A test fails
+if the generated files are out of date.
 """
 
 from __future__ import annotations
@@ -31,13 +30,14 @@ from kineme.web import annotator_messages, library_messages, live_messages, mess
 
 SOURCES = Path(__file__).parent / "src"
 HEAD = "// Made from kineme/web (messages, requests) by make_messages.py; change them there.\n"
-FIRST = {str: "activity", int: 0, float: 0.0}
-"""What a column that is always needed has in a row of which nothing is known."""
-BARE = {
-    name: FIRST[column.type] if column.default is None else column.default
+REQUIRED_DEFAULTS = {str: "activity", int: 0, float: 0.0}
+"""Values of required columns in an empty row."""
+BARE_ROW = {
+    name: REQUIRED_DEFAULTS[column.type] if column.default is None else column.default
     for name, column in COLUMNS.items()
 }
-PLAIN: dict[Any, str] = {
+"""An empty row: column defaults, or `REQUIRED_DEFAULTS`."""
+PLAIN_TYPES: dict[Any, str] = {
     inspect.StrType: "string",
     inspect.IntType: "number",
     inspect.FloatType: "number",
@@ -45,6 +45,7 @@ PLAIN: dict[Any, str] = {
     inspect.NoneType: "null",
     inspect.AnyType: "unknown",
 }
+"""TypeScript names of types without parameters."""
 
 
 def format_typescript(named: dict[str, Any]) -> str:
@@ -75,7 +76,7 @@ def format_typescript(named: dict[str, Any]) -> str:
 
 
 def list_types(*modules: ModuleType) -> dict[str, Any]:
-    """Return structs that modules hold, but those that are there to be derived from, and unions."""
+    """Return the message types and unions in these modules, by name, without base classes."""
     return {
         name: kind
         for module in modules
@@ -102,11 +103,11 @@ def _format_interface(kind: Any, aliases: dict[str, inspect.Type]) -> str:
     if _is_struct(kind) and info.tag is not None:
         lines.append(f'  {info.tag_field}: "{info.tag}";')
     for field in info.fields:
-        said = _format_type(field.type, aliases)
-        # Dataclasses are sent whole, except for unset fields, which have no default here.
+        text = _format_type(field.type, aliases)
+        # Dataclasses are sent with all fields except unset ones, which have no default here.
         may_lack = not field.required and (_is_struct(kind) or field.default is NODEFAULT)
-        null = " | null" if kind is messages.Segment and _is_nan(BARE.get(field.name)) else ""
-        lines.append(f"  {field.encode_name}{'?' if may_lack else ''}: {said}{null};")
+        null = " | null" if kind is messages.Segment and _is_nan(BARE_ROW.get(field.name)) else ""
+        lines.append(f"  {field.encode_name}{'?' if may_lack else ''}: {text}{null};")
     return "\n".join([*lines, "}\n"])
 
 
@@ -115,10 +116,10 @@ def _is_nan(value: Any) -> bool:
 
 
 def _format_bare_row() -> str:
-    """Return a row of which nothing is known, to be filled."""
+    """Return an empty row as a TypeScript constant."""
     cells = "".join(
         f"  {name}: {json.dumps(None if _is_nan(value) else value)},\n"
-        for name, value in BARE.items()
+        for name, value in BARE_ROW.items()
     )
     return (
         "/** A row of which nothing is known. */\n"
@@ -127,11 +128,11 @@ def _format_bare_row() -> str:
 
 
 def _format_type(info: Any, aliases: dict[str, inspect.Type]) -> str:
-    """A type as TypeScript has it; TypeError for a kind that messages have not used so far."""
+    """Return a type as TypeScript; TypeError for kinds that no message has used so far."""
     for name, known in aliases.items():
         if info == known:
             return name
-    plain = next((text for kind, text in PLAIN.items() if isinstance(info, kind)), None)
+    plain = next((text for kind, text in PLAIN_TYPES.items() if isinstance(info, kind)), None)
     if plain is not None:
         return plain
     if isinstance(info, inspect.StructType | inspect.DataclassType):
@@ -160,7 +161,7 @@ def _format_alternatives(info: Any, aliases: dict[str, inspect.Type]) -> str:
 
 
 def _format_comment(text: str) -> str:
-    """Return the first paragraph of a docstring as a JSDoc comment, its markup as Markdown."""
+    """Return the first paragraph of a docstring as a JSDoc comment with Markdown."""
     first = text.strip().split("\n\n")[0]
     first = re.sub(r":\w+:`~?([\w.]+)`", r"`\1`", first.replace("``", "`"))
     lines = [line.strip() for line in first.splitlines()]
@@ -170,16 +171,16 @@ def _format_comment(text: str) -> str:
 
 
 def format_messages() -> str:
-    """Return what ``messages.ts`` holds."""
-    of_table = {"Level": Level, "Kind": Kind, "Segment": messages.Segment}
+    """Return the content of ``messages.ts``."""
+    table_types = {"Level": Level, "Kind": Kind, "Segment": messages.Segment}
     types = list_types(messages, requests, annotator_messages, library_messages, live_messages)
-    return f"{format_typescript(of_table | types)}\n{_format_bare_row()}"
+    return f"{format_typescript(table_types | types)}\n{_format_bare_row()}"
 
 
 def format_paths() -> str:
-    """Return what ``studio/server/paths.ts`` holds."""
-    nobody: Any = None  # routes are listed without anyone to answer
-    routes = [*Api(nobody, nobody).routes(), *LibraryApi(nobody, nobody).routes()]
+    """Return the content of ``studio/server/paths.ts``."""
+    unused: Any = None  # routes can be listed without a server
+    routes = [*Api(unused, unused).routes(), *LibraryApi(unused, unused).routes()]
     return (
         "// Made from the routes of kineme/studio by make_messages.py; change them there.\n\n"
         "/** What is asked for; names in braces are filled in. */\n"
@@ -191,11 +192,12 @@ def format_paths() -> str:
 
 def _format_path_union(routes: list[Route], method: str) -> str:
     paths = sorted(route.path for route in routes if method in (route.methods or ()))
-    return "".join(f'\n  | "{path}"' for path in paths if ":" not in path)  # but for any other
+    # Without the catch-all route.
+    return "".join(f'\n  | "{path}"' for path in paths if ":" not in path)
 
 
 def make_files() -> dict[Path, str]:
-    """Return the files that are made, and what they hold."""
+    """Return the generated files and their content."""
     return {
         SOURCES / "messages.ts": format_messages(),
         SOURCES / "studio" / "server" / "paths.ts": format_paths(),

@@ -4,7 +4,7 @@ export type Level = "activity" | "primitive";
 
 export type Kind = "activity" | "primitive" | "transition";
 
-/** A row of the segment table, and what people did to it where they did something. */
+/** A row of the segment table with its annotations, which are unset by default. */
 export interface Segment {
   level: Level;
   kind: Kind;
@@ -25,7 +25,7 @@ export interface Segment {
 
 export type Edit = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude | Together | SegmentAgain | TakeLabels | Transfer | Restore | Undo | Redo;
 
-/** A segment table as its JSON file has it (`kineme.segments/2`), marks in its rows. */
+/** A segment table in its JSON format (`kineme.segments/2`), with annotations in the rows. */
 export interface Segments {
   schema: string;
   n_frames: number;
@@ -36,7 +36,7 @@ export interface Segments {
   cluster_names: Record<string, string>;
 }
 
-/** How to read the binary motion; see `kineme.web.display`. */
+/** Layout of the binary motion; see `kineme.web.display`. */
 export interface MotionHead {
   n_samples: number;
   sample_fps: number;
@@ -56,14 +56,14 @@ export interface MatrixHead {
   sizes: number[];
 }
 
-/** A curve over time: a joint's height, a channel; `group` says what it is of that name. */
+/** A curve over time, such as a joint's height or a channel; `group` is its quantity. */
 export interface Curve {
   name: string;
   group: string;
   unit: string;
 }
 
-/** Curves of a recording and their levels; see `kineme.web.curves`. */
+/** Curves of a recording and the layout of their levels; see `kineme.web.curves`. */
 export interface CurveList {
   curves: Curve[];
   factor: number;
@@ -71,7 +71,7 @@ export interface CurveList {
   levels: number;
 }
 
-/** What can be measured of a repetition, as `kineme info --channels` has it. */
+/** A channel that can be measured for each repetition, as in `kineme info --channels`. */
 export interface CycleChannel {
   name: string;
   unit: string;
@@ -79,12 +79,12 @@ export interface CycleChannel {
   opposite: string;
 }
 
-/** Channels of a recording, those first that are measured where nobody says which. */
+/** Channels of a recording; those measured by default come first. */
 export interface CycleChannels {
   channels: CycleChannel[];
 }
 
-/** A repetition: from 0 to 100 % of the cycle, evenly; null where nothing was recorded. */
+/** A repetition, sampled evenly from 0 to 100 % of the cycle; null if missing. */
 export interface CycleCurve {
   start_frame: number;
   start_s: number;
@@ -95,7 +95,7 @@ export interface CycleCurve {
   values: (number | null)[];
 }
 
-/** Mean curve of the same movement in another recording, of `n` of `total` repetitions. */
+/** Mean curve of the same movement in another recording, over `n` of `total` repetitions. */
 export interface OtherSession {
   n: number;
   total: number;
@@ -104,7 +104,7 @@ export interface OtherSession {
   differs: boolean[];
 }
 
-/** A channel over the repetitions of a cluster, and of those with the same name. */
+/** A channel over the repetitions of a cluster, and of clusters with the same name. */
 export interface ClusterCurves {
   channel: string;
   unit: string;
@@ -126,20 +126,20 @@ export interface ReportCurves {
   tables: Record<string, number>[];
 }
 
-/** Same recording, coarser (`detail` below 1) or finer. */
+/** Table of the same recording at another detail; below 1 is coarser. */
 export interface TableAtDetail {
   detail: number;
   segments: Segment[];
 }
 
-/** What is drawn over a video, whose picture has so many pixels; see `kineme.web.film`. */
+/** Keypoints drawn over a video with this size in pixels; see `kineme.web.video`. */
 export interface Picture {
   width: number;
   height: number;
   keypoints: MotionHead;
 }
 
-/** A video of the recording, and when in it the recording starts, seconds. */
+/** A video of the recording, and the time in it at which the recording starts, in seconds. */
 export interface Video {
   name: string;
   offset_s: number;
@@ -147,7 +147,7 @@ export interface Video {
   address?: string;
 }
 
-/** Everything a page needs of one recording but the binary parts. */
+/** Everything that a page needs of a recording except the binary parts. */
 export interface Recording {
   id: string;
   name: string;
@@ -181,7 +181,7 @@ export interface TableChange {
   cluster_names: Record<string, string>;
 }
 
-/** What an edit made, already on the disk as `saved`. */
+/** Result of an edit, already saved in the file `saved`. */
 export interface Edited {
   revision: number;
   change: TableChange | null;
@@ -192,13 +192,13 @@ export interface Edited {
   notes: string[];
 }
 
-/** What people call a score, and what it measures. */
+/** Title of a score, and what it measures. */
 export interface ScoreMeaning {
   title: string;
   help: string;
 }
 
-/** Other result, and how well the shown one agrees with it. */
+/** Another result, and the agreement of the shown table with it. */
 export interface Comparison {
   name: string;
   segmentation: Segments;
@@ -207,7 +207,7 @@ export interface Comparison {
   differences?: [number, number][];
 }
 
-/** A table that would take the place of the present one. */
+/** A table that could replace the present one. */
 export interface Preview {
   segmentation: Segments;
   corrections: number;
@@ -217,7 +217,7 @@ export interface Preview {
   detail: number;
 }
 
-/** A table that was replaced; `edit` made it, null: it was found, or came from elsewhere. */
+/** A table that was replaced; `edit` made it, null for a segmentation or a foreign table. */
 export interface Version {
   number: number;
   at: string;
@@ -232,7 +232,7 @@ export interface Versions {
   versions: Version[];
 }
 
-/** A repetition as a loop: the number of its row in the table, and how good it would be. */
+/** A repetition as a loop: the number of its row in the table, and its quality. */
 export interface LoopRow {
   number: number;
   rank: number;
@@ -243,12 +243,12 @@ export interface LoopRow {
   speed_m_s: number;
 }
 
-/** Repetitions of a recording as loops, those of a cluster together, the best first. */
+/** Repetitions of a recording as loops, grouped by cluster, the best first. */
 export interface Loops {
   loops: LoopRow[];
 }
 
-/** A round of a loop as it would be written, its first frame again at the end. */
+/** One round of a loop as it would be exported; the first frame is repeated at the end. */
 export interface PlayedLoop {
   motion: MotionHead;
   numbers: string;
@@ -257,7 +257,7 @@ export interface PlayedLoop {
   z: number;
 }
 
-/** What the page of a folder shows of a segment table: its columns, and what people did. */
+/** Columns of a segment table that the page of a folder shows, and its annotations. */
 export interface BriefTable {
   n_frames: number;
   fps: number;
@@ -274,7 +274,7 @@ export interface BriefTable {
   comments: number;
 }
 
-/** A recording of the folder and its table; null where nobody has segmented it yet. */
+/** A recording of the folder and its table; null if it is not segmented yet. */
 export interface FolderRecording {
   id: string;
   table: BriefTable | null;
@@ -285,13 +285,13 @@ export interface FolderTables {
   recordings: FolderRecording[];
 }
 
-/** What is being computed for a recording, and how much of that is done, 0 to 1. */
+/** Stage of the computation for a recording, and the completed fraction, 0 to 1. */
 export interface Progress {
   stage: string;
   share: number | null;
 }
 
-/** Poses that are being estimated of the video `recording`, empty where none are. */
+/** Progress of pose estimation for the video `recording`, which is empty if idle. */
 export interface PosesProgress {
   recording: string;
   name: string;
@@ -302,13 +302,13 @@ export interface PosesProgress {
   failed: string[];
 }
 
-/** Sent to every page when a recording's table changed or a file came. */
+/** Sent to every page when a table has changed or a file was added. */
 export interface Changed {
   recording: string;
   revision: number;
 }
 
-/** Why a request was refused, in one sentence; `people` are those one of whom is to be chosen. */
+/** Reason why a request was refused, in one sentence; `people` are the people to choose from. */
 export interface Failure {
   error: string;
   people?: string[];
@@ -327,7 +327,7 @@ export interface Parameter {
   unit: string;
 }
 
-/** A preset, and those of its constants that the page offers to change. */
+/** A preset and its constants that the page offers to change. */
 export interface PresetChoice {
   name: string;
   help: string;
@@ -349,20 +349,20 @@ export interface Listing {
   to_name: number;
 }
 
-/** A file of the folder that an operation can use: a knowledge base, a label file. */
+/** A knowledge base or label file of the folder. */
 export interface FileChoice {
   id: string;
   name: string;
 }
 
-/** A format that segments can be written in, and the suffix of what is downloaded. */
+/** A format in which segments can be downloaded, and its suffix. */
 export interface ExportFormat {
   name: string;
   suffix: string;
   help: string;
 }
 
-/** What the studio offers: the first message a page asks for. */
+/** What the studio offers; the first message that a page requests. */
 export interface State {
   version: string;
   folder: string;
@@ -387,14 +387,14 @@ export interface MoveBorder {
   to: number;
 }
 
-/** A new border at `frame`. */
+/** Insert a border at `frame`. */
 export interface Split {
   kind: "split";
   level: Level;
   frame: number;
 }
 
-/** Make the segments of `[start_frame, stop_frame)` one. */
+/** Merge the segments in `[start_frame, stop_frame)`. */
 export interface Merge {
   kind: "merge";
   level: Level;
@@ -402,7 +402,7 @@ export interface Merge {
   stop_frame: number;
 }
 
-/** Make the two segments that meet at `frame` one, like the longer of them. */
+/** Merge the two segments that meet at `frame`; the longer one sets label and cluster. */
 export interface DeleteBorder {
   kind: "delete_border";
   level: Level;
@@ -417,14 +417,14 @@ export interface NameSegment {
   label: string;
 }
 
-/** All segments of a cluster, of both levels, get a label. */
+/** Label all segments of a cluster, on both levels. */
 export interface NameCluster {
   kind: "name_cluster";
   cluster: number;
   label: string;
 }
 
-/** Put the segment that starts at `frame` into a cluster; -1: into none. */
+/** Move the segment that starts at `frame` to a cluster; -1 means none. */
 export interface SetCluster {
   kind: "set_cluster";
   level: Level;
@@ -432,7 +432,7 @@ export interface SetCluster {
   cluster: number;
 }
 
-/** Make the segment that starts at `frame` a transition in no cluster, or no transition. */
+/** Turn the segment that starts at `frame` into a transition without cluster, or back. */
 export interface SetKind {
   kind: "set_kind";
   level: Level;
@@ -440,7 +440,7 @@ export interface SetKind {
   to: Kind;
 }
 
-/** Segment the recording again by a preset; `keep` takes over corrections and names. */
+/** Segment the recording again by a preset; `keep` transfers corrections and names. */
 export interface SegmentAgain {
   kind: "segment";
   preset: string;
@@ -449,27 +449,27 @@ export interface SegmentAgain {
   detail?: number;
 }
 
-/** Move the segments of a cluster into another one, `into`. */
+/** Move all segments of a cluster to the cluster `into`. */
 export interface MergeClusters {
   kind: "merge_clusters";
   cluster: number;
   into: number;
 }
 
-/** Move the primitives of a cluster that start at `frames` into a new cluster. */
+/** Move the primitives that start at `frames` from their cluster to a new one. */
 export interface SplitCluster {
   kind: "split_cluster";
   cluster: number;
   frames: number[];
 }
 
-/** Number the clusters in this order. */
+/** Renumber the clusters in this order. */
 export interface OrderClusters {
   kind: "order_clusters";
   order: number[];
 }
 
-/** Comment the segment that starts at `frame`; an empty comment removes it. */
+/** Comment on the segment that starts at `frame`; an empty comment removes it. */
 export interface Remark {
   kind: "comment";
   level: Level;
@@ -477,7 +477,7 @@ export interface Remark {
   text: string;
 }
 
-/** Mark the segments that start at `frames` as checked, or no longer. */
+/** Mark the segments that start at `frames` as checked or unchecked. */
 export interface Check {
   kind: "check";
   level: Level;
@@ -485,26 +485,26 @@ export interface Check {
   checked: boolean;
 }
 
-/** Leave the primitives that start at `frames` out of all means, or count them again. */
+/** Exclude the primitives that start at `frames` from all means, or include them again. */
 export interface Exclude {
   kind: "exclude";
   frames: number[];
   excluded: boolean;
 }
 
-/** What a label file of the folder says becomes the table. */
+/** Replace the table by a label file of the folder. */
 export interface TakeLabels {
   kind: "take_labels";
   annotation: string;
 }
 
-/** A table that was replaced is the present one again. */
+/** Restore a table that was replaced. */
 export interface Restore {
   kind: "restore";
   version: number;
 }
 
-/** Labels from a knowledge base of the folder. */
+/** Label segments from a knowledge base of the folder. */
 export interface Transfer {
   kind: "transfer";
   knowledge_base: string;
@@ -517,27 +517,27 @@ export interface Undo {
   kind: "undo";
 }
 
-/** Redo the last edit that was undone. */
+/** Redo the edit that was undone last. */
 export interface Redo {
   kind: "redo";
 }
 
 export type ByHand = MoveBorder | Split | Merge | DeleteBorder | NameSegment | NameCluster | SetCluster | SetKind | MergeClusters | SplitCluster | OrderClusters | Remark | Check | Exclude;
 
-/** Several edits, one after the other, which are one step of undo; all of them or none. */
+/** Apply several edits as one undo step; all or none. */
 export interface Together {
   kind: "together";
   edits: ByHand[];
 }
 
-/** An edit of the table as it was at `revision`. */
+/** An edit of the table with this revision. */
 export interface EditRequest {
   revision: number;
   edit: Edit;
   name?: string;
 }
 
-/** A segmentation to look at, as `SegmentAgain` would make it. */
+/** Preview the result of `SegmentAgain`. */
 export interface PreviewRequest {
   preset: string;
   parameters: Record<string, number>;
@@ -545,24 +545,24 @@ export interface PreviewRequest {
   detail?: number;
 }
 
-/** Labels that all recordings of the folder share, those on the keys 1 to 9 first. */
+/** Labels that all recordings of the folder share; the first nine are on the keys 1 to 9. */
 export interface LabelsRequest {
   labels: string[];
 }
 
-/** A knowledge base of that name, of the named primitives of recordings. */
+/** Create a knowledge base with this name from the named primitives of recordings. */
 export interface KnowledgeRequest {
   name: string;
   recordings: string[];
 }
 
-/** Segments by their rows in the table, as motion files; with `loops` made to close. */
+/** Export these rows of the table as motion files; with `loops` their ends are blended. */
 export interface ClipsRequest {
   rows: number[];
   loops: boolean;
 }
 
-/** Where the recording starts in its reference video, seconds. */
+/** Time in the reference video at which the recording starts, in seconds. */
 export interface VideoRequest {
   offset_s: number;
 }
@@ -572,31 +572,31 @@ export interface PosesRequest {
   recordings: string[];
 }
 
-/** How a recording is read: what is to be other than the file says, by its name. */
+/** Reading options of a recording by name; they replace what the file states. */
 export interface ReadRequest {
   options: Record<string, string | number | boolean | string[]>;
   everybody?: boolean;
 }
 
-/** Another result to lay beside the shown one: a preset's, or a file's of the folder. */
+/** Compare with another result: that of a preset, or a label file of the folder. */
 export interface CompareRequest {
   preset?: string;
   annotation?: string;
 }
 
-/** Somebody who labelled so many recordings of the folder. */
+/** A person who labelled this number of recordings of the folder. */
 export interface AnnotatorChoice {
   id: string;
   name: string;
   recordings: number;
 }
 
-/** Who is to be compared, by their ids. */
+/** Ids of the people to compare. */
 export interface AgreementRequest {
   annotators: string[];
 }
 
-/** How far two people agree, on the recordings that both labelled. */
+/** Agreement of two people on the recordings that both labelled. */
 export interface AgreementPair {
   annotators: [string, string];
   cohen_kappa: number | null;
@@ -604,14 +604,14 @@ export interface AgreementPair {
   recordings: number;
 }
 
-/** A span in seconds in which not all say the same, and what each says; empty is nothing. */
+/** A span in seconds where labels differ, and the label of each person; empty if unlabelled. */
 export interface Difference {
   start_s: number;
   stop_s: number;
   labels: string[];
 }
 
-/** How far those agree who labelled a recording, and where they differ. */
+/** Agreement of the people who labelled a recording, and where they differ. */
 export interface RecordingAgreement {
   id: string;
   name: string;
@@ -620,7 +620,7 @@ export interface RecordingAgreement {
   differences: Difference[];
 }
 
-/** How far people agree over the folder. */
+/** Agreement of people over the folder. */
 export interface Agreement {
   annotators: string[];
   by_names: boolean;
@@ -630,13 +630,13 @@ export interface Agreement {
   failures: string[];
 }
 
-/** What somebody says of the open recording. */
+/** Labels of one person for the open recording. */
 export interface LabelLane {
   name: string;
   segmentation: Segments;
 }
 
-/** A recording of a library; `id` is what the studio opens it by, empty where it is gone. */
+/** A recording of a library; `id` opens it in the studio and is empty if its file is gone. */
 export interface LibraryRecording {
   recording: string;
   id: string;
@@ -645,7 +645,7 @@ export interface LibraryRecording {
   duration_s: number;
 }
 
-/** A cluster of a library, as `kineme.library.open_library.Cluster` tells it. */
+/** A cluster of a library; see `kineme.library.open_library.Cluster`. */
 export interface LibraryCluster {
   cluster: number;
   label: string;
@@ -661,7 +661,7 @@ export interface LibraryCluster {
   unsure: number;
 }
 
-/** A library: its recordings, its clusters, and what could not be read, with the reason. */
+/** A library: its recordings, its clusters, and files that could not be read, with the reason. */
 export interface LibraryState {
   folder: string;
   hours: number;
@@ -671,7 +671,7 @@ export interface LibraryState {
   undo: string;
 }
 
-/** Where a recording is like an example; `label` is that of the cluster. */
+/** A match of a search; `label` is that of the cluster. */
 export interface LibraryHit {
   recording: string;
   start_s: number;
@@ -682,18 +682,18 @@ export interface LibraryHit {
   name?: string;
 }
 
-/** What a search found, the nearest first. */
+/** Matches of a search, the nearest first. */
 export interface LibraryHits {
   hits: LibraryHit[];
 }
 
-/** How many hits have the name now, and which have not, with the reason. */
+/** Number of hits that were named, and reasons for those that were not. */
 export interface NamedHits {
   named: number;
   left: string[];
 }
 
-/** A span of a recording to be drawn small: a motion, its numbers in base 64, or curves. */
+/** A small figure of a span: a motion with its numbers in base 64, or curves. */
 export interface LibraryFigure {
   motion: MotionHead | null;
   numbers: string;
@@ -707,7 +707,7 @@ export interface Span {
   stop_s: number;
 }
 
-/** What is searched for: any of the spans, or what is typical of a cluster; and unlike what. */
+/** Search for the spans in `like` or a cluster; leave out what is nearer to `unlike`. */
 export interface SearchRequest {
   like: Span[];
   unlike: Span[];
@@ -717,27 +717,27 @@ export interface SearchRequest {
   cluster?: number;
 }
 
-/** A name for the segments that hits show, each alone; an empty one takes it away. */
+/** Name the segments that hits show; an empty name removes the name. */
 export interface CallHits {
   name: string;
   hits: Span[];
 }
 
-/** A name for a cluster of the library; an empty one takes it away. */
+/** Name a cluster of the library; an empty name removes the name. */
 export interface CallCluster {
   kind: "name";
   cluster: number;
   name: string;
 }
 
-/** Others become part of a cluster of the library, which keeps its number and name. */
+/** Merge other clusters into a cluster of the library, which keeps its number and name. */
 export interface JoinClusters {
   kind: "merge";
   cluster: number;
   others: number[];
 }
 
-/** What a cluster of the library has in some recordings becomes a cluster of its own. */
+/** Move the part of a cluster in some recordings to a new cluster. */
 export interface PartCluster {
   kind: "split";
   cluster: number;
@@ -751,12 +751,12 @@ export interface UndoEdit {
 
 export type LibraryEdit = CallCluster | JoinClusters | PartCluster | UndoEdit;
 
-/** Saved tables take numbers and names of clusters from the library. */
+/** Update clusters and names of saved tables from the library. */
 export interface TablesRequest {
   names: boolean;
 }
 
-/** What a cluster of one recording is called now holds for it in all recordings. */
+/** Rename a cluster of one recording in all recordings. */
 export interface CallEverywhere {
   recording: string;
   cluster: number;
@@ -764,14 +764,14 @@ export interface CallEverywhere {
   label: string;
 }
 
-/** How many tables were changed, how many clusters keep another name, and what failed, why. */
+/** Number of changed tables, number of clusters that kept another name, and failures. */
 export interface TablesChanged {
   tables: number;
   others: number;
   left: string[];
 }
 
-/** An event of a stream; 0 or empty is what its kind does not have. */
+/** An event of a stream; fields that its kind does not have are 0 or empty. */
 export interface LiveEvent {
   event: "ActivityEnded" | "ActivityStarted" | "Gap" | "Notice" | "Repetition";
   at_s: number;
@@ -785,14 +785,14 @@ export interface LiveEvent {
   text: string;
 }
 
-/** What does not change in a stream: names of the curves, and joints that are connected. */
+/** Constant data of a stream: names of the curves, and joints that are connected. */
 export interface LiveHead {
   channels: string[];
   sample_fps: number;
   bones: [number, number][];
 }
 
-/** What is new since the update before; the first one has a head. */
+/** Changes since the previous update; only the first one has a head. */
 export interface LiveUpdate {
   head: LiveHead | null;
   now_s: number;

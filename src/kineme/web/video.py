@@ -1,7 +1,7 @@
-"""Describe the video of a recording as a page shows it: its place, and what is drawn over it.
+"""Describe the video of a recording for a page: its start, and the keypoints drawn over it.
 
-Keypoints are sent to the page as poses are (`kineme.web.display`): x and y are pixels of the
-picture, y from the top, and z is the confidence in hundredths.
+Keypoints are encoded like poses (`kineme.web.display`): x and y are pixels, y from the top, and z
+is the confidence in hundredths.
 """
 
 from __future__ import annotations
@@ -20,9 +20,10 @@ from kineme.web.messages import MotionHead, Picture, Video
 
 @dataclass(frozen=True, eq=False)
 class DrawnPicture:
-    """How to read ``binary``, the keypoints of a recording in the picture of its video.
+    """Keypoints of a recording in the picture of its video.
 
-    ``start_s`` is where in the video the recording starts.
+    ``picture`` tells how to read ``binary``. ``start_s`` is the time in the video at which the
+    recording starts.
     """
 
     picture: Picture
@@ -31,7 +32,7 @@ class DrawnPicture:
 
 
 def draw_picture(recording: Path, person: str | None = None) -> DrawnPicture | None:
-    """Return what is drawn over the video of a recording; None where its poses are of none."""
+    """Return the keypoints over the video of a recording; None if its poses are not from one."""
     overlay = find_overlay(recording, person)
     if overlay is None or not overlay.width:
         return None
@@ -52,14 +53,14 @@ def draw_picture(recording: Path, person: str | None = None) -> DrawnPicture | N
 
 
 def describe_video(
-    recording: Path, drawn: DrawnPicture | None, offset_s: float | None = None
+    recording: Path, picture: DrawnPicture | None, offset_s: float | None = None
 ) -> Video | None:
-    """Return what a page is told of the video of a recording; None where there is none.
+    """Return the message about the video of a recording; None if there is none.
 
-    ``offset_s`` is where in it the recording starts, where people said so.
+    ``offset_s`` is the time in the video at which the recording starts, if the user set it.
     """
-    found = find_video(recording)
-    if found is None:
+    path = find_video(recording)
+    if path is None:
         return None
-    start = drawn.start_s if drawn and offset_s is None else offset_s or 0.0
-    return Video(name=found.name, offset_s=start, picture=drawn.picture if drawn else UNSET)
+    start = picture.start_s if picture and offset_s is None else offset_s or 0.0
+    return Video(name=path.name, offset_s=start, picture=picture.picture if picture else UNSET)

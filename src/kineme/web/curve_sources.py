@@ -1,6 +1,6 @@
-"""What curves are drawn of a recording: heights, speeds, angles, channels.
+"""Curves that a page draws of a recording: heights, speeds, angles, channels.
 
-Angles and speeds are those that `kineme.cycles` measures.
+Angles and speeds are computed as in `kineme.cycles`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from kineme.recordings import Motion, Signals
 
 @dataclass(frozen=True)
 class CurveSource:
-    """A curve, and how it comes from a recording."""
+    """A curve and the function that computes it from a recording."""
 
     name: str
     group: str
@@ -27,8 +27,8 @@ class CurveSource:
     values: Callable[[Motion | Signals], Floats]
     of_frames: bool = True
 
-    def with_gaps(self, recording: Motion | Signals) -> Floats:
-        """Return the values, nan in gaps."""
+    def compute(self, recording: Motion | Signals) -> Floats:
+        """Return the values, with nan in gaps."""
         values = np.array(self.values(recording), np.float64)
         for start, stop in recording.gaps if self.of_frames else ():
             values[start:stop] = np.nan
@@ -36,14 +36,14 @@ class CurveSource:
 
 
 def list_signal_curves(signals: Signals) -> list[CurveSource]:
-    """Return each channel."""
+    """Return a curve for each channel."""
     return [
         CurveSource(name, "channels", "", _make_channel(i)) for i, name in enumerate(signals.names)
     ]
 
 
 def list_analog_curves(signals: Signals, n_frames: int, fps: float) -> list[CurveSource]:
-    """Channels beside a motion of so many frames: the least and the greatest value of each."""
+    """Return a curve for each analog channel: its minimum and maximum in each frame."""
     return [
         CurveSource(name, "analog", "", _make_frame_extremes(i, n_frames, fps), of_frames=False)
         for i, name in enumerate(signals.names)
@@ -53,48 +53,49 @@ def list_analog_curves(signals: Signals, n_frames: int, fps: float) -> list[Curv
 def _make_frame_extremes(
     number: int, n_frames: int, fps: float
 ) -> Callable[[Motion | Signals], Floats]:
-    """Least and greatest value of a channel in each frame of a slower recording."""
+    """Return a function that computes minimum and maximum of a channel in each motion frame."""
 
-    def pairs(recording: Motion | Signals) -> Floats:
-        # A copy: gaps are set to nan.
+    def compute(recording: Motion | Signals) -> Floats:
+        # Copy, since gaps are set to nan.
         channel = np.array(_get_values(recording)[:, number])
         for start, stop in recording.gaps:
             channel[start:stop] = np.nan
-        # First sample of each frame; the small number guards against rounding.
+        # First sample of each frame; the small number compensates rounding errors.
         starts = np.floor(np.arange(n_frames) * (recording.fps / fps) + 1e-9).astype(np.intp)
         # The channel may end before the motion.
         starts = starts[starts < len(channel)]
-        found = np.full((n_frames, 2), np.nan)
+        extremes = np.full((n_frames, 2), np.nan)
         if len(starts):
-            found[: len(starts), 0] = np.fmin.reduceat(channel, starts)
-            found[: len(starts), 1] = np.fmax.reduceat(channel, starts)
-        return found
+            extremes[: len(starts), 0] = np.fmin.reduceat(channel, starts)
+            extremes[: len(starts), 1] = np.fmax.reduceat(channel, starts)
+        return extremes
 
-    return pairs
+    return compute
 
 
 def list_motion_curves(motion: Motion) -> list[CurveSource]:
-    """Return the body's angles; height, place and speed of each joint, and how far it is bent."""
+    """Return the body's angles, then height, speed, bend and floor position of each joint."""
     names, parents = motion.skeleton.names, motion.skeleton.parents
     lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
-    drawn = [
+    curves = [
         CurveSource(name, "height", "m", _make_coordinate(i, 1)) for i, name in enumerate(names)
     ]
-    drawn += [CurveSource(name, "speed", "m/s", _make_speed(i)) for i, name in enumerate(names)]
+    curves += [CurveSource(name, "speed", "m/s", _make_speed(i)) for i, name in enumerate(names)]
     for joint, name in enumerate(names):
-        # Bones of some length below the joint; a bend needs exactly one.
+        # Child bones with a length; a bend is only defined with exactly one.
         ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
         if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
             bend = _make_flexion(parents[joint], joint, ends[0])
-            drawn.append(CurveSource(name, "flexion angle", "°", bend))
+            curves.append(CurveSource(name, "flexion angle", "°", bend))
     for axis, group in ((0, "x"), (2, "z")):
-        drawn += [
+        curves += [
             CurveSource(name, group, "m", _make_coordinate(i, axis)) for i, name in enumerate(names)
         ]
-    angles = [each for each in channels_of(motion) if each.group == ANGLE]
+    angles = [channel for channel in channels_of(motion) if channel.group == ANGLE]
     return [
-        CurveSource(each.name, each.group, each.unit, _make_angle(each.name)) for each in angles
-    ] + drawn
+        CurveSource(channel.name, channel.group, channel.unit, _make_angle(channel.name))
+        for channel in angles
+    ] + curves
 
 
 def _make_channel(number: int) -> Callable[[Motion | Signals], Floats]:
@@ -110,7 +111,7 @@ def _make_speed(joint: int) -> Callable[[Motion | Signals], Floats]:
 
 
 def _make_flexion(parent: int, joint: int, end: int) -> Callable[[Motion | Signals], Floats]:
-    """Degrees between a bone and the next one; 0 where they are in line."""
+    """Return a function that computes the angle between two bones in degrees; 0 if straight."""
     return lambda recording: bend(
         *(_get_positions(recording)[:, each] for each in (parent, joint, end))
     )

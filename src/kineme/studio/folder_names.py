@@ -1,8 +1,8 @@
-"""A name that holds in all recordings of a folder.
+"""Rename a cluster in all recordings of a folder.
 
-Clusters are of their recordings there; what they have in common is what they are called. So what
-one is called otherwise now, others of its former name are called, too. In a library clusters are
-common: `kineme.studio.library`.
+Clusters of different recordings are only related by their names: clusters and segments elsewhere
+that have the old name get the new one. In a library clusters are shared: see
+`kineme.studio.library`.
 """
 
 from __future__ import annotations
@@ -19,16 +19,18 @@ from kineme.web.requests import ByHand, EditRequest, NameCluster, NameSegment, T
 
 
 def rename_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesChanged:
-    """Call what is called ``before`` in other recordings otherwise, in each as one step of undo.
+    """Give the new name to everything called ``before`` in other recordings, one undo step in each.
 
-    ParameterError where it had no name before, by which it would be known elsewhere.
+    ParameterError if the cluster had no name before.
     """
     if not sent.before:
-        raise ParameterError("the cluster had no name before, by which others would be known")
+        raise ParameterError(
+            "the cluster had no name before: only named clusters can be renamed elsewhere"
+        )
     changed, left = 0, []
     for name, listed in recordings.folder.recordings().items():
-        at = find_table_path(listed)
-        table = read_brief(at) if at and name != sent.recording else None
+        table_path = find_table_path(listed)
+        table = read_brief(table_path) if table_path and name != sent.recording else None
         if table is None or sent.before not in table.label:
             continue
         try:
@@ -44,10 +46,10 @@ def rename_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> Table
 
 
 def _make_edits(table: Segmentation, before: str, label: str) -> list[ByHand]:
-    """Names for the clusters that are called so, and for segments that are called so alone."""
+    """Return edits that rename the clusters with this name, and the single segments with it."""
     clusters = [cluster for cluster, name in cluster_names(table).items() if name == before]
-    alone = [row for row in table if row.label == before and row.cluster not in clusters]
+    single_rows = [row for row in table if row.label == before and row.cluster not in clusters]
     return [
         *(NameCluster(cluster=cluster, label=label) for cluster in clusters),
-        *(NameSegment(level=row.level, frame=row.start_frame, label=label) for row in alone),
+        *(NameSegment(level=row.level, frame=row.start_frame, label=label) for row in single_rows),
     ]

@@ -1,4 +1,4 @@
-"""Recordings from files: those used last stay in memory."""
+"""Read recordings and cache the most recently used ones."""
 
 from __future__ import annotations
 
@@ -12,21 +12,22 @@ from kineme.formats import ReadOptions, list_people, read_analog, read_quietly
 from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
 from kineme.studio.poses import require_poses
-from kineme.studio.storage.listed import ListedRecording
+from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.sidecars import resolve_read_options
 
 if TYPE_CHECKING:
     from kineme.recordings import Motion, Signals
 
-MOST_IN_MEMORY = 3
-"""Recordings; that of an hour can have most of a gigabyte."""
+MAX_RECORDINGS = 3
+"""Recordings in memory; an hour can take almost a gigabyte."""
 Stamp = tuple[int, int]
+"""Modification time in nanoseconds, and size in bytes."""
 
 
 class RecordingCache:
-    """Recordings used last; several can be read at once.
+    """Cache of recordings; several can be read at once.
 
-    They are read and segmented with these options where people say nothing else of one.
+    The options given here apply unless the user set others for a recording.
     """
 
     def __init__(
@@ -40,12 +41,10 @@ class RecordingCache:
         self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
 
     def read(self, listed: ListedRecording, choice: ReadOptions | None = None) -> Motion | Signals:
-        """A recording, read from its file if it is not in memory; ReadError where it cannot be.
+        """Return a recording, from memory or from its file; ReadError if it cannot be read.
 
-        PosesNeededError for a video whose poses have not been estimated.
-
-        It is read as people said of it, or as a ``choice`` says. Its provenance has what there is
-        to warn of.
+        ``choice`` replaces the saved options of the recording. PosesNeededError for a video whose
+        poses have not been estimated. Warnings are in the provenance of the result.
         """
         path, options = listed.path, resolve_read_options(listed, self.read_options, choice)
         key = path, read_stamp(path), repr(options)
@@ -53,45 +52,44 @@ class RecordingCache:
             reading = self._reading.setdefault(key, threading.Lock())
         with reading:
             with self._lock:
-                former = self._recent.get(key)
-            if former is None:
+                cached = self._recent.get(key)
+            if cached is None:
                 require_poses(path)
-            found = read_quietly(path, options) if former is None else former
+            recording = read_quietly(path, options) if cached is None else cached
             with self._lock:
-                self._recent[key] = found
+                self._recent[key] = recording
                 self._recent.move_to_end(key)
-                while len(self._recent) > MOST_IN_MEMORY:
+                while len(self._recent) > MAX_RECORDINGS:
                     self._recent.popitem(last=False)
                 self._reading.pop(key, None)
-        return found
+        return recording
 
     def extent(self, listed: ListedRecording) -> Extent:
-        """How long a recording is, for which it is read once."""
+        """Return the length of a recording, which is read once for this."""
         options = resolve_read_options(listed, self.read_options)
         key = listed.path, read_stamp(listed.path), repr(options)
         if key not in self._extents:
-            found = self.read(listed)
-            self._extents[key] = Extent(found.n_frames, found.fps, found.provenance.clock)
+            recording = self.read(listed)
+            self._extents[key] = Extent(
+                recording.n_frames, recording.fps, recording.provenance.clock
+            )
         return self._extents[key]
 
     def people(self, path: Path, choice: ReadOptions) -> tuple[str, ...]:
-        """Those in a file that is read so, where there are several; it is read for it."""
+        """Return the people in a file; empty if it does not have several."""
         return list_people(
             path, resolve_read_options(ListedRecording(path), self.read_options, choice)
         )
 
     def analog(self, listed: ListedRecording) -> Signals | None:
-        """Return the channels beside the motion in a file, read each time.
-
-        None where there are none.
-        """
+        """Read the analog channels beside a motion, uncached; None if there are none."""
         return read_analog(listed.path, resolve_read_options(listed, self.read_options))
 
 
 def read_stamp(path: Path) -> Stamp:
-    """What changes when a file is written: nanoseconds and bytes; ReadError where it is gone."""
+    """Return modification time and size of a file; ReadError if it is missing."""
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
-    return found.st_mtime_ns, found.st_size
+    return status.st_mtime_ns, status.st_size
