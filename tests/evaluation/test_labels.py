@@ -138,7 +138,10 @@ def test_one_to_one_is_the_best_of_all_assignments(pair):
     wanted, given_ = truth.labelling().per_frame(), found.per_frame()
     agreed = wanted != TRANSITION
     assert right(truth, found) == pytest.approx(
-        (naive.one_to_one(wanted, given_), naive.one_to_one(wanted[agreed], given_[agreed]))
+        (
+            naive.one_to_one_accuracy(wanted, given_),
+            naive.one_to_one_accuracy(wanted[agreed], given_[agreed]),
+        )
     )
 
 

@@ -13,7 +13,7 @@ import kineme
 from kineme.datasets import Action, synthesize
 from kineme.errors import MotionError
 from kineme.features import compute_distance_features
-from kineme.features.distances import MOST_POINTS, VARIATION, choose_spread_points, have_bones
+from kineme.features.distances import MAX_POINTS, VARIATION, choose_spread_points, have_bones
 from kineme.recordings import Signals
 
 WALK = synthesize([Action("walk", 6), Action("kick", 5)], fps=30, seed=1).motion.positions
@@ -45,8 +45,8 @@ def test_some_points_of_many_stand_for_all() -> None:
         len(WALK), -1, 3
     )
     chosen = choose_spread_points(cloud)
-    assert len(chosen) == MOST_POINTS
-    assert len({point // 6 for point in chosen}) == MOST_POINTS  # none twice
+    assert len(chosen) == MAX_POINTS
+    assert len({point // 6 for point in chosen}) == MAX_POINTS  # none twice
 
 
 def test_points_in_one_place_and_points_of_the_lab_are_left_out() -> None:

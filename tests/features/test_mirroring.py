@@ -117,7 +117,7 @@ def test_rotations_of_the_mirrored_motion_give_its_positions() -> None:
 def test_features_equal_to_the_naive_version() -> None:
     rows = np.random.default_rng(0).normal(size=(6, 45))
     expected = [
-        [number for block in np.split(row, 3) for number in naive.mirrored_pose(block)]
+        [number for block in np.split(row, 3) for number in naive.mirror_pose(block)]
         for row in rows
     ]
     np.testing.assert_array_equal(mirror_features(rows), expected)

@@ -32,7 +32,7 @@ def at_speed(features: np.ndarray, speed: float) -> np.ndarray:
 def test_equal_to_the_naive_version(n: int, m: int, seed: int) -> None:
     recording, example = directions(n, seed), directions(m, seed + 100)
     costs, starts = warp(example, recording)
-    expected, begins = naive.warpings(cdist(recording, example))
+    expected, begins = naive.find_warpings(cdist(recording, example))
     np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-3)  # float32
     possible = np.isfinite(expected)
     assert starts[possible].tolist() == np.array(begins)[possible].tolist()

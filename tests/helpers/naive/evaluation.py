@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def one_to_one(wanted, given):
+def one_to_one_accuracy(wanted, given):
     """The best share of frames over every assignment of found labels to classes."""
     from itertools import permutations
 
@@ -24,7 +24,7 @@ def one_to_one(wanted, given):
     return best / len(wanted)
 
 
-def warped_cost(cost, step):
+def find_cheapest_cost(cost, step):
     """Dynamic time warping by its recursion."""
     total = np.full((cost.shape[0] + 1, cost.shape[1] + 1), np.inf)
     total[0, 0] = 0
@@ -36,7 +36,7 @@ def warped_cost(cost, step):
     return total[-1, -1]
 
 
-def cloud_distance(points, i, j, *, half):
+def compute_cloud_distance(points, i, j, *, half):
     """Kovar and Gleicher's distance by trying every turn in steps of 0.1 degrees."""
     a, b = (points[f - half : f + half + 1].reshape(-1, 3) for f in (i, j))
     best = np.inf

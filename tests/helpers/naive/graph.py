@@ -8,7 +8,7 @@ import numpy as np
 # A graph is a dict of stored pairs {(i, j): distance}; a path is a list of pairs.
 
 
-def neighbors(features, others=None, *, radius, k=None, max_lag=None):
+def find_neighbors(features, others=None, *, radius, k=None, max_lag=None):
     others = features if others is None else others
     pairs = {}
     for i, x in enumerate(features):
@@ -16,10 +16,10 @@ def neighbors(features, others=None, *, radius, k=None, max_lag=None):
             distance = np.sqrt(sum((a - b) ** 2 for a, b in zip(x, y, strict=True)))
             if distance <= radius and (max_lag is None or abs(j - i) <= max_lag):
                 pairs[i, j] = np.float32(distance)
-    return pairs if k is None else nearest(pairs, k)
+    return pairs if k is None else select_nearest(pairs, k)
 
 
-def nearest(pairs, k):
+def select_nearest(pairs, k):
     kept = {}
     for row in {i for i, _ in pairs}:
         found = sorted((distance, j) for (i, j), distance in pairs.items() if i == row)
@@ -27,7 +27,7 @@ def nearest(pairs, k):
     return kept
 
 
-def components(pairs, steps):
+def label_components(pairs, steps):
     """The first pair, in order of rows and columns, that each pair is connected with."""
     edges = {pair: set() for pair in pairs}
     for t, j in pairs:
@@ -46,14 +46,14 @@ def components(pairs, steps):
     return firsts
 
 
-def cheapest_paths(pairs, rows, columns, *, steps, skip_penalty, zero_cost, separation=None):
+def find_paths_in_box(pairs, rows, columns, *, steps, skip_penalty, zero_cost, separation=None):
     """Paths and costs of every component of a box, by relaxing edges until nothing changes."""
     inside = {
         (t, j): float(distance) or zero_cost
         for (t, j), distance in pairs.items()
         if rows[0] <= t < rows[1] and columns[0] <= j < columns[1]
     }
-    firsts = components(inside, steps)
+    firsts = label_components(inside, steps)
     found = []
     for first in set(firsts.values()):
         nodes = sorted(pair for pair in inside if firsts[pair] == first)
@@ -86,7 +86,7 @@ def cheapest_paths(pairs, rows, columns, *, steps, skip_penalty, zero_cost, sepa
 # --- matching: every warping of an example onto a recording, one by one ------------------------
 
 
-def warpings(distances):
+def find_warpings(distances):
     """For each sample the least mean distance of a warping of the example that ends there.
 
     ``distances`` (samples, m) of a recording from the example. A warping goes on by one and one,
@@ -114,7 +114,7 @@ def warpings(distances):
     return [total / m for total, _ in ends], [begin for _, begin in ends]
 
 
-def least_squares(windows, wanted, finer):
+def find_least_squares(windows, wanted, finer):
     """The least of the squared distances of each window from what is wanted."""
     return [
         min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 # --- formats: positions straight from the text of a file, one joint and frame at a time -------
 
 
-def amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
+def read_amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
     """Number and values of each frame, whose bones come in this order; None if they do not."""
     words, rows = text.split(), []
     try:
@@ -36,7 +36,7 @@ def amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
     return rows
 
 
-def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
+def compute_amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
     """Where each bone starts and ends, in metres, by bone: [start, tip]; CMU's dialect only."""
     unit = 0.0254 / float(asf.split("length")[1].split()[0])
     bones = {}
@@ -78,7 +78,7 @@ def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, F
     return results
 
 
-def bvh_positions(text: str, frames: Sequence[int]) -> list[list[Floats]]:
+def compute_bvh_positions(text: str, frames: Sequence[int]) -> list[list[Floats]]:
     """Where each joint and end site is, in file units and order; tidy files only."""
     hierarchy, motion = text.split("MOTION")
     rows = [line.split() for line in motion.strip().splitlines()[2:]]
@@ -197,14 +197,14 @@ def smooth_directions(points):
     return np.array(directions)
 
 
-def mirrored_pose(pose):
+def mirror_pose(pose):
     """One frame's 15 numbers with left and right exchanged."""
     left_ankle, right_ankle, head, left_wrist, right_wrist = np.reshape(pose, (5, 3)).tolist()
     exchanged = [right_ankle, left_ankle, head, right_wrist, left_wrist]
     return [number for x, y, z in exchanged for number in (-x, y, z)]
 
 
-def merged_cuts(main, mirrored, gap):
+def merge_cuts(main, mirrored, gap):
     """The main cuts and the mirrored ones far enough from the main ones before and after."""
     added = []
     for cut in mirrored:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def growing_squares(pairs, n, *, min_gap, min_count, min_distance):
+def find_square_cuts(pairs, n, *, min_gap, min_count, min_distance):
     """Forward and backward cuts (0-based) of square regions, each count taken anew."""
 
     def count(a, b):
@@ -24,7 +24,7 @@ def growing_squares(pairs, n, *, min_gap, min_count, min_distance):
                 z = 0
         else:
             z = 0
-    forward = peaks(c, min_count, min_distance)
+    forward = find_peaks(c, min_count, min_distance)
 
     c = {}
     ef = last = n
@@ -41,11 +41,11 @@ def growing_squares(pairs, n, *, min_gap, min_count, min_distance):
                     last = ef = i
         else:
             z = 0
-    backward = [min(peak + min_gap, n) for peak in peaks(c, min_count, min_distance)]
+    backward = [min(peak + min_gap, n) for peak in find_peaks(c, min_count, min_distance)]
     return [cut - 1 for cut in forward], [cut - 1 for cut in backward]
 
 
-def peaks(c, min_height, min_distance):
+def find_peaks(c, min_height, min_distance):
     """Keys of ``c`` at peaks: a rise before, and a fall at the next change after."""
     found = []
     for i in sorted(c):
@@ -62,7 +62,7 @@ def peaks(c, min_height, min_distance):
     return sorted(kept)
 
 
-def scanned_lines(pairs, n, *, min_gap, min_count):
+def find_scan_line_cuts(pairs, n, *, min_gap, min_count):
     """Forward and backward cuts (0-based) of regions scanned line by line."""
     forward, backward = [], []
     s, blob, z = 1, 0, 0
@@ -92,7 +92,7 @@ def scanned_lines(pairs, n, *, min_gap, min_count):
     return [cut - 1 for cut in forward], sorted(cut - 1 for cut in backward)
 
 
-def inner_neighbors(pairs, borders):
+def count_inner_neighbors(pairs, borders):
     """For each frame the neighbours in its own block."""
     block_of = [b for b in range(len(borders) - 1) for _ in range(borders[b], borders[b + 1])]
     counts = [0] * len(block_of)
@@ -101,7 +101,7 @@ def inner_neighbors(pairs, borders):
     return counts
 
 
-def symmetric_paths(paths, share):
+def mark_coherent_paths(paths, share):
     """Which paths have another, or themselves, that matches their frames the other way round."""
     return [
         any(
@@ -113,7 +113,7 @@ def symmetric_paths(paths, share):
     ]
 
 
-def chosen_cuts(paths, activity, *, min_length):
+def choose_cuts(paths, activity, *, min_length):
     """Starts of paths at a distance from the activity's ends and from starts of longer ones."""
     first, last = activity
     kept = []
@@ -125,7 +125,7 @@ def chosen_cuts(paths, activity, *, min_length):
     return sorted(kept)
 
 
-def linked_segments(paths, borders, g, *, coverage, interpolate):
+def find_linked_segments(paths, borders, g, *, coverage, interpolate):
     """Segments that paths through segment g cover enough of, and the share covered."""
 
     def overlap(a, b, c, d):
@@ -152,7 +152,7 @@ def linked_segments(paths, borders, g, *, coverage, interpolate):
     return links
 
 
-def clusters(links, connection):
+def cluster_segments(links, connection):
     """Labels by first appearance: segments that links lead between, both ways if strong."""
     n = len(links)
     reached = np.eye(n, dtype=bool)

@@ -30,11 +30,13 @@ def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
 @seconds
 def test_no_division_is_cheaper(similarity, width, penalty) -> None:
     width = min(width, len(similarity) - 1)
-    divisions = naive.divisions(len(similarity), width + 1)
+    divisions = naive.list_divisions(len(similarity), width + 1)
     found = kernels.find_change_points(one_sided(similarity, width), penalty).tolist()
     assert found in divisions
-    costs = [naive.division_cost(similarity, borders, penalty) for borders in divisions]
-    assert naive.division_cost(similarity, found, penalty) == pytest.approx(min(costs), abs=1e-4)
+    costs = [naive.compute_division_cost(similarity, borders, penalty) for borders in divisions]
+    assert naive.compute_division_cost(similarity, found, penalty) == pytest.approx(
+        min(costs), abs=1e-4
+    )
 
 
 @given(st.lists(st.integers(-1, 4), max_size=20))

@@ -43,10 +43,10 @@ def test_stretches_are_compared_as_by_the_naive_versions(seed: int) -> None:
     lengths, places = np.diff(cuts), 7
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, places)
     for found, start, length in zip(inner, cuts, lengths):
-        expected = naive.evenly_in_time(rows, start, length, places)
+        expected = naive.sample_evenly(rows, start, length, places)
         np.testing.assert_allclose(found, expected, atol=1e-5)
     mean = inner.mean(axis=0)
-    assert kernels.find_best_length(rows, cuts[0], 4, 20, mean) == naive.best_length(
+    assert kernels.find_best_length(rows, cuts[0], 4, 20, mean) == naive.find_best_length(
         rows, cuts[0], 4, 20, mean
     )
 

@@ -41,7 +41,7 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
-    best = naive.local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
+    best = naive.find_local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
     assert found == pytest.approx({first: s for first, s in best.items() if s >= least})
 
 
@@ -55,7 +55,7 @@ def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
         partners, sums, other_partners, other_sums = kernels.trace_path(
             columns, costs, each, 0.8, -2.0
         )
-        expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        expected = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)
         assert expected >= score - 1e-9
@@ -89,7 +89,7 @@ def test_a_long_path_is_followed(walk, leg) -> None:
         assert len(forth) == len(sums) == each[2] - each[0] + 1
         assert len(back) == len(back_sums) == each[3] - each[1] + 1
         assert sums[-1] == pytest.approx(back_sums[-1])
-        best = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        best = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert score - 1e-9 <= sums[-1] <= best + 1e-9
 
 
@@ -125,7 +125,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
             total, count = kernels.count_recurrences(
                 start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
             )
-            expected = naive.recurrences_of(start, stop, paths, free, cover)
+            expected = naive.find_recurrences(start, stop, paths, free, cover)
             of = [(begin, end, *part) for begin, end, _, part in expected]
             assert [tuple(span) for span in spans[:count].tolist()] == of
             assert total == pytest.approx(sum(gain for _, _, gain, _ in expected))

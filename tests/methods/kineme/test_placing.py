@@ -116,6 +116,6 @@ def test_shares_are_those_of_actions() -> None:
 
 def test_occurrences_within_some_segments_recur_there() -> None:
     found = occurring((140, 180), (220, 260), (310, 350))
-    kept = found.within(BORDERS, FREE)
+    kept = found.select_within(BORDERS, FREE)
     assert kept.starts.tolist() == [140, 220]
-    assert not len(occurring((140, 180), (310, 350)).within(BORDERS, FREE))
+    assert not len(occurring((140, 180), (310, 350)).select_within(BORDERS, FREE))

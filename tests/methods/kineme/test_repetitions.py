@@ -38,7 +38,7 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
     depths, columns = kernels.find_dips(rows, np.array([least, 0.5], np.float32))
     for found, where, values, limit in zip(depths, columns, rows, (least, 0.5), strict=True):
         pairs = [(d, c) for d, c in zip(found.tolist(), where.tolist(), strict=True) if d > 0]
-        expected = naive.dips(values.tolist(), limit)
+        expected = naive.find_dips(values.tolist(), limit)
         assert [d for d, _ in pairs] == [d for d, _ in expected]
         assert sorted(pairs) == sorted(expected)
 
@@ -188,7 +188,7 @@ def gains(draw: st.DrawFn) -> np.ndarray:
 @given(gains())
 @seconds
 def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
-    best, ends = naive.matched_lengths(gained.tolist(), 4.0)
+    best, ends = naive.match_columns(gained.tolist(), 4.0)
     found = kernels.match_columns(gained, 4.0)
     assert found in ends if best > 0 else found == (0, 0)
 
@@ -200,12 +200,12 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
     poses = rng.normal(0, 1, (12, 3))
     path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
     lengths = rng.uniform(0, path[-1] + 0.1, 5)
-    expected = naive.poses_at(poses, path, lengths)
+    expected = naive.look_up_poses(poses, path, lengths)
     np.testing.assert_array_equal(kernels.look_up_poses(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
     for centering in (0.0, 0.4, 1.0):
         found = kernels.measure_unexplained(parts, centering)
-        np.testing.assert_allclose(found, naive.unexplained(parts, centering), atol=1e-12)
+        np.testing.assert_allclose(found, naive.measure_unexplained(parts, centering), atol=1e-12)
     best, ends = naive.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
     length, counted = kernels.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
     known = min(ends, key=lambda end: abs(end[0] - length) + abs(end[1] - counted))
@@ -217,7 +217,7 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
         strict=True,
     ):
         places = a + (b - a) * (np.arange(4) + 0.5) / 4
-        np.testing.assert_array_equal(part, naive.poses_at(poses, path, places))
+        np.testing.assert_array_equal(part, naive.look_up_poses(poses, path, places))
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(2, 5), st.integers(1, 3))
@@ -226,10 +226,12 @@ def test_divisions_are_those_of_the_naive_version(seed: int, count: int, smooth:
     rng = np.random.default_rng(seed)
     rows = np.sin(np.arange(40)[:, None] / (2, 3, 5)) + rng.normal(0, 0.3, (40, 3))
     poses, speeds = kernels.smooth_rows(rows.astype(np.float32), smooth)
-    for found, expected in zip((poses, speeds), naive.smoothed(rows.astype(np.float32), smooth)):
+    for found, expected in zip((poses, speeds), naive.smooth_rows(rows.astype(np.float32), smooth)):
         np.testing.assert_allclose(found, expected, atol=1e-5)
     path = np.append(0, np.cumsum(speeds))
     visits = np.sort(rng.choice(np.arange(2, 39, 6), count, replace=False))
     options = 6, 1.0, 1.5, 0.4, 0.2
     found = kernels.measure_division(poses, path, visits, *options)
-    np.testing.assert_allclose(found, naive.division(poses, path, visits, *options), atol=1e-9)
+    np.testing.assert_allclose(
+        found, naive.measure_division(poses, path, visits, *options), atol=1e-9
+    )

@@ -57,7 +57,9 @@ def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
     width = min(width, len(features))
     found = np.empty((len(features), width), np.float32)
     kernels.compute_similarity_band(features, unit, 0, len(features), found)
-    np.testing.assert_allclose(found, naive.similarity_band(features, unit, width), atol=1e-5)
+    np.testing.assert_allclose(
+        found, naive.compute_similarity_band(features, unit, width), atol=1e-5
+    )
 
 
 @given(samples(), st.data())
@@ -67,7 +69,7 @@ def test_distances_of_segments_are_those_of_the_naive_version(features, data) ->
     borders = np.array([0, *sorted(cuts), len(features)])
     sums = tree.sum_between_segments(features, borders, 2.0)
     segments = [range(a, b) for a, b in pairwise(borders.tolist())]
-    expected = np.array(naive.mean_distances(features, segments, 2.0))
+    expected = np.array(naive.compute_mean_distances(features, segments, 2.0))
     lengths = np.diff(borders)
     np.testing.assert_allclose(sums, expected * np.outer(lengths, lengths), atol=1e-4)
 
@@ -81,7 +83,7 @@ def test_the_cheapest_grouping_is_that_of_the_naive_version(
     lengths = 1.0 + np.arange(n) % 3
     means = np.linalg.norm(features[:, None] - features, axis=2) + 0.1
     sums = np.ascontiguousarray(means * np.outer(lengths, lengths))
-    cost, groups = naive.cheapest_grouping(sums, lengths, most, run, cluster, share)
+    cost, groups = naive.find_cheapest_grouping(sums, lengths, most, run, cluster, share)
     labels = np.empty(n, np.int64)
     assert kernels.find_cheapest_grouping(
         sums.copy(), lengths.copy(), most, run, cluster, share, labels
@@ -263,7 +265,7 @@ def test_what_samples_differ_by_does_not_hang_on_what_else_a_file_has() -> None:
     minute = np.repeat(rng.normal(size=(6, 4)), 50, axis=0) + rng.normal(0, 0.1, (300, 4))
     others = [k + minute for k in range(20)]
     alone, joined = (
-        tree.compute_median_distance(np.float32(features), SENSORS.near)
+        tree.compute_median_distance(np.float32(features), SENSORS.comparison_width)
         for features in (minute, np.concatenate(others))
     )
     assert joined < 1.5 * alone
@@ -279,7 +281,7 @@ def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
         compute_views(channels, SENSORS, joints=each).views for each in (True, False)
     )
     for told, plain in zip(joints, sensors, strict=True):
-        unit = tree.compute_median_distance(plain, SENSORS.near)
+        unit = tree.compute_median_distance(plain, SENSORS.comparison_width)
         assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
         assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
         assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit

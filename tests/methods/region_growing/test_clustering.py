@@ -27,7 +27,9 @@ def test_links_are_those_of_the_naive_version(paths, data, coverage, interpolate
     linked, shares = _kernels.find_linked_segments(
         *flat(paths), np.array(borders, np.int64), g, coverage, interpolate
     )
-    expected = naive.linked_segments(paths, borders, g, coverage=coverage, interpolate=interpolate)
+    expected = naive.find_linked_segments(
+        paths, borders, g, coverage=coverage, interpolate=interpolate
+    )
     assert linked.tolist() == [h for h, _ in expected]
     np.testing.assert_allclose(shares, [share for _, share in expected])
 
@@ -57,14 +59,14 @@ def test_clusters_are_those_of_the_naive_rules(
         links.append(
             dict(
                 sorted(
-                    naive.linked_segments(
+                    naive.find_linked_segments(
                         as_lists(paths), borders, g, coverage=coverage, interpolate=interpolate
                     ),
                     key=lambda link: link[1],
                 )
             )
         )
-    labels = naive.clusters(links, connection)
+    labels = naive.cluster_segments(links, connection)
     assert found.labels.tolist() == labels
     scores = [0.0] * len(labels)
     for g, targets in enumerate(links):
