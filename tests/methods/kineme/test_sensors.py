@@ -17,7 +17,7 @@ from kineme.features.channels import compute_channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.tree import MOVED, choose_part_ends
+from kineme.methods.kineme.tree import MAX_SHIFT, choose_part_ends
 from kineme.methods.kineme.views import compute_views, measure_mutual_information, reduce_shared
 
 FPS = 50.0
@@ -192,7 +192,7 @@ def test_parts_are_whole_and_none_is_too_long(n: int, longest: int, side: int, s
     rows = np.random.default_rng(seed).normal(size=(n, 2))
     lengths = np.diff(choose_part_ends(rows, longest, side))
     assert lengths.sum() == n
-    assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MOVED))
+    assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MAX_SHIFT))
 
 
 def test_parts_meet_where_the_recording_changes() -> None:

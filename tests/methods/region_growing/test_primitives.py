@@ -11,7 +11,7 @@ import naive
 from graphs import as_lists, flat, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import neighbor_graph
-from kineme.methods.region_growing.primitives import _choose, find_primitive_cuts
+from kineme.methods.region_growing.primitives import _choose_cuts, find_primitive_cuts
 from kineme.methods.region_growing.warping import BASIC_STEPS, WarpingPaths, warping_paths
 
 seconds = settings(max_examples=60)
@@ -62,7 +62,7 @@ def test_cuts_are_those_of_the_naive_rules(graph, data, symmetry, max_slope, min
 @seconds
 def test_of_two_close_cuts_the_one_with_the_longer_path_stays(paths, min_length) -> None:
     ptr, rows, columns = flat(paths)
-    found = _choose(WarpingPaths(ptr, rows, columns, np.zeros(len(paths))), 2, 8, min_length)
+    found = _choose_cuts(WarpingPaths(ptr, rows, columns, np.zeros(len(paths))), 2, 8, min_length)
     kept = naive.choose_cuts(paths, (2 - min_length, 8 + min_length), min_length=min_length)
     assert found.cuts.tolist() == kept
 

@@ -8,8 +8,8 @@ from typing import Any
 from kineme.cli.tables import show_scores
 from kineme.errors import ReadError
 from kineme.evaluation.inputs import (
-    is_annotations,
-    make_comparison,
+    choose_comparison_rate,
+    is_annotation_file,
     read_result,
     read_trial,
     read_truth,
@@ -27,8 +27,8 @@ def score_file(
 ) -> list[dict[str, Any]]:
     """Return the scores of a result as records; printed unless quiet."""
     found = read_result(path, fps=fps)
-    n_frames, rate = make_comparison(found)
-    if is_annotations(labels):
+    n_frames, rate = choose_comparison_rate(found)
+    if is_annotation_file(labels):
         recorded = (found.provenance.get("input") or {}).get("path") or ""
         truth = read_trial(labels, trials[0] if trials else Path(recorded).stem, fps=rate)
         if truth.frames != n_frames:
