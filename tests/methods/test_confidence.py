@@ -21,7 +21,7 @@ from kineme.methods.kineme.confidence import (
 )
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
-from loops import swing
+from loops import make_swings
 
 
 def once(seconds: float, seed: int) -> np.ndarray:
@@ -37,7 +37,7 @@ def once(seconds: float, seed: int) -> np.ndarray:
 
 @pytest.mark.parametrize("period", [0.8, 1.2, 2.0])
 def test_a_clearly_periodic_activity_is_sure(period: float) -> None:
-    rows = np.concatenate([swing(10, period=period), swing(10, period=1, axis=2)])
+    rows = np.concatenate([make_swings(10, period=period), make_swings(10, period=1, axis=2)])
     found = analyze(rows, KINEME)
     assert found.segments.labels.tolist() == [0, 1]
     sure = found.confidence

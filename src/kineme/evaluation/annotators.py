@@ -289,7 +289,7 @@ class _ClassNumbers:
         return Pair(first, second, cohen_kappa(both), float(np.mean(borders)), len(compared))
 
     def stack_classes(self, first: str) -> dict[str, Ints]:
-        """Return the classes (annotators, frames) of each recording, in those of ``first``."""
+        """Return the classes (annotators, frames) of each recording, as classes of ``first``."""
         mappings: dict[str, Mapping[int, int]] = {}
         for who in {who for sides in self._truths.values() for who in sides} - {first}:
             compared = self._compare(first, who)

@@ -10,8 +10,8 @@ There are two kinds of truth:
 - Labels (`compare`). Frames without a label are removed from both sides, as is usual in action
   segmentation. Transitions of the result are an additional cluster. Borders are right within 0.5 s.
 - A `Truth` with uncertain borders (`Comparison.of`). Every frame counts, and spans in which people
-  disagree are transitions. Transitions of the result must match those of the truth; if the truth
-  has none, they may stand for one of its classes. Borders are right within the truth's own
+  disagree are transitions. Transitions of the result must match those of the truth; if the result
+  has none, one of its clusters may be mapped to them. Borders are right within the truth's own
   tolerance.
 """
 

@@ -1,4 +1,4 @@
-"""What the methods of others do, as their programs and papers say it."""
+"""Naive versions of other methods, as in their programs and papers."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def compute_dtak(kernel, a_weights, b_weights):
-    """Dynamic time alignment kernel of two segments, from the kernel between their frames."""
+    """Return the dynamic time alignment kernel of two segments, from that of their frames."""
     n, m = kernel.shape
     table = np.empty((n, m))
     for i in range(n):
@@ -26,7 +26,7 @@ def compute_dtak(kernel, a_weights, b_weights):
 
 
 def propagate_kernel(kernel, longest):
-    """Entry (a, b), a < b: the best square of width 1 to longest that has it as a corner."""
+    """Set entry (a, b), a < b, to the best square of width 1 to longest with it as a corner."""
     n = len(kernel)
     out = np.eye(n)
     for w in range(1, longest + 1):
@@ -40,7 +40,7 @@ def propagate_kernel(kernel, longest):
 
 
 def list_covers(n, shortest, longest):
-    """Every way to cut n frames into lengths of shortest to longest."""
+    """Return all ways to cut n frames into lengths of shortest to longest."""
     if n == 0:
         return [[]]
     ways = []
@@ -50,13 +50,13 @@ def list_covers(n, shortest, longest):
 
 
 def compute_cover_cost(costs, lengths):
-    """Total cost of consecutive windows of these lengths."""
+    """Return the total cost of consecutive windows of these lengths."""
     stops = np.cumsum(lengths)
     return sum(costs[stop - 1, length - 1] for stop, length in zip(stops, lengths, strict=True))
 
 
 def find_first_segmentation(labels, shortest, longest):
-    """Segment lengths as the program's ``mergeDP`` finds them, its slip included."""
+    """Return segment lengths as the program's ``mergeDP`` finds them, including its bug."""
     n = len(labels)
     best, length_at = [0.0] + [None] * n, [0] * (n + 1)
     for v in range(1, n + 1):
@@ -78,7 +78,7 @@ def find_first_segmentation(labels, shortest, longest):
 
 
 def find_pca_cut(features, first, lag):
-    """First frame whose projection error rises by more than mean + 3 deviations, or None."""
+    """Return the first frame whose projection error rises by mean + 3 deviations, or None."""
 
     def spectrum(count):
         part = features[:count]
@@ -100,7 +100,7 @@ def find_pca_cut(features, first, lag):
 
 
 def compute_ppca_distances(features, ahead, growth):
-    """H by number of frames modelled."""
+    """Return H by number of modelled frames."""
     found = {}
     for count in range(ahead, len(features) - ahead + 1, growth):
         part, following = features[:count], features[count : count + ahead]
@@ -117,7 +117,7 @@ def compute_ppca_distances(features, ahead, growth):
 
 
 def find_ppca_cut(features, ahead, growth):
-    """First peak of H a tenth of its range above the lowest H before it, or None."""
+    """Return the first peak of H a tenth of its range above the lowest H before it, or None."""
     found = compute_ppca_distances(features, ahead, growth)
     counts, values = list(found), list(found.values())
     for i in range(1, len(values) - 1):

@@ -1,4 +1,4 @@
-"""Scores, one pair of labels and one frame at a time."""
+"""Naive versions of scores, one pair of labels and one frame at a time."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def one_to_one_accuracy(wanted, given):
-    """The best share of frames over every assignment of found labels to classes."""
+    """Return the best share of right frames over all assignments of found labels to classes."""
     from itertools import permutations
 
     classes, names = sorted(set(wanted)), sorted(set(given))
@@ -25,7 +25,7 @@ def one_to_one_accuracy(wanted, given):
 
 
 def find_cheapest_cost(cost, step):
-    """Dynamic time warping by its recursion."""
+    """Return the cost of dynamic time warping by its recursion."""
     total = np.full((cost.shape[0] + 1, cost.shape[1] + 1), np.inf)
     total[0, 0] = 0
     for i in range(cost.shape[0]):
@@ -37,7 +37,7 @@ def find_cheapest_cost(cost, step):
 
 
 def compute_cloud_distance(points, i, j, *, half):
-    """Kovar and Gleicher's distance by trying every turn in steps of 0.1 degrees."""
+    """Return Kovar and Gleicher's distance by trying all turns in steps of 0.1 degrees."""
     a, b = (points[f - half : f + half + 1].reshape(-1, 3) for f in (i, j))
     best = np.inf
     for angle in np.arange(0, 2 * np.pi, np.radians(0.1)):

@@ -1,4 +1,4 @@
-"""What is near what, and the warpings between them."""
+"""Naive versions of neighbour search and warping."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def select_nearest(pairs, k):
 
 
 def label_components(pairs, steps):
-    """The first pair, in order of rows and columns, that each pair is connected with."""
+    """Return the first pair, in order of rows and columns, that is connected with each pair."""
     edges = {pair: set() for pair in pairs}
     for t, j in pairs:
         for a, b in steps:
@@ -47,7 +47,7 @@ def label_components(pairs, steps):
 
 
 def find_paths_in_box(pairs, rows, columns, *, steps, skip_penalty, zero_cost, separation=None):
-    """Paths and costs of every component of a box, by relaxing edges until nothing changes."""
+    """Return paths and costs of all components of a box, by relaxing edges until convergence."""
     inside = {
         (t, j): float(distance) or zero_cost
         for (t, j), distance in pairs.items()
@@ -87,15 +87,15 @@ def find_paths_in_box(pairs, rows, columns, *, steps, skip_penalty, zero_cost, s
 
 
 def find_warpings(distances):
-    """For each sample the least mean distance of a warping of the example that ends there.
+    """Return the least mean distance of a warping of the example that ends at each sample.
 
-    ``distances`` (samples, m) of a recording from the example. A warping goes on by one and one,
-    or by two of one and one of the other; two samples on one of the example count half each.
+    ``distances`` (samples, m) are those of a recording from the example. A warping advances both by
+    one, or one of them by two. Two samples that match one of the example count half each.
     """
     n, m = distances.shape
 
     def cheapest(j, i):
-        """Sum and beginning of the cheapest warping of the first i + 1 samples that ends at j."""
+        """Return sum and start of the cheapest warping of samples up to i that ends at j."""
         if i == 0:
             return distances[j, 0], j
         found = []
@@ -115,7 +115,7 @@ def find_warpings(distances):
 
 
 def find_least_squares(windows, wanted, finer):
-    """The least of the squared distances of each window from what is wanted."""
+    """Return the least squared distance of each window to the wanted ones."""
     return [
         min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)
         for window in windows

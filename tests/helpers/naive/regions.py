@@ -1,4 +1,4 @@
-"""Region growing: the rules as written, frames counted from 1 inside."""
+"""Naive versions of region growing: the rules as published, with frames counted from 1 inside."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def find_square_cuts(pairs, n, *, min_gap, min_count, min_distance):
-    """Forward and backward cuts (0-based) of square regions, each count taken anew."""
+    """Return forward and backward cuts (0-based) of square regions, recomputing each count."""
 
     def count(a, b):
         return sum(a <= t + 1 <= b and a <= j + 1 <= b for t, j in pairs)
@@ -46,7 +46,7 @@ def find_square_cuts(pairs, n, *, min_gap, min_count, min_distance):
 
 
 def find_peaks(c, min_height, min_distance):
-    """Keys of ``c`` at peaks: a rise before, and a fall at the next change after."""
+    """Return the keys of ``c`` at peaks: a rise before, and a fall at the next change."""
     found = []
     for i in sorted(c):
         if i - 1 in c and c[i] > c[i - 1] and c[i] > min_height:
@@ -93,7 +93,7 @@ def find_scan_line_cuts(pairs, n, *, min_gap, min_count):
 
 
 def count_inner_neighbors(pairs, borders):
-    """For each frame the neighbours in its own block."""
+    """Count the neighbours of each frame in its own block."""
     block_of = [b for b in range(len(borders) - 1) for _ in range(borders[b], borders[b + 1])]
     counts = [0] * len(block_of)
     for i, j in pairs:
@@ -102,7 +102,7 @@ def count_inner_neighbors(pairs, borders):
 
 
 def mark_coherent_paths(paths, share):
-    """Which paths have another, or themselves, that matches their frames the other way round."""
+    """Mark paths that a path matches with rows and columns exchanged."""
     return [
         any(
             sum(t in {j for _, j in q} for t, _ in p) >= share * len(p)
@@ -114,7 +114,7 @@ def mark_coherent_paths(paths, share):
 
 
 def choose_cuts(paths, activity, *, min_length):
-    """Starts of paths at a distance from the activity's ends and from starts of longer ones."""
+    """Return starts of paths that are far from the activity's ends and starts of longer paths."""
     first, last = activity
     kept = []
     for path in sorted(paths, key=len, reverse=True):
@@ -126,7 +126,7 @@ def choose_cuts(paths, activity, *, min_length):
 
 
 def find_linked_segments(paths, borders, g, *, coverage, interpolate):
-    """Segments that paths through segment g cover enough of, and the share covered."""
+    """Return segments that paths link to segment g, and the covered share."""
 
     def overlap(a, b, c, d):
         return len(set(range(a, b + 1)) & set(range(c, d + 1))) / (b - a + 1)
@@ -153,7 +153,7 @@ def find_linked_segments(paths, borders, g, *, coverage, interpolate):
 
 
 def cluster_segments(links, connection):
-    """Labels by first appearance: segments that links lead between, both ways if strong."""
+    """Label segments that are connected by links (in both directions if strong)."""
     n = len(links)
     reached = np.eye(n, dtype=bool)
     for g, targets in enumerate(links):

@@ -1,4 +1,4 @@
-"""What the method for bodies and sensors finds: its sums and best choices, all of them tried."""
+"""Naive versions of the kernels of the ``kineme`` method: literal sums and exhaustive search."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-# --- segments, and how often each repeats itself; bands are written out as full matrices -------
+# --- segments and repetitions; bands are full matrices ----------------------------------------
 
 
 def compute_division_cost(similarity, borders, penalty):
-    """What a division costs: per segment its length, less its mean similarity, plus the penalty."""
+    """Return the cost of a division: length less mean similarity plus penalty, per segment."""
     return sum(
         stop - start - similarity[start:stop, start:stop].sum() / (stop - start) + penalty
         for start, stop in pairwise(borders)
@@ -18,7 +18,7 @@ def compute_division_cost(similarity, borders, penalty):
 
 
 def list_divisions(n, longest):
-    """All borders of n samples in segments of such lengths."""
+    """Return the borders of all divisions of n samples into segments of at most ``longest``."""
     return [
         [0, *inner, n]
         for count in range(n)
@@ -28,7 +28,7 @@ def list_divisions(n, longest):
 
 
 def find_dips(row, least):
-    """(depth, column) of each dip of a row without equal values, deepest first.
+    """Return (depth, column) of each dip of a row without equal values, deepest first.
 
     A dip is a column lower than those beside it. It is as deep as one must
     climb to reach a lower column, the lowest as deep as the row is high.
@@ -47,7 +47,7 @@ def find_dips(row, least):
 
 
 def score_durations(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):
-    """What evenness leaves, less what chance would explain, by period or number."""
+    """Return evenness times the share that is not explained by chance, by period or number."""
     durations = np.diff(visits) / fps
     if len(visits) < 3 or durations.max() > longest:
         return 0.0
@@ -58,14 +58,14 @@ def score_durations(visits, fps, longest, chance_period, uneven, chance_count, c
 
 
 def match_columns(gains, full):
-    """The largest sum of a warping path through the gains, and the paths that have it.
+    """Return the largest sum of a warping path through the gains, and the paths that have it.
 
     Of each such path, its length, and how much of it counts, by gains as shares of ``full``.
     Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1) weigh 3.
     """
 
     def ends(i, j, total, counted):
-        """(sum, length, counted) of every path that goes on from here, wherever it ends."""
+        """Yield (sum, length, counted) of every continuation of a path."""
         yield total, j + 1, counted
         for down, right in ((1, 1), (1, 2), (2, 1)):
             a, b = i + down, j + right
@@ -80,13 +80,13 @@ def match_columns(gains, full):
 
 
 def look_up_poses(poses, path, lengths):
-    """The pose of the last frame at which the path is no longer than each of these lengths."""
+    """Return the pose of the last frame at which the path is at most each of these lengths."""
     last = [max((f for f in range(len(poses)) if path[f] <= x), default=0) for x in lengths]
     return np.array([poses[f] for f in last])
 
 
 def measure_unexplained(parts, centering):
-    """One minus the squared correlation, if positive, of each part with the mean of all others."""
+    """Return 1 - squared positive correlation of each part with the mean of all others."""
     rows = [(part - centering * part.mean(axis=0)).ravel() for part in parts]
     found = []
     for k, row in enumerate(rows):
@@ -96,7 +96,7 @@ def measure_unexplained(parts, centering):
 
 
 def explain_variance(poses, path, visits, repetitions):
-    """The share of each repetition's frames that the mean of the others explains, at its size."""
+    """Return the share of frames that the scaled mean of the other repetitions explains."""
     repetitions = [part - part.mean(axis=0) for part in repetitions]
     count, places = len(repetitions), len(repetitions[0])
     left = 0.0
@@ -112,7 +112,7 @@ def explain_variance(poses, path, visits, repetitions):
 
 
 def _measure_residual(repetitions):
-    """What the mean of the others, at its best size, leaves of repetitions, summed."""
+    """Return the residual of repetitions from the scaled mean of the others, summed."""
     rows = [part.ravel() for part in repetitions]
     left = 0.0
     for k, row in enumerate(rows):
@@ -123,7 +123,7 @@ def _measure_residual(repetitions):
 
 
 def find_best_parting(repetitions):
-    """The least share that means of the first and of the last leave of what one mean leaves."""
+    """Return the least residual of two means (first, last) relative to that of one mean."""
     cuts = range(2, len(repetitions) - 1)
     rough = 0.02 * np.square(repetitions).sum()
     one = _measure_residual(repetitions) + rough
@@ -135,7 +135,7 @@ def find_best_parting(repetitions):
 
 
 def measure_similarities(movements):
-    """One minus the least squared distance of two movements, rolled, over their variances."""
+    """Return 1 - least squared distance over all circular shifts / sum of variances."""
     spreads = [((each - each.mean(axis=0)) ** 2).sum() for each in movements]
     return [
         [
@@ -147,7 +147,7 @@ def measure_similarities(movements):
 
 
 def measure_spread(view, start, stop):
-    """Half the distances of each two samples of a span, by its length."""
+    """Return half of the summed distances of samples of a span, divided by its length."""
     inside = view[start:stop]
     return sum(np.linalg.norm(a - b) for a in inside for b in inside) / (2 * len(inside))
 
@@ -161,7 +161,7 @@ def follow_end(poses, path, lengths, mean, near, full):
 
 
 def compute_similarity_band(features, unit, width):
-    """One minus the distance of each sample to itself and those after it, in units."""
+    """Return 1 - distance of each sample to itself and to those after it, in units."""
     n = len(features)
     found = np.zeros((n, width))
     for i in range(n):
@@ -171,7 +171,7 @@ def compute_similarity_band(features, unit, width):
 
 
 def compute_mean_distances(features, segments, unit):
-    """The mean distance of the samples of each two segments, in units."""
+    """Return the mean distances between samples of two segments, in units."""
     return [
         [
             np.mean([[np.linalg.norm(features[a] - features[b]) for b in h] for a in g]) / unit
@@ -182,7 +182,7 @@ def compute_mean_distances(features, segments, unit):
 
 
 def smooth_rows(rows, smoothing):
-    """Means of the rows so near, and by how much these change per frame."""
+    """Return moving averages of the rows, and their mean change per frame."""
     n = len(rows)
     around = [(max(f - smoothing, 0), min(f + smoothing, n - 1)) for f in range(n)]
     poses = np.array([rows[a : b + 1].mean(axis=0) for a, b in around])
@@ -190,7 +190,7 @@ def smooth_rows(rows, smoothing):
 
 
 def measure_division(poses, path, visits, places, near, followed_for, centering, scattered):
-    """Ends before the first visit and after the last, what counts, is unexplained."""
+    """Return lengths of both ends, how much of them counts, and the unexplained share."""
     end, at = path[-1], np.array([path[visit] for visit in visits])
     lengths = np.diff(at)
     length = sorted(lengths)[len(lengths) // 2]
@@ -228,7 +228,7 @@ WARPING = ((1, 1), (1, 2), (2, 1))
 
 
 def _match_columns_by_rows(gains, full):
-    """The length of the best warping path, and what counts of it, as `match_columns` by rows."""
+    """Return the length of the best warping path and how much counts, row by row."""
     best, found, paths = 0.0, (0, 0.0), {(-1, -1): (0.0, 0.0)}
     for i in range(len(gains)):
         for j in range(len(gains[i])):
@@ -252,7 +252,7 @@ def sample_evenly(rows, start, length, places):
 
 
 def find_best_length(rows, stop, shortest, longest, mean):
-    """How long the stretch up to a frame is that is nearest to the mean."""
+    """Return the length of the span before a frame that is nearest to the mean."""
     return min(
         range(shortest, longest + 1),
         key=lambda n: ((sample_evenly(rows, stop - n, n, len(mean)) - mean) ** 2).sum(),
@@ -270,7 +270,7 @@ def score_pair(samples, costs, i, j, scale, worst):
 
 
 def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
-    """The score of the best path from each first pair, where there is one above 0."""
+    """Return the score of the best path from each first pair, if above 0."""
     n = len(samples)
     at, best = {}, {}
     for i in range(n):
@@ -290,7 +290,7 @@ def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
 
 
 def trace_path_score(samples, costs, ends, scale, worst):
-    """The score of the best path from the first of two pairs to the second."""
+    """Return the score of the best path from the first of two pairs to the second."""
     i0, j0, i1, j1 = ends
     scores = {(i0, j0): score_pair(samples, costs, i0, j0, scale, worst)}
     for i in range(i0, i1 + 1):
@@ -306,7 +306,7 @@ def trace_path_score(samples, costs, ends, scale, worst):
 
 
 def find_recurrences(start, stop, paths, free, cover):
-    """Where a stretch recurs by paths (first sample, partners, sums): spans, gains, what of it."""
+    """Return recurrences of a span by paths (first sample, partners, sums): spans, gains, parts."""
     found = []
     for first, partners, sums in paths:
         low, high = max(start, first), min(stop, first + len(sums))
@@ -332,7 +332,7 @@ def find_recurrences(start, stop, paths, free, cover):
 
 
 def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
-    """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
+    """Return cost and clusters of the cheapest grouping; compare all pairs before each merge."""
     clusters = [[g] for g in range(len(lengths))]
 
     def total(a, b):

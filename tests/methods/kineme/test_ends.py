@@ -12,7 +12,7 @@ from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.ends import Ends, fit_ends
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
-from loops import swing
+from loops import make_swings
 
 PERIOD = 36
 AWAY = np.repeat([[0.0, 0.0, 0.0, 0.0, 2.0, 2.0]], 60, axis=0)
@@ -30,7 +30,7 @@ def ends(
 
 def shaken(seed: int) -> np.ndarray:
     """Eight swings between two rests elsewhere, no two alike."""
-    rows = np.concatenate([AWAY, swing(8, period=PERIOD / 30), AWAY])
+    rows = np.concatenate([AWAY, make_swings(8, period=PERIOD / 30), AWAY])
     return rows + np.random.default_rng(seed).normal(0, 0.02, rows.shape)
 
 
@@ -68,7 +68,7 @@ def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) 
 
 def test_a_part_of_a_repetition_stays_in_the_activity_and_is_no_repetition() -> None:
     """Twelve frames more of the same movement at either end."""
-    more = swing(10, period=PERIOD / 30)[PERIOD - 12 : -PERIOD + 12]
+    more = make_swings(10, period=PERIOD / 30)[PERIOD - 12 : -PERIOD + 12]
     rows = np.concatenate([AWAY, more, AWAY])
     rows += np.random.default_rng(4).normal(0, 0.02, rows.shape)
     found = ends(rows, 60, 60 + len(more), [cut + 12 for cut in CUTS])
@@ -109,8 +109,8 @@ def test_repetitions_lie_in_their_activity_whatever_is_cut(start, length, places
 
 
 def test_what_is_part_of_no_repetition_is_a_transition_of_the_primitive_level() -> None:
-    more = swing(9, period=PERIOD / 30)[PERIOD // 3 :]
-    turn = swing(8, period=1, axis=2)
+    more = make_swings(9, period=PERIOD / 30)[PERIOD // 3 :]
+    turn = make_swings(8, period=1, axis=2)
     columns = analyze(np.concatenate([turn, more, turn]), KINEME).columns()
     primitive = columns["level"] == "primitive"
     lengths = (columns["stop_frame"] - columns["start_frame"])[primitive]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import kineme
 import naive
-from gestures import stacked, wandering
+from gestures import make_wandering, stack_features
 from kineme.datasets import random_recording
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme.found import KinemeFound
@@ -163,7 +163,7 @@ def test_two_repetitions_save_nothing() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_who_stands_or_never_does_the_same_saves_nothing(seed: int) -> None:
     assert share_saved(standing(30, seed)) == 0
-    assert share_saved(wandering(np.random.default_rng(seed), 30 * FPS)) < 0.1
+    assert share_saved(make_wandering(np.random.default_rng(seed), 30 * FPS)) < 0.1
     assert share_saved(np.zeros((20 * FPS, 6))) == 0
 
 
@@ -209,7 +209,7 @@ def test_what_is_too_short_or_too_long_saves_nothing() -> None:
 
 
 def found_in(*parts: np.ndarray) -> KinemeFound:
-    return KINEME.analyze(stacked(np.concatenate(parts)))
+    return KINEME.analyze(stack_features(np.concatenate(parts)))
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -14,7 +14,7 @@ import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.kineme.repetitions import Candidate, find_repetitions, shift_to_rest
-from loops import nod, swing
+from loops import make_nods, make_swings
 
 seconds = settings(max_examples=60)
 
@@ -48,7 +48,7 @@ def count(rows: np.ndarray) -> np.ndarray:
     return find_repetitions(rows.astype(np.float32), 0, frames, KINEME)
 
 
-movements = pytest.mark.parametrize("movement", [swing, nod])
+movements = pytest.mark.parametrize("movement", [make_swings, make_nods])
 
 
 @movements
@@ -108,7 +108,9 @@ def test_people_are_not_clocks(times: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
     rows = np.concatenate(
         [
-            swing(1, period=1.2 * rng.uniform(0.92, 1.08), height=0.3 * rng.uniform(0.92, 1.08))
+            make_swings(
+                1, period=1.2 * rng.uniform(0.92, 1.08), height=0.3 * rng.uniform(0.92, 1.08)
+            )
             for _ in range(times)
         ]
     )
@@ -142,7 +144,7 @@ def test_a_repetition_cut_short_at_an_end_still_counts(movement, missing: float)
 
 
 def test_what_comes_before_the_repetitions_joins_the_first() -> None:
-    rows = np.concatenate([swing(1, period=2, axis=2), swing(6, period=1)])
+    rows = np.concatenate([make_swings(1, period=2, axis=2), make_swings(6, period=1)])
     found = count(rows)
     assert len(found) == 5
     assert found[0] > 60
@@ -150,12 +152,12 @@ def test_what_comes_before_the_repetitions_joins_the_first() -> None:
 
 @pytest.mark.parametrize("heights", [(0.3, 0.15, 0.3, 0.15), (0.15, 0.15, 0.3, 0.15, 0.3, 0.3)])
 def test_deep_and_shallow_ones_are_as_many(heights: tuple[float, ...]) -> None:
-    rows = np.concatenate([nod(1, period=1.5, rest=0.3, height=height) for height in heights])
+    rows = np.concatenate([make_nods(1, period=1.5, rest=0.3, height=height) for height in heights])
     assert len(count(rows)) + 1 == len(heights)
 
 
 def test_left_and_right_are_halves_of_one_repetition() -> None:
-    both = np.concatenate([nod(1, period=0.8, axis=axis) for axis in (0, 2)])
+    both = np.concatenate([make_nods(1, period=0.8, axis=axis) for axis in (0, 2)])
     for times in range(2, 7):
         assert len(count(np.tile(both, (times, 1)))) + 1 == times
 

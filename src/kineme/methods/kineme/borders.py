@@ -7,7 +7,7 @@ averaging. A third model is fitted to the whole recording.
 
 A *transition* is a span around the border, shorter than the averaging window, in which the model
 of the whole recording is more likely than those of both sides. Without a transition, the border is
-where the likelihood of both sides is largest. This is often too early on the quiet side, because a
+where the likelihood of both sides is largest. This is often too far on the quiet side, because a
 single movement that a quiet segment never contains ends it. So `border_shift` moves the border
 only part of the way, as people do.
 
