@@ -1,4 +1,4 @@
-"""Distances between points: what they are of, and what does not change them."""
+"""Distances between points: chosen points, and invariances."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def made():
 
 
 def as_channels(positions: np.ndarray, *, unit: float = 1.0) -> Signals:
-    """The places of joints in a table, none of which says that this is a body."""
+    """Positions of joints as channels without a known body."""
     names = [f"p{point}_{axis}" for point in range(positions.shape[1]) for axis in "xyz"]
     return Signals(unit * positions.reshape(len(positions), -1), 30.0, names)
 

@@ -1,4 +1,4 @@
-"""Mirroring: an involution, the same for motions as for their features."""
+"""Mirroring: an involution, consistent for motions and features."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def test_only_pose_features_have_a_mirror_image(shape: tuple[int, ...]) -> None:
 
 
 def body(*names: str) -> Motion:
-    """Joints that all hang on the first."""
+    """Make a skeleton whose joints are all children of the first."""
     skeleton = Skeleton(names, (-1,) + (0,) * (len(names) - 1), np.ones((len(names), 3)))
     return Motion(skeleton, np.zeros((2, len(names), 3)), 30.0)
 

@@ -1,4 +1,4 @@
-"""Probabilities that what was found is right, and what is said of those that are low."""
+"""Probabilities of results, and notes on low ones."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from loops import make_swings
 
 
 def once(seconds: float, seed: int) -> np.ndarray:
-    """A smooth movement that never repeats: a walk at random, averaged over a second."""
+    """Make a smooth movement that never repeats: a random walk, averaged over a second."""
     steps = np.random.default_rng(seed).standard_normal((round(30 * seconds) + 60, 6))
     path = np.cumsum(steps, axis=0) * 0.02
     sums = np.cumsum(path, axis=0)
@@ -132,7 +132,7 @@ def test_the_first_repetition_begins_as_surely_as_its_activity() -> None:
 
 
 def columns(links: list[float], borders: list[float], counts: list[float]) -> dict[str, np.ndarray]:
-    """Activities of ten frames each, two repetitions in each."""
+    """Make activities of ten frames with two repetitions each."""
     n = len(links)
     starts, halves = 10 * np.arange(n), 5 * np.arange(2 * n)
     return {

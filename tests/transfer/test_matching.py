@@ -1,4 +1,4 @@
-"""Mutual warping costs: a naive twin, and the laws of runs and labels."""
+"""Mutual warping costs: the naive version, and rules of runs and labels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Search by example: its naive twin, what it finds at another speed, and what it refuses."""
+"""Search by example: the naive version, other speeds, and errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from kineme.transfer.subsequences import BLOCK, search, warp
 
 
 def directions(n: int, seed: int, dims: int = 6) -> np.ndarray:
-    """A smooth walk on the sphere."""
+    """Make a smooth random walk on the sphere."""
     values = np.cumsum(np.random.default_rng(seed).normal(size=(n, dims)), axis=0)
     return (values / np.linalg.norm(values, axis=1, keepdims=True)).astype(np.float32)
 

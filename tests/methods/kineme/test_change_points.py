@@ -1,4 +1,4 @@
-"""Borders against their naive twins, and clusters numbered by first appearance."""
+"""Change points against their naive version, and clusters numbered by appearance."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ seconds = settings(max_examples=60)
 
 @st.composite
 def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
-    """Symmetric, from 0 to 1, each sample similar to itself."""
+    """Draw a symmetric similarity matrix from 0 to 1 with ones on the diagonal."""
     n = draw(st.integers(1, max_bins))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     similarity = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))

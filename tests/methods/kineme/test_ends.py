@@ -1,4 +1,4 @@
-"""Where the first repetition begins and the last one ends."""
+"""The start of the first repetition, and the end of the last one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ AWAY = np.repeat([[0.0, 0.0, 0.0, 0.0, 2.0, 2.0]], 60, axis=0)
 def ends(
     rows: np.ndarray, start: int, stop: int, cuts: list[int], *others: tuple[int, int, int]
 ) -> Ends:
-    """Of an activity with these cuts, and of others without any: start, stop and label."""
+    """Fit the ends of an activity with these cuts, and of others without cuts."""
     starts, stops, labels = zip((start, stop, 0), *others, strict=True)
     every = [np.array(cuts, np.int64), *(np.empty(0, np.int64) for _ in others)]
     spans = (np.array(part, np.int64) for part in (starts, stops, labels))
@@ -29,7 +29,7 @@ def ends(
 
 
 def shaken(seed: int) -> np.ndarray:
-    """Eight swings between two rests elsewhere, no two alike."""
+    """Make eight different swings between two rests in other poses."""
     rows = np.concatenate([AWAY, make_swings(8, period=PERIOD / 30), AWAY])
     return rows + np.random.default_rng(seed).normal(0, 0.02, rows.shape)
 
@@ -57,7 +57,7 @@ STOP = 60 + PERIOD * 8
 
 @pytest.mark.parametrize("late", [-12, -6, 0, 6, 12])
 def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) -> None:
-    """Wherever the borders of the activity were put."""
+    """The ends do not depend on the borders of the activity."""
     for found in (
         ends(shaken(1), 60 + late, STOP - late, CUTS),
         ends(shaken(2), 60 + late, STOP + late, CUTS),
@@ -67,7 +67,7 @@ def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) 
 
 
 def test_a_part_of_a_repetition_stays_in_the_activity_and_is_no_repetition() -> None:
-    """Twelve frames more of the same movement at either end."""
+    """The movement continues for twelve frames beyond both ends."""
     more = make_swings(10, period=PERIOD / 30)[PERIOD - 12 : -PERIOD + 12]
     rows = np.concatenate([AWAY, more, AWAY])
     rows += np.random.default_rng(4).normal(0, 0.02, rows.shape)

@@ -1,4 +1,4 @@
-"""Occurrences: what recurs is found wherever it is, and nothing else is."""
+"""Occurrences: spans that recur are found at any place, and no others."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ seconds = settings(max_examples=40)
 
 @st.composite
 def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Samples, what they cost, and where a stretch begins."""
+    """Draw samples, their costs, and starts of free spans."""
     n = draw(st.integers(2, 24))
     rng = np.random.default_rng(draw(st.integers(0, 99)))
     samples = rng.integers(0, 3, (n, 2)) / 2 + rng.normal(0, 1e-3, (n, 2))

@@ -1,4 +1,4 @@
-"""Time and memory grow with the length of a recording, and what is short stays as it is."""
+"""Time and memory are linear in the length of a recording; short recordings do not change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From features to counted actions: what is known is found, and what changes nothing."""
+"""The whole method: known actions are found, and some changes do not matter."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def assert_same(found: KinemeFound, expected: KinemeFound) -> None:
 
 
 def repetitions_of(found: KinemeFound) -> list[int]:
-    """How many repetitions each activity has; transitions left out."""
+    """Return the number of repetitions of each activity, without transitions."""
     return found.segments.counts[found.segments.labels >= 0].tolist()
 
 
@@ -51,7 +51,7 @@ def repetitions_of(found: KinemeFound) -> list[int]:
 
 
 Sequence = list[tuple[int, float, int]]
-"""Which of three movements, its period, how often."""
+"""Movement (one of three), period, and count."""
 
 
 @st.composite
@@ -95,7 +95,7 @@ def test_actions_their_borders_and_counts_are_found(sequence) -> None:
     ],
 )
 def test_a_change_that_comes_twice_is_no_action_of_its_own(sequence) -> None:
-    """Though the second in which one becomes the other looks alike both times."""
+    """Although the second between both looks the same each time."""
     assert_found(sequence)
 
 

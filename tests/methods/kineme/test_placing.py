@@ -1,4 +1,4 @@
-"""Occurrences in their place: nothing is cut, periodic activities keep their repetitions."""
+"""Inserting occurrences: none is cut, and periodic activities keep their repetitions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LABELS = np.array([0, -1, 1, 0])
 
 
 def segments() -> Segments:
-    """An activity of two repetitions, a transition, an activity of one, and the first again."""
+    """Make an activity of two repetitions, a transition, one repetition, and the first again."""
     return Segments(
         BORDERS,
         LABELS,
@@ -78,7 +78,7 @@ def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
 
 
 def alone() -> Segments:
-    """An activity of one repetition, which is 30 long, one that repeats, and one of what recurs."""
+    """Make activities: one repetition of 30 frames, one that repeats, and one with occurrences."""
     return Segments(
         np.array([0, 30, 100, 300]),
         np.array([0, 1, 2]),

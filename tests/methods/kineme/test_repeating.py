@@ -1,4 +1,4 @@
-"""Whether a segment repeats: the kernels' naive twins, and what is saved by what."""
+"""Segments that repeat: kernels against naive versions, and savings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FPS = round(KINEME.working_fps)
 
 
 def similar(seed: int, count: int, noise: float) -> np.ndarray:
-    """Repetitions of one movement, each of a size of its own, (count, places, dims)."""
+    """Draw repetitions of one movement with different sizes, (count, places, dims)."""
     rng = np.random.default_rng(seed)
     shape = rng.normal(size=(6, 3)).cumsum(axis=0)
     sizes = rng.uniform(0.6, 1.4, (count, 1, 1))
@@ -101,7 +101,7 @@ def test_few_samples_tell_the_spread_of_many() -> None:
 
 
 def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) -> np.ndarray:
-    """Slow ones, slower and less deep from one to the next; joints shake."""
+    """Make slow squats that become slower and less deep, with noise."""
     rng = np.random.default_rng(seed)
     drift = np.linspace(0, 1, count)
     parts = []
@@ -131,7 +131,7 @@ def standing(seconds: float, seed: int = 0) -> np.ndarray:
 
 
 def share_saved(rows: np.ndarray) -> float:
-    """Of what the poses spread, as a view of which each dimension is one of a pose."""
+    """Return the saved share of the spread of poses, which are also the view."""
     view = np.ascontiguousarray(rows[:: round(FPS / KINEME.rate)], np.float32)
     repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME)
     saved = repeating.measure_saving(view, 2.0, 0, len(view))
@@ -144,7 +144,7 @@ def share_saved(rows: np.ndarray) -> float:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_slow_repetitions_save_most_of_what_they_spread(seed: int) -> None:
-    """Though pace and depth drift."""
+    """Drift of pace and depth does not matter."""
     assert share_saved(squats(10, seed=seed)) > 0.5
 
 
@@ -155,7 +155,7 @@ def test_more_repetitions_save_a_larger_share(seed: int) -> None:
 
 
 def test_two_repetitions_save_nothing() -> None:
-    """But what is as good as none: up and down are alike where they are slow."""
+    """Hardly anything is saved: slow movements up and down look alike."""
     assert share_saved(squats(2)) < 0.05
     assert share_saved(squats(2, period=3.0)) < 0.05
 
@@ -187,7 +187,7 @@ def test_four_slow_repetitions_save_some(seed: int) -> None:
 
 
 def parting_of_channels(*sizes: np.ndarray) -> float:
-    """Of repetitions of one shape whose channels have these sizes, repetition by repetition."""
+    """Score repetitions of one shape with these sizes (repetitions, channels)."""
     angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     repetitions = np.array([np.outer(np.sin(angle), size) for size in sizes])
     return float(kernels.find_best_parting(measure_channel_energies(repetitions)))

@@ -1,4 +1,4 @@
-"""How often a movement repeats itself: loops of known number, and the kernels' naive twins."""
+"""Repetition counts: loops of known number, and kernels against naive versions."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_where_nobody_rests_repetitions_begin_where_their_poses_tell() -> None:
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
 @settings(max_examples=60)
 def test_people_are_not_clocks(times: int, seed: int) -> None:
-    """Pace and size differ by up to a sixth from one repetition to the next, and joints shake."""
+    """Make repetitions whose pace and size differ by up to a sixth, with noise."""
     rng = np.random.default_rng(seed)
     rows = np.concatenate(
         [
@@ -171,7 +171,7 @@ def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
 
 @pytest.mark.parametrize("times", [2, 3, 5, 10, 40])
 def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
-    """Any two of a movement have 0.5 in common, any two of chance 0.3."""
+    """Repetitions of a movement correlate by 0.5, random ones by 0.3."""
     rng = np.random.default_rng(times)
     for common, is_chance in ((0.5, False), (0.3, True)):
         shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))

@@ -1,4 +1,4 @@
-"""Sensors: what is posture and energy, a tree of segments, and the level that fits."""
+"""Sensors: posture and energy, the tree of segments, and the choice of the level."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FPS = 50.0
 
 
 def worn(seed: int = 0) -> tuple[np.ndarray, list[int]]:
-    """Standing, walking, standing, running, lying, walking: six channels, and where each ends."""
+    """Make standing, walking, standing, running, lying, walking: six channels, and all ends."""
     rng = np.random.default_rng(seed)
     parts = []
     for posture, pace, strength in (
@@ -165,7 +165,7 @@ def test_steps_are_counted() -> None:
 
 
 def test_up_and_down_are_one_repetition_though_the_sensor_shakes_alike() -> None:
-    """It is held otherwise on the way up and on the way down."""
+    """The sensor has another orientation on the way up than on the way down."""
     for times in range(4, 9):
         phase = 2 * np.pi * np.arange(int(times * 3 * FPS)) / (3 * FPS)
         shaken = np.column_stack([np.sin(2 * phase), np.cos(2 * phase), np.sin(4 * phase + 1)])

@@ -1,4 +1,4 @@
-"""Growing regions against their naive twins, and what they find in plain cases."""
+"""Growing regions against naive versions, and simple cases."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ COUNTS = st.integers(0, 30)
 
 
 def blocks(*lengths: int, gap: int = 20):
-    """Square blocks of mutual neighbours, so many frames between them, no near diagonal."""
+    """Make square blocks of mutual neighbours with gaps between them, without the diagonal."""
     pairs, start = {}, 0
     for length in lengths:
         frames = range(start, start + length)

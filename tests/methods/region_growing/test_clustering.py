@@ -1,4 +1,4 @@
-"""Links between segments and the clusters they make."""
+"""Links between segments, and clusters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mirrored cuts: left and right steps become primitives of their own."""
+"""Mirrored cuts: left and right steps become separate primitives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The neighbour graph: exact against its naive twin, its laws, and what it refuses."""
+"""The neighbour graph: equality with the naive version, invariances, and errors."""
 
 from __future__ import annotations
 

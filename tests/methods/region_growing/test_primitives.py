@@ -1,4 +1,4 @@
-"""Primitive cuts: soft symmetry, slope, the rule between close cuts."""
+"""Primitive cuts: symmetry, slope, and the choice between close cuts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Components and cheapest warping paths against their naive twins."""
+"""Components and cheapest warping paths against naive versions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ STEPS = st.sampled_from(
 
 @st.composite
 def boxes(draw: st.DrawFn, n: int) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Spans of rows and columns, now and then the whole."""
+    """Draw spans of rows and columns, sometimes all."""
     rows, columns = (
         sorted(draw(st.tuples(st.integers(0, n), st.integers(0, n)) | st.just((0, n))))
         for _ in range(2)
