@@ -22,7 +22,7 @@ from kineme import formats, labels
 from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import MissingDependencyError
-from kineme.evaluation.inputs import is_annotations, read_trials
+from kineme.evaluation.inputs import is_annotation_file, read_trials
 from kineme.formats.listing import scan_folder
 from kineme.labels.collections import find_labels
 from kineme.library import Library, build
@@ -99,7 +99,7 @@ def doors_of(path: Path) -> tuple[Door, ...]:
         ),
         "tables": (lambda root: _labels_of_many(root / path),),
         "benchmark": (
-            lambda root: is_annotations(root / path),
+            lambda root: is_annotation_file(root / path),
             lambda root: read_trials(root / path),
         ),
         "pairs": (lambda root: kineme.read_segments(root / "pairs" / table),),

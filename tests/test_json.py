@@ -15,7 +15,7 @@ from kineme._util.json import DEEPEST, decode_json, load_json
 from kineme.datasets import bundled_truth
 from kineme.errors import ParameterError, ReadError
 from kineme.evaluation import Truth
-from kineme.evaluation.inputs import is_annotations, read_trials
+from kineme.evaluation.inputs import is_annotation_file, read_trials
 from kineme.labels.collections import find_labels
 from kineme.synthesis import MotionGraph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
@@ -121,7 +121,7 @@ def test_whether_it_is_the_benchmark_is_no_error(tmp_path: Path) -> None:
     path = tmp_path / "annotations.json"
     for text in (DEEP, "[", "9" * 5000, '{"trials": 1e999}'):
         path.write_text(text)
-        assert not is_annotations(path)
+        assert not is_annotation_file(path)
 
 
 def test_marks_of_any_length_in_the_text(tmp_path: Path) -> None:

@@ -26,8 +26,8 @@ from _options import DATA, command_line, few, needed
 from _rival_presets import register_rivals
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import (
-    Answer,
     Job,
+    JobResult,
     find_recordings,
     join_comparisons,
     read_selected,
@@ -52,17 +52,17 @@ def read_sensors(path: Path) -> Motion | Signals:
     return read_selected(path, READING, WITHOUT)
 
 
-def scored(job: Job) -> Answer:
+def scored(job: Job) -> JobResult:
     """A method on a recording, or why it failed; processor time is that of this process."""
     warnings.simplefilter("ignore")
     try:
         register_rivals()
         return run_job(job, time.process_time)
     except Exception as error:  # noqa: BLE001 (a rival that fails is a result)
-        return Answer(error=f"{type(error).__name__}: {error}")
+        return JobResult(error=f"{type(error).__name__}: {error}")
 
 
-def with_one_mapping(answers: Mapping[Job, Answer], *, told: bool) -> list[Comparison]:
+def with_one_mapping(answers: Mapping[Job, JobResult], *, told: bool) -> list[Comparison]:
     """The same results, a cluster of the whole set standing for the same class everywhere."""
     classes = {name for answer in answers.values() for name in answer.classes}
     compared = join_comparisons(list(answers.items()), len(classes) if told else None)

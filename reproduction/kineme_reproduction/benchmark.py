@@ -29,7 +29,7 @@ from kineme._util.arrays import Ints
 from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.folder import check_method, segment_by
+from kineme.evaluation.folder import check_method, segment_with_method
 from kineme.evaluation.measures import one_to_one_accuracy
 from kineme.evaluation.score import evaluate_segmentation, register
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
@@ -99,7 +99,7 @@ def preset_method(preset: Preset) -> Method:
 def _by_name(name: str, trial: Trial) -> Segmentation:
     n_classes = len(set(trial.truth.labels) - {TRANSITION})
     constants = OF_TRIALS.get((name, trial.name), {})
-    return segment_by(name, trial.motion, n_classes=n_classes, **constants)
+    return segment_with_method(name, trial.motion, n_classes=n_classes, **constants)
 
 
 def _by_preset(preset: Preset, trial: Trial) -> Segmentation:

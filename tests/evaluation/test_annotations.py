@@ -1,4 +1,4 @@
-"""Annotations are read as written, known errors mended, others refused with a reason."""
+"""Annotations are read as written; known errors are corrected, others rejected with a reason."""
 
 from __future__ import annotations
 

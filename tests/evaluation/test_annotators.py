@@ -1,4 +1,4 @@
-"""How far several people agree: kappas as published and as others compute them."""
+"""Agreement of several people: kappas as published and as in other libraries."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ SUBJECTS = (
     (0, 0, 0, 0, 14), (0, 2, 6, 4, 2), (0, 0, 3, 5, 6), (0, 3, 9, 2, 0), (2, 2, 8, 1, 1),
     (7, 7, 0, 0, 0), (3, 2, 6, 3, 0), (2, 5, 3, 2, 2), (6, 5, 2, 1, 0), (0, 2, 2, 3, 7),
 )  # fmt: skip
-"""Ten subjects, fourteen people, five classes: the worked example of most textbooks."""
+"""Ten subjects, fourteen people, five classes: the example in most textbooks."""
 WORDS = ("walk", "run", "jump")
 
 
 def said(names: list[str], fps: float = 10) -> Segmentation:
-    """The labels of a person, one per frame; an empty one is none."""
+    """Make the labels of a person, one per frame; empty for no label."""
     numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
     spans = [
         Span(run.start, run.stop, names[run.start])
@@ -49,7 +49,7 @@ def said(names: list[str], fps: float = 10) -> Segmentation:
 
 
 def labels_of_frames(draw) -> list[list[str]]:
-    """What some people say of as many frames, one of them labelled at least."""
+    """Draw labels of some people for the same frames, at least one of them labelled."""
     length = draw(st.integers(2, 30))
     people = draw(st.integers(2, 4))
     frames = st.lists(st.sampled_from([*WORDS, ""]), min_size=length, max_size=length)

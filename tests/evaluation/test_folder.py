@@ -1,4 +1,4 @@
-"""Folders of recordings with labels: scores as others define them, and the command's table."""
+"""Folders of labelled recordings: scores as defined elsewhere, and the table of the command."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ per_frame = st.lists(st.integers(0, 3), min_size=1, max_size=40)
 
 
 def both(draw) -> Comparison:
-    """Labels of as many frames."""
+    """Draw labels of the same number of frames."""
     truth = draw(per_frame)
     found = draw(st.lists(st.integers(0, 5), min_size=len(truth), max_size=len(truth)))
     return Comparison(truth, found, fps=4)

@@ -1,4 +1,4 @@
-"""One result against its truth: what label files say, and how the two meet."""
+"""Compare a result with its truth, from label files."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def labels_as(path, rows: list[str], header: str = "start_s,stop_s,label") -> Se
 
 
 CUT = ["0,2,squat", "2,4,squat", "4,6,squat", "6,9,walk"]
-"""Three repetitions, and an activity of which nobody says."""
+"""Three repetitions, and an activity of unknown count."""
 BOTH = ["0,6,squat,activity,", "6,9,walk,activity,", "0,2,squat,primitive,",
         "2,4,squat,primitive,", "4,6,squat,primitive,"]  # fmt: skip
 COUNTED = ["0,6,squat,activity,3", "6,9,walk,activity,"]
@@ -115,7 +115,7 @@ LEVELS = "start_s,stop_s,label,level,count"
 
 @pytest.fixture
 def counted_wrong(tmp_path) -> Segmentation:
-    """Four squats where there are three."""
+    """Make four squats where the truth has three."""
     rows = ["0,6,0,activity,", "6,9,1,activity,", "0,2,0,primitive,", "2,3,0,primitive,",
             "3,4,0,primitive,", "4,6,0,primitive,", "6,9,1,primitive,"]  # fmt: skip
     return labels_as(tmp_path / "found.csv", rows, LEVELS)

@@ -1,4 +1,4 @@
-"""Labellings, truths and the laws every score obeys."""
+"""Labellings, truths, and invariances of scores."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ SHARES = [
 
 @st.composite
 def truths(draw: st.DrawFn) -> Truth:
-    """Actions of at least 2 s at 10 fps, borders uncertain by up to 1 s."""
+    """Draw actions of at least 2 s at 10 fps, with borders uncertain by up to 1 s."""
     lengths = draw(st.lists(st.integers(20, 60), min_size=1, max_size=6))
     labels = draw(st.lists(st.sampled_from("abc"), min_size=len(lengths), max_size=len(lengths)))
     ends = np.cumsum(lengths)
@@ -73,7 +73,7 @@ of = Comparison.of
 
 
 def right(truth: Truth, found: Labelling) -> tuple[float, float]:
-    """Of all frames, and of those on which people agree."""
+    """Compare all frames, and those on which people agree."""
     compared = of(truth, found)
     return one_to_one_accuracy(compared), one_to_one_accuracy(compared.agreed)
 
@@ -138,7 +138,10 @@ def test_one_to_one_is_the_best_of_all_assignments(pair):
     wanted, given_ = truth.labelling().per_frame(), found.per_frame()
     agreed = wanted != TRANSITION
     assert right(truth, found) == pytest.approx(
-        (naive.one_to_one(wanted, given_), naive.one_to_one(wanted[agreed], given_[agreed]))
+        (
+            naive.one_to_one_accuracy(wanted, given_),
+            naive.one_to_one_accuracy(wanted[agreed], given_[agreed]),
+        )
     )
 
 

@@ -1,4 +1,4 @@
-"""Feature bundling: the authors' values, a naive twin, and laws."""
+"""Feature bundling: the authors' values, the naive version, and invariances."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ few = settings(max_examples=20)
 
 @pytest.mark.parametrize("trial", ["86_01", "86_09", "86_10", "86_11", "86_14"])
 def test_near_the_authors_program(data_dir: Path, trial: str) -> None:
-    """Which minimises the same, step by step, to a precision of its own."""
+    """Which minimises the same function iteratively, to its own precision."""
     motion = kineme.resample(kineme.read(data_dir / "cmu86" / f"{trial}.amc"), 30)
     plain_cm = 100 * stack(pose_features(motion), (-10, -5, 0, 5, 10))
     with np.load(data_dir / "cmu86" / "reference" / f"2017_bundled_{trial}.npz") as stored:

@@ -1,4 +1,4 @@
-"""The canonical body: found in any skeleton, and the same for people of any size and shape."""
+"""The canonical body: found in any skeleton, and independent of size and shape."""
 
 from __future__ import annotations
 

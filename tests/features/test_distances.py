@@ -1,4 +1,4 @@
-"""Distances between points: what they are of, and what does not change them."""
+"""Distances between points: chosen points, and invariances."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import kineme
 from kineme.datasets import Action, synthesize
 from kineme.errors import MotionError
 from kineme.features import compute_distance_features
-from kineme.features.distances import MOST_POINTS, VARIATION, choose_spread_points, have_bones
+from kineme.features.distances import MAX_POINTS, VARIATION, choose_spread_points, have_bones
 from kineme.recordings import Signals
 
 WALK = synthesize([Action("walk", 6), Action("kick", 5)], fps=30, seed=1).motion.positions
@@ -45,8 +45,8 @@ def test_some_points_of_many_stand_for_all() -> None:
         len(WALK), -1, 3
     )
     chosen = choose_spread_points(cloud)
-    assert len(chosen) == MOST_POINTS
-    assert len({point // 6 for point in chosen}) == MOST_POINTS  # none twice
+    assert len(chosen) == MAX_POINTS
+    assert len({point // 6 for point in chosen}) == MAX_POINTS  # none twice
 
 
 def test_points_in_one_place_and_points_of_the_lab_are_left_out() -> None:
@@ -105,7 +105,7 @@ def made():
 
 
 def as_channels(positions: np.ndarray, *, unit: float = 1.0) -> Signals:
-    """The places of joints in a table, none of which says that this is a body."""
+    """Positions of joints as channels without a known body."""
     names = [f"p{point}_{axis}" for point in range(positions.shape[1]) for axis in "xyz"]
     return Signals(unit * positions.reshape(len(positions), -1), 30.0, names)
 

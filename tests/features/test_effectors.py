@@ -1,4 +1,4 @@
-"""End effectors: every naming scheme people have, shapes without names, names given."""
+"""End effectors: all naming schemes, shapes without names, and given names."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ PLAIN = ("LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand")
 
 
 def renamed(names: dict[str, str]) -> Skeleton:
-    """The figure with some joints renamed, the others given names that say nothing."""
+    """Rename some joints of the make_figure; give the others meaningless names."""
     plain = make_figure()
     new = tuple(names.get(name, f"node{i}") for i, name in enumerate(plain.names))
     return Skeleton(new, plain.parents, plain.offsets, plain.end_sites)

@@ -1,4 +1,4 @@
-"""Filters: the same as scipy's, which take long to import."""
+"""Filters: equality with those of scipy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mirroring: an involution, the same for motions as for their features."""
+"""Mirroring: an involution, consistent for motions and features."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def test_rotations_of_the_mirrored_motion_give_its_positions() -> None:
 def test_features_equal_to_the_naive_version() -> None:
     rows = np.random.default_rng(0).normal(size=(6, 45))
     expected = [
-        [number for block in np.split(row, 3) for number in naive.mirrored_pose(block)]
+        [number for block in np.split(row, 3) for number in naive.mirror_pose(block)]
         for row in rows
     ]
     np.testing.assert_array_equal(mirror_features(rows), expected)
@@ -131,7 +131,7 @@ def test_only_pose_features_have_a_mirror_image(shape: tuple[int, ...]) -> None:
 
 
 def body(*names: str) -> Motion:
-    """Joints that all hang on the first."""
+    """Make a skeleton whose joints are all children of the first."""
     skeleton = Skeleton(names, (-1,) + (0,) * (len(names) - 1), np.ones((len(names), 3)))
     return Motion(skeleton, np.zeros((2, len(names), 3)), 30.0)
 

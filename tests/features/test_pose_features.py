@@ -1,4 +1,4 @@
-"""Pose features: the authors' values, naive twins, and laws of moving, turning and scaling."""
+"""Pose features: the authors' values, naive versions, and invariances."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def test_left_is_x_up_is_y_ahead_is_z() -> None:
 @pytest.mark.parametrize("axis", ["x", "y", "z"])
 @pytest.mark.parametrize("quarter_turns", [1, 2, 3])
 def test_a_root_frame_turned_by_the_exporter_changes_nothing(axis: str, quarter_turns: int) -> None:
-    """The same motion, its root's own axes renamed."""
+    """Return the same motion with permuted axes of the root."""
     turn = Rotation.from_euler(axis, 90 * quarter_turns, degrees=True)
     skeleton = RECORDING.skeleton
     offsets = skeleton.offsets.copy()

@@ -51,7 +51,7 @@ def test_equals_the_naive_implementation(data_dir: Path, recording: str) -> None
     frames = range(0, motion.n_frames, max(1, motion.n_frames // 40))
     text = (data_dir / f"{recording}.amc").read_text(encoding="latin-1")
     for frame, bones in zip(
-        frames, naive.amc_positions(asf.read_text(), text, frames), strict=True
+        frames, naive.compute_amc_positions(asf.read_text(), text, frames), strict=True
     ):
         for name, (start, tip) in bones.items():
             assert motion.positions[frame, motion.joint(name)] == pytest.approx(start, abs=1e-9)
@@ -105,9 +105,9 @@ def test_values_may_come_in_any_order_and_layout(tmp_path: Path) -> None:
 def test_compiled_reading_of_frames(text: str) -> None:
     counts = {"root": 3, "hip": 0, "leg": 1}
     found = _parse_rows_compiled(text.encode(), counts)
-    assert (None if found is None else found.tolist()) == naive.amc_rows(text, counts)
+    assert (None if found is None else found.tolist()) == naive.read_amc_rows(text, counts)
     if found is not None:  # a minus before nothing is kept, too
-        assert np.array_equal(np.signbit(found), np.signbit(naive.amc_rows(text, counts)))
+        assert np.array_equal(np.signbit(found), np.signbit(naive.read_amc_rows(text, counts)))
 
 
 @pytest.mark.parametrize("number", ["1e-3", "9007199254740993", "0.12345678901234567890123", "nan"])

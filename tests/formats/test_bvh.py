@@ -64,7 +64,7 @@ def test_equals_the_naive_implementation(
     path = data_dir / f"{recording}.bvh"
     motion = read(path)
     frames = range(0, motion.n_frames, max(1, motion.n_frames // 40))
-    expected = UNITS[unit] * np.array(naive.bvh_positions(path.read_text(), frames))
+    expected = UNITS[unit] * np.array(naive.compute_bvh_positions(path.read_text(), frames))
     np.testing.assert_allclose(motion.positions[frames], expected, atol=1e-9)
 
 

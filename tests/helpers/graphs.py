@@ -95,7 +95,7 @@ def staircases(draw: st.DrawFn) -> list[tuple[int, int]]:
     return path + [at := (at[0] + a, at[1] + b) for a, b in steps]
 
 
-def flat(
+def flatten_paths(
     paths: list[list[tuple[int, int]]],
 ) -> tuple[NDArray[np.signedinteger], NDArray[np.signedinteger], NDArray[np.signedinteger]]:
     """Pointers, rows and columns, as kernels take them."""

@@ -8,25 +8,25 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 
-def swing(
+def make_swings(
     times: int, *, period: float, rest: float = 0, height: float = 0.3, axis: int = 0
 ) -> Floats:
-    """A figure of eight in its own plane, and a rest in its middle after each."""
+    """Make repetitions of a figure of eight in its own plane, each followed by a rest."""
     angle = 2 * np.pi * np.arange(round(30 * period)) / round(30 * period)
-    return _repeated(
+    return _repeat(
         {axis: height * np.sin(angle), axis + 1: height / 2 * np.sin(2 * angle)}, times, rest
     )
 
 
-def nod(
+def make_nods(
     times: int, *, period: float, rest: float = 0, height: float = 0.3, axis: int = 0
 ) -> Floats:
-    """There and back on the same way, and a rest after each."""
+    """Make repetitions of a movement there and back on one line, each followed by a rest."""
     angle = 2 * np.pi * np.arange(round(30 * period)) / round(30 * period)
-    return _repeated({axis: height * (1 - np.cos(angle))}, times, rest)
+    return _repeat({axis: height * (1 - np.cos(angle))}, times, rest)
 
 
-def _repeated(columns: dict[int, Floats], times: int, rest: float) -> Floats:
+def _repeat(columns: dict[int, Floats], times: int, rest: float) -> Floats:
     frames = len(next(iter(columns.values())))
     once = np.zeros((frames + round(30 * rest), 6))
     for column, values in columns.items():

@@ -46,8 +46,8 @@ def test_the_window_that_is_the_example_is_the_nearest() -> None:
     windows, parts = describe_windows(features, LENGTHS[1]), describe_at_speeds(example)
     least = np.empty(len(windows), np.int32)
     find_smallest_distances(windows, parts, np.int32(FINER), least)
-    assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)
+    assert least.tolist() == naive.find_smallest_distances(windows.tolist(), parts.tolist(), FINER)
     assert least.argmin() == 4
     windows[:], parts[:] = -127, 127 * FINER  # the farthest there is
     find_smallest_distances(windows, parts, np.int32(FINER), least)
-    assert least.tolist() == naive.least_squares(windows.tolist(), parts.tolist(), FINER)
+    assert least.tolist() == naive.find_smallest_distances(windows.tolist(), parts.tolist(), FINER)

@@ -1,4 +1,4 @@
-"""The presets that segment by themselves; the others have to be told the number of actions."""
+"""Presets that do not need the number of actions."""
 
 from __future__ import annotations
 

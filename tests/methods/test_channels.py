@@ -1,4 +1,4 @@
-"""What may change nothing in signals, and what resampling and envelopes must do."""
+"""Signals: invariances, resampling and envelopes."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_the_same_rate_without_smoothing_changes_nothing(values, fps) -> None:
 
 
 def naive_mean(values: np.ndarray, fps: float, at: float, width: float) -> np.ndarray:
-    """The mean over a stretch of samples that are held for a period each, literally."""
+    """Return the mean over a span of samples that are held for one period each."""
     total, weight = np.zeros(values.shape[1]), 0.0
     for i, value in enumerate(values):
         start, stop = max(i - 0.5, (at - width / 2) * fps), min(i + 0.5, (at + width / 2) * fps)
@@ -99,7 +99,7 @@ def test_units_zeros_signs_and_order_of_channels_change_no_cut(gain, offset, swa
 
 
 def test_repeated_channels_change_no_cut() -> None:
-    """The generalised radius: twice the channels are no farther apart."""
+    """The generalised radius does not depend on the number of channels."""
     x = recording()
     for preset in ("kineme", "voegele2014"):
         once = segment(Signals(x, 60), preset=preset)

@@ -1,4 +1,4 @@
-"""Probabilities that what was found is right, and what is said of those that are low."""
+"""Probabilities of results, and notes on low ones."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from kineme.methods.kineme.confidence import (
 )
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
-from loops import swing
+from loops import make_swings
 
 
 def once(seconds: float, seed: int) -> np.ndarray:
-    """A smooth movement that never repeats: a walk at random, averaged over a second."""
+    """Make a smooth movement that never repeats: a random walk, averaged over a second."""
     steps = np.random.default_rng(seed).standard_normal((round(30 * seconds) + 60, 6))
     path = np.cumsum(steps, axis=0) * 0.02
     sums = np.cumsum(path, axis=0)
@@ -37,7 +37,7 @@ def once(seconds: float, seed: int) -> np.ndarray:
 
 @pytest.mark.parametrize("period", [0.8, 1.2, 2.0])
 def test_a_clearly_periodic_activity_is_sure(period: float) -> None:
-    rows = np.concatenate([swing(10, period=period), swing(10, period=1, axis=2)])
+    rows = np.concatenate([make_swings(10, period=period), make_swings(10, period=1, axis=2)])
     found = analyze(rows, KINEME)
     assert found.segments.labels.tolist() == [0, 1]
     sure = found.confidence
@@ -132,7 +132,7 @@ def test_the_first_repetition_begins_as_surely_as_its_activity() -> None:
 
 
 def columns(links: list[float], borders: list[float], counts: list[float]) -> dict[str, np.ndarray]:
-    """Activities of ten frames each, two repetitions in each."""
+    """Make activities of ten frames with two repetitions each."""
     n = len(links)
     starts, halves = 10 * np.arange(n), 5 * np.arange(2 * n)
     return {

@@ -1,4 +1,4 @@
-"""Segmenter keeps scikit-learn's rules, and its own."""
+"""Segmenter follows the conventions of scikit-learn, and its own."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_scikit_learn_rules(estimator, check) -> None:
 
 
 def two_movements(fps: float = 50.0) -> np.ndarray:
-    """Twelve seconds of one movement of three channels, then as much of another."""
+    """Make twelve seconds of one movement of three channels, then twelve of another."""
     t = np.arange(int(24 * fps)) / fps
     one = np.column_stack([np.sin(5 * t), np.cos(5 * t), np.sin(10 * t)])
     two = np.column_stack([np.sin(9 * t), np.sin(9 * t + 1) ** 3, np.cos(18 * t)])

@@ -39,7 +39,7 @@ def test_every_constant_with_odd_values(name: str) -> None:
 
 
 def extremes(taken: list[Preset], name: str) -> list[Preset]:
-    """Of the presets with a number there the least and the greatest one; all others."""
+    """Choose presets with the least and the greatest value of a number, and all others."""
     numbers, others = [], []
     for preset in taken:
         value = getattr(preset, name)

@@ -1,4 +1,4 @@
-"""Every parameter of a preset is in the provenance of what it finds."""
+"""Every parameter of a preset is in the provenance of its results."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from kineme.methods.constants import Constant
 
 @pytest.fixture(scope="module")
 def motion() -> kineme.Motion:
-    """The first six seconds of the bundled recording."""
+    """Return the first six seconds of the bundled recording."""
     return kineme.read(kineme.bundled_recording())[0:360]
 
 
@@ -49,12 +49,12 @@ def parameters(motion: kineme.Motion, preset: Preset) -> dict[str, Any]:
 
 
 def as_json(value: Any) -> Any:
-    """As a provenance is kept: tuples are lists."""
+    """Convert tuples to lists, as in a stored provenance."""
     return json.loads(json.dumps(value))
 
 
 def other_value(constant: Constant) -> Any:
-    """Another value that the constant may take."""
+    """Return another allowed value of the constant."""
     value, limits = constant.value, constant.limits
     hint = next(kind for kind in (*get_args(constant.hint), constant.hint) if kind is not NoneType)
     if get_origin(constant.hint) is Literal:

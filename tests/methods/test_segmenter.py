@@ -1,4 +1,4 @@
-"""From a motion to its segments: what a recording may be, and what changes no cut."""
+"""Segment a motion: allowed recordings, and changes that must not affect cuts."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ def found_in(seed: int, preset: str) -> Segmentation:
 
 
 def still(motion: Motion, frames: int) -> Motion:
-    """The first pose, held."""
+    """Repeat the first pose."""
     return Motion(motion.skeleton, np.repeat(motion.positions[:1], frames, axis=0), motion.fps)
 
 
 def growing(motion: Motion, frames: int) -> Motion:
-    """A body whose arms grow all the time and so never looks as it did."""
+    """Make a body whose arms grow all the time, so that no pose recurs."""
     held = still(motion, frames)
     found = end_effectors(held)
     positions = held.positions.copy()
@@ -92,7 +92,7 @@ def test_what_never_repeats_is_one_transition(preset: str) -> None:
 
 
 def test_what_never_repeats_is_counted_once_at_most() -> None:
-    """It is divided by where it is, and no part of it is known again."""
+    """It is divided by position, and no part of it recurs."""
     found = segment(growing(recording(0), 4000))
     assert max(found.repetitions().values(), default=0) <= 1
     clusters = found.activities.cluster.tolist()

@@ -21,7 +21,7 @@ from kineme.methods.segmenter import (
 
 @st.composite
 def recordings(draw: st.DrawFn) -> tuple[list[RecordedSpan], dict[str, np.ndarray], int, int]:
-    """Parts, a table over their working frames, source frames, and how many make a working one."""
+    """Draw parts, a table of working frames, source frames, and frames per working frame."""
     ratio = draw(st.integers(1, 4))
     parts, at = [], draw(st.integers(0, 5))
     for _ in range(draw(st.integers(1, 4))):

@@ -30,7 +30,7 @@ def exercises(seed: int) -> SyntheticRecording:
 
 
 def markers(motion: Motion, names: list[str]) -> Motion:
-    """The positions of these joints, called by numbers."""
+    """Return the positions of these joints, named by numbers."""
     n = len(names)
     skeleton = Skeleton([f"M{i}" for i in range(n)], [-1] * n, np.zeros((n, 3)))
     return Motion(skeleton, motion.positions[:, [motion.joint(name) for name in names]], motion.fps)
@@ -79,7 +79,7 @@ def test_every_preset_takes_them_and_says_so(preset: str) -> None:
 
 
 def test_a_body_without_a_pelvis_is_taken_by_its_distances() -> None:
-    """Its ends are found, but nothing tells where it faces."""
+    """Its end effectors are found, but it has no heading."""
     names = ["LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand"]
     held = markers(exercises(0).motion, names)
     motion = replace(held, skeleton=replace(held.skeleton, names=tuple(names)))

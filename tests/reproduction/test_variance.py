@@ -28,7 +28,7 @@ from kineme_reproduction.variance import feature_variance, overall, point_cloud_
 )
 def test_the_cheapest_warp_is_its_recursion_and_its_path_costs_as_much(cost, step):
     total, rows, columns = find_cheapest_path(cost, step)
-    assert total == pytest.approx(naive.warped_cost(cost, step))
+    assert total == pytest.approx(naive.find_cheapest_cost(cost, step))
     moves = np.stack([np.diff(rows, prepend=-1), np.diff(columns, prepend=-1)])
     assert (moves.max(axis=0) == 1).all()
     assert moves.min() >= 0
@@ -62,7 +62,7 @@ def test_place_and_facing_do_not_matter_but_height_does(walk):
 def test_the_closed_form_is_the_least_over_all_turns(walk):
     found = compute_cloud_distances(walk, slice(3, 5), slice(20, 22), half=1)
     for i, j in ((0, 1), (1, 0)):
-        least = naive.cloud_distance(walk, 3 + i, 20 + j, half=1)
+        least = naive.compute_cloud_distance(walk, 3 + i, 20 + j, half=1)
         assert found[i, j] == pytest.approx(least, abs=1e-3)
 
 

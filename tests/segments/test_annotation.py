@@ -1,4 +1,4 @@
-"""What people did stands beside the table: kept in files, by edits, and apart from provenance."""
+"""Annotations: stored in files, kept by edits, and separate from provenance."""
 
 from __future__ import annotations
 

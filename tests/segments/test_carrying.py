@@ -1,4 +1,4 @@
-"""What a new segmentation takes over from the table that it takes the place of."""
+"""Corrections that are carried over to a new segmentation."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def by_hand(segmentation: Segmentation, edit: str, *arguments: object) -> Segmen
 
 
 def other_way() -> Segmentation:
-    """The same minute cut elsewhere, its clusters numbered the other way round."""
+    """Return the same minute with other cuts and reversed cluster numbers."""
     rows = [
         ("activity", "activity", 0, 33, 1, ""),
         ("activity", "transition", 33, 38, -1, ""),
@@ -132,7 +132,7 @@ def test_a_mark_holds_for_the_frames_that_it_was_made_for() -> None:
 
 
 def _resampled(found: Segmentation, like: Segmentation) -> Segmentation:
-    """Its first segments, stretched or cut to the length of another."""
+    """Return its first segments, stretched or cut to the length of another."""
     n = like.n_frames
     rows = [row for row in found if row.start_frame < n]
     last = {

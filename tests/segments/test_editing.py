@@ -1,4 +1,4 @@
-"""Corrections by hand: what each edit does, and what holds whatever is edited."""
+"""Corrections by hand: results of edits, and invariants."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ EDITS = st.one_of(
 
 
 def walk_pause_jump() -> Segmentation:
-    """Three steps, a pause, two jumps: frames 0-30, 30-40, 40-60."""
+    """Make three steps, a pause and two jumps: frames 0-30, 30-40, 40-60."""
     rows = [
         ("activity", "activity", 0, 30, 0, "walk"),
         ("activity", "transition", 30, 40, -1, ""),
@@ -53,7 +53,7 @@ def walk_pause_jump() -> Segmentation:
 
 
 def spans(segmentation: Segmentation, level: str) -> str:
-    """``0-30 c0 walk | 30-40 t | …``."""
+    """Describe rows as ``0-30 c0 walk | 30-40 t | …``."""
     return " | ".join(
         " ".join(
             filter(

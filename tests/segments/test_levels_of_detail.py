@@ -23,7 +23,7 @@ FPS = 30.0
 
 
 def wandering(seed: int, seconds: float) -> kineme.Signals:
-    """Channels that repeat some of a few patterns at random, with noise and pauses."""
+    """Make channels that repeat random patterns, with noise and pauses."""
     rng = np.random.default_rng(seed)
     patterns = rng.standard_normal((4, 30, 3)).cumsum(axis=1)
     rows: list[np.ndarray] = []

@@ -1,4 +1,4 @@
-"""What a notebook shows of a result: a small picture and a few rows, whatever its length."""
+"""Results in notebooks: a small picture and a few rows at any length."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Segmentation: what always holds, and what is refused."""
+"""Segmentation: invariants, and errors."""
 
 from __future__ import annotations
 

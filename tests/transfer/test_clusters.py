@@ -1,4 +1,4 @@
-"""Linking of more local clusters than are compared pairwise."""
+"""Link more local clusters than are compared pairwise."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from kineme.transfer.sharing import share_clusters
 
 KINDS, RECORDINGS = 6, 30
 RARE = 3
-"""Recordings in which the last kind of movement is."""
+"""Recordings that contain the last kind of movement."""
 
 
 def cluster_set() -> tuple[ClusterSet, np.ndarray]:

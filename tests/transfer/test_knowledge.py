@@ -1,4 +1,4 @@
-"""KnowledgeBase: built, merged, written, read back; damaged files are one clear error."""
+"""KnowledgeBase: build, merge, write and read; damaged files give one clear error."""
 
 from __future__ import annotations
 

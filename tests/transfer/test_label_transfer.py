@@ -1,4 +1,4 @@
-"""transfer_labels(): the right names across bodies, rates and phases, and none where none fits."""
+"""transfer_labels(): right labels across bodies, rates and phases, and none without a match."""
 
 from __future__ import annotations
 

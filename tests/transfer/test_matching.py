@@ -1,4 +1,4 @@
-"""Mutual warping costs: a naive twin, and the laws of runs and labels."""
+"""Mutual warping costs: the naive version, and rules of runs and labels."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def naive_label_costs(unknown: Primitives, known: Primitives, codes, n_labels: i
 
     def between(example: np.ndarray, frames: np.ndarray) -> float:
         distances = np.linalg.norm(frames[:, None] - example[None], axis=2)
-        return min(naive.warpings(distances)[0])
+        return min(naive.find_warpings(distances)[0])
 
     for u in range(len(unknown)):
         for k in range(len(known)):

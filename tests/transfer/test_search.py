@@ -1,4 +1,4 @@
-"""Search by example: its naive twin, what it finds at another speed, and what it refuses."""
+"""Search by example: the naive version, other speeds, and errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from kineme.transfer.subsequences import BLOCK, search, warp
 
 
 def directions(n: int, seed: int, dims: int = 6) -> np.ndarray:
-    """A smooth walk on the sphere."""
+    """Make a smooth random walk on the sphere."""
     values = np.cumsum(np.random.default_rng(seed).normal(size=(n, dims)), axis=0)
     return (values / np.linalg.norm(values, axis=1, keepdims=True)).astype(np.float32)
 
@@ -32,7 +32,7 @@ def at_speed(features: np.ndarray, speed: float) -> np.ndarray:
 def test_equal_to_the_naive_version(n: int, m: int, seed: int) -> None:
     recording, example = directions(n, seed), directions(m, seed + 100)
     costs, starts = warp(example, recording)
-    expected, begins = naive.warpings(cdist(recording, example))
+    expected, begins = naive.find_warpings(cdist(recording, example))
     np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-3)  # float32
     possible = np.isfinite(expected)
     assert starts[possible].tolist() == np.array(begins)[possible].tolist()

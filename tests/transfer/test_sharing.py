@@ -20,7 +20,7 @@ from kineme.transfer.sharing import share_by_samples
 
 
 def shuffled(found: kineme.Segmentation) -> kineme.Segmentation:
-    """The same segments with their clusters numbered the other way round."""
+    """Reverse the cluster numbers."""
     clusters = found.table.cluster
     turned = np.where(clusters >= 0, clusters.max() - clusters, -1)
     return replace(found, table=replace(found.table, cluster=turned), hierarchy=None)
@@ -70,7 +70,7 @@ def test_segments_of_another_recording_are_refused() -> None:
 
 
 def still_and_shaken(turns: list[bool], unit: float = 1.0) -> tuple:
-    """Ten seconds each of lying still and being shaken, and its segments, a cluster each."""
+    """Make ten seconds of rest and of shaking, with one segment and cluster each."""
     rng = np.random.default_rng(len(turns))
     rows = [[5.0, 0.0] + (3.0 if on else 0.1) * rng.standard_normal((200, 2)) for on in turns]
     edges = 200 * np.arange(len(turns) + 1)

@@ -13,7 +13,7 @@ import kineme
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError
 from kineme.features.similarity import (
-    MOST_CELLS,
+    MAX_CELLS,
     SimilarityMatrix,
     compare_frames_of_motion,
     compare_frames_of_signal,
@@ -142,5 +142,5 @@ def test_what_a_report_keeps_covers_the_recording_and_stays_within_its_bytes() -
 
 def test_more_than_an_hour_has_no_more_cells() -> None:
     matrix = compare_frames_of_signal(np.sin(np.arange(2 * 36_000)), 10.0)
-    assert len(matrix.levels[0]) == MOST_CELLS
+    assert len(matrix.levels[0]) == MAX_CELLS
     assert matrix.fps == 5.0

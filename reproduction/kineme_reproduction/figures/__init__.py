@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.score import format_markdown, format_score, score_rows
+from kineme.evaluation.score import format_markdown, format_score, make_score_rows
 from kineme.evaluation.truth import Labelling
 from kineme_reproduction.benchmark import (
     PublishedCuts,
@@ -98,9 +98,9 @@ def make_tables(
 
 
 def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
-    """The table of `score_rows`, groups in bold."""
+    """The table of `make_score_rows`, groups in bold."""
     rows: list[list[str]] = []
-    for group, lines in score_rows(columns):
+    for group, lines in make_score_rows(columns):
         rows.append([f"**{group}**", *[""] * len(columns)])
         rows += [[title, *cells] for title, cells in lines]
     return format_markdown(["", *columns], rows)

@@ -91,10 +91,10 @@ def show_written(console: Console, paths: Iterable[Path | None]) -> None:
 
 
 def show_scores(title: str, columns: Mapping[str, Mapping[str, float]]) -> None:
-    """Print scores with one column per result."""
-    from kineme.evaluation.score import explain_disagreement, score_rows
+    """Print scores by the columns that have them."""
+    from kineme.evaluation.score import explain_disagreement, make_score_rows
 
-    show_table(title, list(columns), score_rows(columns), note=explain_disagreement(columns))
+    show_table(title, list(columns), make_score_rows(columns), note=explain_disagreement(columns))
 
 
 def show_table(

@@ -1,10 +1,9 @@
-"""Scores of any result against any truth.
+"""Scores of results against a truth.
 
-A `Comparison` puts a truth and a result beside each other, frame by frame and span by span; a
-`Score` is a function of it. Which scores there are, `scores` tells; `register` adds more. Truths
-are the labels of people (`compare`), or have several annotators and uncertain borders (`Truth`,
-`evaluate`). Several people beside each other: `annotator_agreement`. Folders of recordings:
-`kineme.evaluation.folder`.
+A `Comparison` holds a truth and a result, by frames and by spans; a `Score` is a function of it.
+`scores` lists all scores, and `register` adds more. A truth is a labelled segmentation (`compare`),
+or a `Truth` with several annotators and uncertain borders (`evaluate`). `annotator_agreement`
+compares several people. `kineme.evaluation.folder` evaluates folders of recordings.
 """
 
 from kineme.evaluation.annotators import (

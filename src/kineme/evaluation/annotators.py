@@ -1,16 +1,15 @@
-"""How far several people agree about the same recordings, beyond what chance would give.
+"""Measure the agreement of several people about the same recordings, corrected for chance.
 
 Every frame counts, at the rate at which results are compared (`kineme.evaluation.inputs`). Frames
-that somebody says nothing of are a class of their own, as is usual where units of time are
-tallied (Bakeman, Quera and Gnisci, Observer agreement for timed-event sequential data, 2009).
+without a label are a class of their own, as is usual for units of time (Bakeman, Quera and Gnisci,
+Observer agreement for timed-event sequential data, 2009).
 
-A class is a name, in capitals or small letters. Where people name things differently, or not at
-all, the classes of a second one stand for those of a first by the one-to-one mapping in which most
-frames of all recordings agree (`map_clusters`); for all together, the first of all is meant.
+Classes are names, ignoring case. If people use different names, or none, the classes of the second
+person are mapped one to one to those of the first, so that most frames of all recordings agree
+(`map_clusters`). For more than two people, all are mapped to the first.
 
-Over a folder the kappas count the frames of all recordings together: of two people on those that
-both labelled, of all on those that all labelled. Border F1 is the mean over recordings, and either
-of the two is taken for the truth in turn.
+Over a folder, kappas count the frames of all recordings that both (or all) people labelled. Border
+F1 is the mean over recordings, with each of the two people as truth in turn.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ from kineme._util.arrays import Ints
 from kineme._version import __version__
 from kineme.errors import KinemeError, ParameterError
 from kineme.evaluation.comparison import Comparison, Spans, find_runs, map_clusters
-from kineme.evaluation.inputs import make_comparison
+from kineme.evaluation.inputs import choose_comparison_rate
 from kineme.evaluation.label_truth import make_truth
 from kineme.evaluation.measures import border_score, cohen_kappa
 from kineme.evaluation.score import to_finite, to_plain
@@ -40,15 +39,16 @@ from kineme.segments.segmentation import Segmentation
 
 By = Literal["names", "mapping"]
 
-SHARED = 0.5
-"""Of the names of the one who has fewer, the share that the other must have for names to count."""
+MIN_SHARED_NAMES = 0.5
+"""Share of the names of the person with fewer names that the other must also use, for classes to be
+compared by name."""
 
 Labelled = Mapping[str, Mapping[str, Segmentation]]
-"""By recording and annotator, in the order in which they are shown."""
+"""Segmentations by recording and annotator, in display order."""
 
 
 class Pair(NamedTuple):
-    """How far two people agree, on as many recordings as both labelled; nan where on none."""
+    """Agreement of two people on the recordings that both labelled; nan without any."""
 
     first: str
     second: str
@@ -58,7 +58,7 @@ class Pair(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """A span in seconds in which not all say the same, and what each says; empty is nothing."""
+    """A span in seconds in which people disagree, and the label of each; empty if unlabelled."""
 
     start_s: float
     stop_s: float
@@ -67,9 +67,9 @@ class Difference(NamedTuple):
 
 @dataclass(frozen=True)
 class RecordingAgreement:
-    """How far those who labelled a recording agree about it, and where they differ.
+    """Agreement of the people who labelled a recording, and their differences.
 
-    No difference is shorter than the tolerance of borders.
+    Differences shorter than the tolerance of borders are left out.
     """
 
     recording: str
@@ -80,20 +80,20 @@ class RecordingAgreement:
 
 @dataclass(frozen=True)
 class AnnotatorAgreement:
-    """How far several people agree about some recordings.
+    """Agreement of several people about some recordings.
 
     Parameters
     ----------
     annotators : tuple of str
         Their names.
     by : {"names", "mapping"}
-        Whether classes are names, or stand for each other by the best mapping.
+        Whether classes are compared by name, or by the best one-to-one mapping.
     fleiss_kappa : float
-        Of all of them, on the recordings that all labelled; nan where there is none.
+        Kappa of all people, on the recordings that all labelled; nan without any.
     pairs : tuple of Pair
-        Any two of them.
+        Agreement of each two people.
     recordings : tuple of RecordingAgreement
-        Those that at least two labelled.
+        Recordings that at least two people labelled.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class AnnotatorAgreement:
     recordings: tuple[RecordingAgreement, ...]
 
     def records(self) -> list[dict[str, Any]]:
-        """One record for each pair, one for all, and one for each recording."""
+        """Return one record for each pair, one for all people, and one for each recording."""
         head = {"recording": "*", "by": self.by}
         pairs = [
             {
@@ -131,7 +131,7 @@ class AnnotatorAgreement:
         ]
 
     def to_json(self) -> str:
-        """Everything as one JSON object; a kappa that cannot be had is null."""
+        """Return everything as one JSON object; undefined kappas are null."""
         content = {
             "kineme": __version__,
             "annotators": self.annotators,
@@ -152,24 +152,24 @@ class AnnotatorAgreement:
 
 
 def fleiss_kappa(counts: ArrayLike) -> float:
-    """Fleiss' kappa: how far several people agree beyond what chance would give.
+    """Return Fleiss' kappa: the agreement of several people, corrected for chance.
 
     κ = (P - Pe) / (1 - Pe). P is the mean over subjects of the share of pairs of people who agree,
-    (Σ_j n_ij² - n) / (n (n - 1)); Pe is Σ_j p_j², p_j being the share of class j in all that was
-    said. Source: Fleiss, Measuring nominal scale agreement among many raters, 1971, equations 1
-    to 7. Of two people it is Scott's pi, which Cohen's kappa is close to.
+    (Σ_j n_ij² - n) / (n (n - 1)). Pe is Σ_j p_j², where p_j is the share of class j in all
+    assignments. Source: Fleiss, Measuring nominal scale agreement among many raters, 1971,
+    equations 1 to 7. For two people it equals Scott's pi, which is close to Cohen's kappa.
 
     Parameters
     ----------
     counts : array_like of int, (subjects, classes)
-        How many people put a subject, such as a frame, into a class; of each subject as many, two
-        at least.
+        Number of people who assigned a subject (for example a frame) to a class. All subjects must
+        have the same number of people, at least two.
 
     Returns
     -------
     float
-        1 is equal, 0 is chance, below is worse; also 1 where there is one class only, nan where
-        there is no subject.
+        1 is equal, 0 is chance, below 0 is worse. It is 1 with a single class, and nan without
+        subjects.
 
     Raises
     ------
@@ -192,21 +192,21 @@ def fleiss_kappa(counts: ArrayLike) -> float:
     n = float(people[0])
     if n < 2 or (people != n).any():
         raise ParameterError("every subject needs as many people, and two at least")
-    # Pairs of people who agree, of all ordered pairs, averaged over subjects.
+    # Share of ordered pairs of people who agree, averaged over subjects.
     agreed = float(np.mean((np.square(table).sum(axis=1) - n) / (n * (n - 1))))
-    # Shares of the classes in everything that was said.
+    # Expected agreement: squared shares of the classes in all assignments.
     by_chance = float(np.square(table.sum(axis=0) / table.sum()).sum())
     return (agreed - by_chance) / (1 - by_chance) if by_chance < 1 else 1.0
 
 
 def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
-    """Return how far people agree who labelled the same recordings.
+    """Measure the agreement of people who labelled the same recordings.
 
     Parameters
     ----------
     labelled : mapping of str to mapping of str to Segmentation
-        By the name of a recording what each annotator says of it, all of as many frames. Its
-        activities count.
+        For each recording, the segmentations by annotator, all with the same number of frames.
+        Their activities are compared.
 
     Returns
     -------
@@ -229,19 +229,20 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
     several = {name: sides for name, sides in labelled.items() if len(sides) > 1}
     if not several:
         raise ParameterError("no recording has labels of two people")
+    # `dict.fromkeys` removes duplicates and keeps the order.
     people = tuple(dict.fromkeys(who for sides in labelled.values() for who in sides))
     truths = {
         name: {who: _make_truth(found) for who, found in sides.items()}
         for name, sides in several.items()
     }
-    # Names are compared only if people use the same ones; else clusters are mapped.
     by: By = "names" if _have_names_in_common(several, truths) else "mapping"
-    sides_by = _Sides(truths, by)
-    pairs = tuple(sides_by.pair(first, second) for first, second in combinations(people, 2))
-    stacks = sides_by.stacks(people[0])
-    all_of = [stacks[name] for name, sides in truths.items() if len(sides) == len(people)]
-    together = (
-        fleiss_kappa(_count_annotators(np.concatenate(all_of, axis=1))) if all_of else math.nan
+    classes = _ClassNumbers(truths, by)
+    pairs = tuple(classes.compare_pair(first, second) for first, second in combinations(people, 2))
+    stacks = classes.stack_classes(people[0])
+    # Recordings that all people labelled.
+    complete = [stacks[name] for name, sides in truths.items() if len(sides) == len(people)]
+    overall = (
+        fleiss_kappa(_count_annotators(np.concatenate(complete, axis=1))) if complete else math.nan
     )
     recordings = tuple(
         RecordingAgreement(
@@ -252,60 +253,60 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
         )
         for name, sides in truths.items()
     )
-    return AnnotatorAgreement(people, by, together, pairs, recordings)
+    return AnnotatorAgreement(people, by, overall, pairs, recordings)
 
 
 Truths = Mapping[str, Mapping[str, Truth]]
-"""By recording and annotator, at the rate of comparison."""
+"""Truths by recording and annotator, at the rate of comparison."""
 
 
-class _Sides:
-    """Classes of all frames as numbers: by names one for all, else one for each annotator."""
+class _ClassNumbers:
+    """Classes of all frames as numbers, shared by all people if they are compared by name."""
 
     def __init__(self, truths: Truths, by: By):
         self._truths, self._by = truths, by
         self._numbers: dict[tuple[str, str], int] = {}
         self._classes = {
-            name: {who: self._numbered(who, truth) for who, truth in sides.items()}
+            name: {who: self._number_classes(who, truth) for who, truth in sides.items()}
             for name, sides in truths.items()
         }
 
-    def pair(self, first: str, second: str) -> Pair:
-        """Return how far two people agree."""
-        compared = self._compared(first, second)
+    def compare_pair(self, first: str, second: str) -> Pair:
+        """Measure the agreement of two people."""
+        compared = self._compare(first, second)
         if not compared:
             return Pair(first, second, math.nan, math.nan, 0)
-        # All recordings as one, so that one mapping serves them all.
+        # All recordings as one, with a common mapping.
         both = Comparison(
             np.concatenate([one.truth for one in compared]),
             np.concatenate([one.found for one in compared]),
             compared[0].fps,
-            self._mapping(compared),
+            self._make_mapping(compared),
             transitions=True,
         )
-        # Either of the two is the truth in turn, since borders have a tolerance on one side only.
-        borders = [border_score(one).f1 for one in (*compared, *self._compared(second, first))]
+        # Each is the truth in turn, as only borders of the truth have a tolerance.
+        borders = [border_score(one).f1 for one in (*compared, *self._compare(second, first))]
         return Pair(first, second, cohen_kappa(both), float(np.mean(borders)), len(compared))
 
-    def stacks(self, first: str) -> dict[str, Ints]:
-        """By recording the class of each frame, a row for each annotator, in the first one's."""
+    def stack_classes(self, first: str) -> dict[str, Ints]:
+        """Return the classes (annotators, frames) of each recording, as classes of ``first``."""
         mappings: dict[str, Mapping[int, int]] = {}
-        # Everybody's classes are expressed in those of the first person.
         for who in {who for sides in self._truths.values() for who in sides} - {first}:
-            compared = self._compared(first, who)
-            mappings[who] = self._mapping(compared) if compared else {}
+            compared = self._compare(first, who)
+            mappings[who] = self._make_mapping(compared) if compared else {}
         return {
             name: np.array([_map_classes(row, mappings.get(who, {})) for who, row in sides.items()])
             for name, sides in self._classes.items()
         }
 
-    def _numbered(self, who: str, truth: Truth) -> Ints:
+    def _number_classes(self, who: str, truth: Truth) -> Ints:
+        """Return the number of the class of each frame."""
         labelling = truth.labelling()
         keys = [
             ("" if self._by == "names" else who, _normalize_label(label))
             for label in labelling.labels
         ]
-        # Numbers are shared by all recordings; by mapping, each person has their own.
+        # Numbers are shared by all recordings; with a mapping, people have separate ones.
         values = [
             UNLABELLED
             if name == TRANSITION
@@ -314,40 +315,40 @@ class _Sides:
         ]
         return np.repeat(np.array(values, np.int64), np.diff(labelling.borders))
 
-    def _compared(self, truth: str, found: str) -> list[Comparison]:
-        """One beside the other, on the recordings that both labelled."""
+    def _compare(self, truth: str, found: str) -> list[Comparison]:
+        """Compare two people on each recording that both labelled."""
         return [
             Comparison(
                 self._classes[name][truth],
                 self._classes[name][found],
                 sides[truth].fps,
                 transitions=True,
-                # Borders have spans in the truth only; the second person's are exact.
+                # Only borders of the truth are spans; those of the second person are exact.
                 intervals=Spans(sides[truth], sides[found].labelling(), sides[found].labelling()),
             )
             for name, sides in self._truths.items()
             if {truth, found} <= sides.keys()
         ]
 
-    def _mapping(self, compared: Sequence[Comparison]) -> Mapping[int, int]:
+    def _make_mapping(self, compared: Sequence[Comparison]) -> Mapping[int, int]:
         if self._by == "mapping":
             return map_clusters(compared)
         return {number: number for number in (UNLABELLED, *self._numbers.values())}
 
 
 def _make_truth(found: Segmentation) -> Truth:
-    n_frames, fps = make_comparison(found)
+    n_frames, fps = choose_comparison_rate(found)
     truth = make_truth(found, n_frames=n_frames, fps=fps)
     return Truth.from_labelling(truth.labelling().merged())
 
 
 def _normalize_label(label: str) -> str:
-    """Return a label as it is compared."""
+    """Normalise white space and case of a label."""
     return " ".join(label.split()).casefold()
 
 
 def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
-    """Return whether all name whatever they label, and any two have names in common."""
+    """Return whether people name all activities, and any two share enough names."""
     names: dict[str, set[str]] = {}
     for recording, sides in truths.items():
         for who, truth in sides.items():
@@ -357,38 +358,38 @@ def _have_names_in_common(labelled: Labelled, truths: Truths) -> bool:
             found = {_normalize_label(label) for label in truth.labels} - {TRANSITION}
             names.setdefault(who, set()).update(found)
     pairs = combinations(names.values(), 2)
-    return all(len(a & b) >= SHARED * min(len(a), len(b)) for a, b in pairs)
+    return all(len(a & b) >= MIN_SHARED_NAMES * min(len(a), len(b)) for a, b in pairs)
 
 
 def _map_classes(classes: Ints, mapping: Mapping[int, int]) -> Ints:
-    """Return the classes that a mapping knows as it says, the others as they are."""
-    # The mapping of each class once, then spread over the frames.
-    numbers, where = np.unique(classes, return_inverse=True)
-    return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[where]
+    """Map classes; classes that the mapping does not contain stay the same."""
+    # Map each distinct class once, then expand to frames.
+    numbers, inverse = np.unique(classes, return_inverse=True)
+    return np.array([mapping.get(int(n), int(n)) for n in numbers], np.int64)[inverse]
 
 
 def _count_annotators(stack: Ints) -> Ints:
-    """How many annotators (rows) put each frame (column) into each class: frames x classes."""
-    # Rows of the stack are annotators, columns frames; the sum counts annotators.
+    """Count the annotators that assigned each frame to each class, (frames, classes)."""
+    # Rows of the stack are annotators, so the sum over rows counts them.
     classes = np.unique(stack)
     return np.stack([(stack == each).sum(axis=0) for each in classes], axis=1)
 
 
 def _find_differences(sides: Sequence[Truth], stack: Ints) -> Iterator[Difference]:
-    """Where the rows of a stack are not equal, and what each side says there."""
+    """Yield the spans in which the rows of a stack differ, with the label of each side."""
     labels = [side.labelling().per_frame() for side in sides]
     fps, least = sides[0].fps, sides[0].tolerance_s * sides[0].fps
-    # Numbers of the different columns: a run of one number says the same throughout.
+    # Number the distinct columns: a run of one number has constant labels.
     _, columns = np.unique(stack, axis=1, return_inverse=True)
     for run in find_runs(columns.ravel()):
-        # No longer than the tolerance of borders: a border that is a little off is no difference.
+        # Shorter differences are only small shifts of a border.
         if run.stop - run.start > least and (stack[:, run.start] != stack[0, run.start]).any():
             names = ("" if (name := each[run.start]) == TRANSITION else name for each in labels)
             yield Difference(run.start / fps, run.stop / fps, tuple(names))
 
 
 def read_extent(path: Path) -> Extent:
-    """Return the extent of the recording in a file."""
+    """Read the extent of the recording in a file."""
     from kineme.formats import read
 
     recording = read(path)
@@ -399,18 +400,18 @@ def gather_labels(
     sources: Mapping[str, Mapping[Path, LabelSource]],
     extent: Callable[[Path], Extent] = read_extent,
 ) -> tuple[dict[str, dict[str, Segmentation]], list[str]]:
-    """Return the labels of the recordings for which two people or more have some.
+    """Read the labels of the recordings that at least two people labelled.
 
-    The sources are by annotator and recording, see `kineme.labels.collections.find_labels`; the
-    labels by recording and annotator: the names of recordings, or their paths where names come
-    again. With them comes a sentence on each that could not be read.
+    ``sources`` are by annotator and recording, see `kineme.labels.collections.find_labels`. Return
+    the labels by recording and annotator, and one sentence for each failure. Recordings are
+    identified by name, or by path if names are not unique.
     """
-    paths = list(dict.fromkeys(path for places in sources.values() for path in places))
+    paths = list(dict.fromkeys(path for by_path in sources.values() for path in by_path))
     names = [path.name for path in paths]
     labelled: dict[str, dict[str, Segmentation]] = {}
     failures: list[str] = []
     for path in sorted(paths):
-        found = {who: places[path] for who, places in sources.items() if path in places}
+        found = {who: by_path[path] for who, by_path in sources.items() if path in by_path}
         if len(found) < 2:
             continue
         name = path.name if names.count(path.name) == 1 else str(path)
@@ -433,7 +434,7 @@ def gather_labels(
 
 
 def name_annotators(paths: Sequence[Path]) -> list[str]:
-    """What tells the files or folders of people apart: their names, with folders where needed.
+    """Return distinct names for the files or folders of people, with parent folders if needed.
 
     Examples
     --------
@@ -442,11 +443,11 @@ def name_annotators(paths: Sequence[Path]) -> list[str]:
     >>> name_annotators([Path("anna/labels.csv"), Path("ben/labels.csv")])
     ['anna/labels', 'ben/labels']
     """
-    whole = [path.absolute() for path in paths]
-    plain = [path if path.is_dir() else path.with_suffix("") for path in whole]
-    # As many folders as it takes to make all names different.
-    for parts in range(1, max(len(path.parts) for path in plain) + 1):
-        names = ["/".join(path.parts[-parts:]) for path in plain]
+    absolute = [path.absolute() for path in paths]
+    stems = [path if path.is_dir() else path.with_suffix("") for path in absolute]
+    # Add parent folders until all names differ.
+    for parts in range(1, max(len(path.parts) for path in stems) + 1):
+        names = ["/".join(path.parts[-parts:]) for path in stems]
         if len(set(names)) == len(names):
             return names
     return [str(path) for path in paths]

@@ -1,19 +1,18 @@
-"""Truth and result of a recording beside each other: what every score is a function of.
+"""Compare the truth and the result of a recording; all scores are functions of a `Comparison`.
 
-Frame by frame, classes and clusters are numbers. People name classes, a method clusters; a
-one-to-one assignment that gets the most frames right (Kuhn's Hungarian method) says which
-cluster stands for which class. A cluster that none is left for is wrong everywhere. Scores that
-count more than frames read the spans of both sides (`Spans`).
+Each frame has a class (truth) and a cluster (result), both as numbers. Clusters are mapped to
+classes by the one-to-one assignment with the most right frames (Kuhn's Hungarian method). A cluster
+without a class is wrong everywhere. Scores that need more than frames use the spans of both sides
+(`Spans`).
 
-There are two ways to put the two sides together, by what the truth is:
+There are two kinds of truth:
 
-- labels (`compare`): frames without a label count in nothing and are cut out of both sides, as
-  is usual in action segmentation; transitions of the result are one more cluster. Borders are
-  right within 0.5 s.
-- a `Truth` with uncertain borders (`Comparison.of`): every frame counts, and where people
-  disagree is a class of its own. Transitions of the result must match those of the truth;
-  where it has none, one of its clusters may stand for them. Borders are right within the truth's
-  own tolerance.
+- Labels (`compare`). Frames without a label are removed from both sides, as is usual in action
+  segmentation. Transitions of the result are an additional cluster. Borders are right within 0.5 s.
+- A `Truth` with uncertain borders (`Comparison.of`). Every frame counts, and spans in which people
+  disagree are transitions. Transitions of the result must match those of the truth; if the result
+  has none, one of its clusters may be mapped to them. Borders are right within the truth's own
+  tolerance.
 """
 
 from __future__ import annotations
@@ -36,13 +35,13 @@ from kineme.labels.spans import format_text
 from kineme.segments.segmentation import Segmentation
 
 LABELS_TOLERANCE_S = 0.5
-"""Seconds within which a border is right where the truth is labels."""
+"""Tolerance of borders if the truth is labels, s."""
 
 R = TypeVar("R")
 
 
 class Run(NamedTuple):
-    """Frames ``[start, stop)`` in a row that have one label."""
+    """Consecutive frames ``[start, stop)`` with the same label."""
 
     label: int
     start: int
@@ -50,7 +49,7 @@ class Run(NamedTuple):
 
 
 class Repetitions(NamedTuple):
-    """Actions of the truth with the repetitions in them, and what was found, of every frame."""
+    """Actions of the truth with their repetitions, and found primitives, on all frames."""
 
     actions: Truth
     primitives: Labelling
@@ -58,21 +57,21 @@ class Repetitions(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Spans:
-    """Both sides of a comparison in intervals, all of the same frames.
+    """Both sides of a comparison as intervals of the same frames.
 
     Attributes
     ----------
     actions : Truth
-        What people say.
+        The truth.
     activities, primitives : Labelling
-        What was found: spans of one activity, single repetitions.
+        The result: activities, and single repetitions.
     positions : array_like, (frames, joints, 3), optional
-        Of the recording: metres, y up.
+        Positions of the recording: metres, y up.
     features : array_like, (frames, dims), optional
-        Of the recording, stacked.
+        Stacked features of the recording.
     repetitions : Repetitions, optional
-        Both sides of every frame, where the others are of those alone that count; by default
-        ``actions`` and ``primitives``.
+        Both sides on all frames, if frames were removed from the others; by default ``actions``
+        and ``primitives``.
 
     Examples
     --------
@@ -91,28 +90,28 @@ class Spans:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """What people say about the frames of a recording, and what a method found there.
+    """Truth and result for the frames of a recording.
 
     Parameters
     ----------
     truth : array_like of int, (frames,)
-        The class of each frame that counts.
+        Class of each frame that counts.
     found : array_like of int, (frames,)
-        The cluster of each of these frames.
+        Cluster of each of these frames.
     fps : float
         Frames per second.
     mapping : mapping of int to int, optional
-        The class of each cluster; by default the best for this recording alone.
+        Class of each cluster; by default the best mapping for this recording.
     transitions : bool
-        Whether -1 on either side is a transition: then a found one is right in those of the
-        truth and nowhere else. By default -1 is a cluster as any other.
+        Whether -1 means a transition, which is right only in transitions of the truth. By
+        default -1 is a cluster like all others.
     intervals : Spans, optional
-        Both sides in intervals; by default the runs of these numbers.
+        Both sides as intervals; by default the runs of these numbers.
 
     Raises
     ------
     ParameterError
-        The two are not of one length, or empty.
+        Both have different lengths, or are empty.
 
     Examples
     --------
@@ -153,14 +152,14 @@ class Comparison:
         positions: ArrayLike | None = None,
         features: ArrayLike | None = None,
     ) -> Comparison:
-        """Return a result beside a truth whose borders are uncertain, at the truth's frame rate.
+        """Compare a result with a truth that has uncertain borders, at the truth's frame rate.
 
-        Parameters are those of `kineme.evaluation.evaluate`.
+        The parameters are those of `kineme.evaluation.evaluate`.
 
         Raises
         ------
         ParameterError
-            Labels of another length than the truth.
+            The labels have another length than the truth.
         """
         # Activities and primitives are the clusters by default.
         groups, spans, units = (
@@ -177,18 +176,17 @@ class Comparison:
 
     @cached_property
     def mapped(self) -> Ints:
-        """Class that each frame's cluster stands for; below 0 where it stands for none."""
+        """Return the class of the cluster of each frame; below 0 if it has none."""
         mapping = map_clusters([self]) if self.mapping is None else self.mapping
-        clusters, where = np.unique(self.found, return_inverse=True)
-        # Clusters without a class get numbers of their own, below that of transitions.
+        clusters, inverse = np.unique(self.found, return_inverse=True)
+        # Clusters without a class get distinct numbers below -1, which means transition.
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
-        return np.asarray(classes, np.int64)[where]
+        return np.asarray(classes, np.int64)[inverse]
 
     @cached_property
     def agreed(self) -> Comparison:
-        """Return the same of the frames on which people agree, with a mapping of their own."""
+        """Return the comparison of the frames on which people agree, with its own mapping."""
         certain = self.truth != UNLABELLED
-        # Without certain frames there is nothing to cut out.
         if certain.all() or not certain.any():
             return self
         return Comparison(
@@ -201,7 +199,7 @@ class Comparison:
 
     @cached_property
     def spans(self) -> Spans:
-        """Both sides in intervals."""
+        """Return both sides as intervals."""
         if self.intervals is not None:
             return self.intervals
         found = _make_labelling(self.found_runs, self.fps)
@@ -211,23 +209,23 @@ class Comparison:
 
     @property
     def repetitions(self) -> Repetitions:
-        """Return what repetitions are counted on: every frame of the recording."""
+        """Return both sides for counting repetitions: on all frames of the recording."""
         spans = self.spans
         return spans.repetitions or Repetitions(spans.actions, spans.primitives)
 
     def without_silence(self) -> Comparison:
-        """Return the same between the start of the first action and the end of the last.
+        """Return the comparison between the start of the first action and the end of the last.
 
-        Beyond them the truth says nothing, and nothing is right or wrong there.
+        Outside, the truth is unknown.
         """
         spans, actions = self.spans, self.spans.actions
         first, last = (actions.labels[i] == TRANSITION for i in (0, -1))
         if not first and not last:
             return self
-        # Silence ends at the latest mark at which the first action may begin.
+        # Start at the latest mark of the first action.
         start = int(actions.latest[0]) if first else 0
         stop = int(actions.earliest[-1]) if last else actions.frames
-        # A border lies between two actions, so there is one less.
+        # There is one border less than actions.
         rows = slice(int(first), len(actions.labels) - int(last))
         between = slice(rows.start, rows.stop - 1)
         inner = replace(
@@ -256,21 +254,21 @@ class Comparison:
 
     @cached_property
     def true_runs(self) -> list[Run]:
-        """Return the runs of one class."""
+        """Return the runs of frames of one class."""
         return find_runs(self.truth)
 
     @cached_property
     def mapped_runs(self) -> list[Run]:
-        """Return the runs of clusters that stand for one class."""
+        """Return the runs of frames whose clusters are mapped to one class."""
         return find_runs(self.mapped)
 
     @cached_property
     def found_runs(self) -> list[Run]:
-        """Return the runs of one cluster."""
+        """Return the runs of frames of one cluster."""
         return find_runs(self.found)
 
     def once(self, measure: Callable[[Comparison], R]) -> R:
-        """What a function gives of this comparison, computed once for all scores that ask."""
+        """Return the value of a function of this comparison, cached for all scores that use it."""
         if measure not in self._results:
             self._results[measure] = measure(self)
         result: R = self._results[measure]
@@ -280,28 +278,28 @@ class Comparison:
 def compare(
     truth: Segmentation, found: Segmentation, *, classes: dict[str, int] | None = None
 ) -> Comparison:
-    """Return the frames of a recording to which people gave a label, and the clusters found there.
+    """Compare a result with labels, on the frames that have a label.
 
     Parameters
     ----------
     truth : Segmentation
-        Its activities' labels are the classes; its transitions are frames without a label. What
-        it says of repetitions, `kineme.evaluation.label_truth` tells.
+        The labels of its activities are the classes; its transitions are frames without a label.
+        For its repetitions see `kineme.evaluation.label_truth`.
     found : Segmentation
-        Its activities' clusters. Transitions are one cluster; an activity in no cluster is
-        one of its own.
+        The clusters of its activities are compared. Transitions are one cluster; each activity
+        without a cluster is a separate one.
     classes : dict of str to int, optional
-        Numbers of classes; new ones are added. Give the same one for several recordings.
+        Numbers of classes; new ones are added. Use the same dict for several recordings.
 
     Returns
     -------
     Comparison
-        At the frames of both.
+        At the common frame rate.
 
     Raises
     ------
     ParameterError
-        Truth and result are of another length, or nothing is labelled.
+        Truth and result have different lengths, or nothing is labelled.
 
     Examples
     --------
@@ -318,30 +316,34 @@ def compare(
         )
     truth = add_repetitions(truth)
     numbers = {} if classes is None else classes
-    classes_of_rows = [
+    row_classes = [
         UNLABELLED
         if row.kind == "transition"
         else numbers.setdefault(format_text(row), len(numbers))
         for row in truth.activities
     ]
     # Activities in no cluster get numbers above all clusters.
-    lonely = 1 + max(found.activities.cluster.tolist(), default=0)
-    groups = [
-        UNLABELLED if row.kind == "transition" else row.cluster if row.cluster >= 0 else lonely + i
+    first_free = 1 + max(found.activities.cluster.tolist(), default=0)
+    row_clusters = [
+        UNLABELLED
+        if row.kind == "transition"
+        else row.cluster
+        if row.cluster >= 0
+        else first_free + i
         for i, row in enumerate(found.activities)
     ]
-    labels, clusters = _spread_labels(truth, classes_of_rows), _spread_labels(found, groups)
+    labels, clusters = _expand_to_frames(truth, row_classes), _expand_to_frames(found, row_clusters)
     counted = labels != UNLABELLED
     if not counted.any():
         raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
-    # Frames without a label are cut out of both sides.
+    # Remove frames without a label from both sides.
     compared = Comparison(labels[counted], clusters[counted], found.fps)
     spans = compared.spans
     single = make_labelling(found.primitives or found.activities, fps=truth.fps)
     actions = make_truth(truth, n_frames=truth.n_frames, fps=truth.fps)
     intervals = replace(
         spans,
-        # Primitives without the frames that were cut out; repetitions are counted on every frame.
+        # Without the removed frames; but repetitions are counted on all frames.
         primitives=single.within(counted) if len(found.primitives) else spans.primitives,
         repetitions=Repetitions(actions, single),
     )
@@ -349,9 +351,9 @@ def compare(
 
 
 def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
-    """Return the class of each cluster by which most frames of all the recordings are right.
+    """Map clusters to classes one to one, so that most frames of all recordings are right.
 
-    One-to-one: of more clusters than classes, those that would add least stand for none.
+    If there are more clusters than classes, the least useful clusters have no class.
 
     Examples
     --------
@@ -363,7 +365,7 @@ def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
     )
     mapping = {}
     if any(c.transitions for c in comparisons) and (found == UNLABELLED).any():
-        # A transition can only stand for a transition, so it takes no part in the assignment.
+        # Transitions are only mapped to transitions, so leave them out of the assignment.
         mapping = {UNLABELLED: UNLABELLED}
         free = (found != UNLABELLED) & (truth != UNLABELLED)
         truth, found = truth[free], found[free]
@@ -374,12 +376,12 @@ def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
 
 
 def count_frames(found: Ints, truth: Ints) -> tuple[Ints, Ints, Ints]:
-    """Clusters, classes, and how many frames are of each cluster (row) and class (column)."""
-    clusters, given = np.unique(found, return_inverse=True)
-    classes, true = np.unique(truth, return_inverse=True)
+    """Return clusters, classes, and the frames of each cluster (row) and class (column)."""
+    clusters, rows = np.unique(found, return_inverse=True)
+    classes, columns = np.unique(truth, return_inverse=True)
     frames = np.zeros((len(clusters), len(classes)), np.int64)
-    # `add.at` adds repeated index pairs one by one.
-    np.add.at(frames, (given, true), 1)
+    # `add.at` also counts repeated index pairs, unlike `+=`.
+    np.add.at(frames, (rows, columns), 1)
     return clusters, classes, frames
 
 
@@ -392,17 +394,18 @@ def find_runs(labels: ArrayLike) -> list[Run]:
     [Run(label=3, start=0, stop=2), Run(label=5, start=2, stop=3)]
     """
     per_frame = np.asarray(labels, np.int64)
-    # A run begins where the number changes: the difference belongs to the frame before.
+    # + 1: a difference at i is a change between frames i and i + 1.
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
 
 
 def _make_labelling(found: Sequence[Run], fps: float) -> Labelling:
-    """Runs as intervals; the number of a label is its name, that of transitions, too."""
+    """Convert runs to intervals; the names of labels are their numbers."""
     borders = [*(run.start for run in found), found[-1].stop]
     return Labelling(np.array(borders), tuple(f"{run.label}" for run in found), fps)
 
 
-def _spread_labels(segmentation: Segmentation, values: Sequence[int]) -> Ints:
+def _expand_to_frames(segmentation: Segmentation, values: Sequence[int]) -> Ints:
+    """Repeat one value per activity for each of its frames."""
     rows = segmentation.activities
     return np.repeat(np.asarray(values, np.int64), rows.stop_frame - rows.start_frame)

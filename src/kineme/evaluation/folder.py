@@ -1,12 +1,12 @@
-"""Methods on a folder of recordings with labels: every score of each, and over all of them.
+"""Evaluate methods on a folder of labelled recordings: scores of each recording and of all.
 
-ACA, HACA and GMM take the true number of classes, as in all published comparisons; others find it.
-Several recordings and methods are worked out here or in several processes.
+ACA, HACA and GMM get the true number of classes, as in all published comparisons; other methods
+estimate it. Jobs run in this process or in several.
 
-Clusters stand for classes by one mapping a recording, or by one for the whole folder; for the
-latter the clusters of all recordings are joined first: bodies, and signals of the same channels,
-have a vocabulary each, and nothing is one cluster across these. What one method finds is joined by
-itself. A recording that cannot be read, segmented or compared costs itself only, and says why.
+Clusters are mapped to classes for each recording, or once for the whole folder. In the second case,
+clusters of all recordings are shared first, separately for each method. They are shared among
+bodies, and among signals with the same channels. A recording that cannot be read, segmented or
+compared gets an error and does not affect the others.
 """
 
 from __future__ import annotations
@@ -40,16 +40,16 @@ Mapped = Literal["recording", "folder"]
 Progress = Callable[[str], None]
 
 UNMET = "has no column like"
-"""How a note on a pattern begins that no column of a recording fits, such as a mistyped one."""
+"""Start of a note about a pattern that matches no column of a recording."""
 NUMBER_OF_CLASSES = "n_classes"
-"""Constant of presets that take the true number of classes."""
+"""Name of the constant of presets that need the true number of classes."""
 
 
 @dataclass(frozen=True)
 class RecordingScores:
-    """One method on one recording of ``length_s``: results by score, or the error why not.
+    """Results by score of one method on one recording of ``length_s``, or an error.
 
-    ``seconds`` are what segmenting took; ``notes`` what is unusual about the labels.
+    ``seconds`` is the run time of the segmentation; ``notes`` describe problems of the labels.
     """
 
     recording: str
@@ -67,26 +67,25 @@ class RecordingScores:
 
 @dataclass(frozen=True)
 class FolderScores:
-    """What each method scored on the recordings of a folder, in the order of the files.
+    """Scores of each method on the recordings of a folder, in the order of files.
 
-    Clusters were mapped to classes for each recording, or at once for the folder.
+    ``mapping`` tells whether clusters were mapped to classes for each recording or for the folder.
     """
 
     methods: Mapping[str, Sequence[RecordingScores]]
     mapping: Mapped
 
     def pool_scores(self, method: str) -> dict[str, float]:
-        """Return the scores of a method over its recordings by name, and ``seconds_per_hour``."""
+        """Return the scores of a method over all recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
         found = {n: pool_scores(one.results.get(n) for one in good) for n in scores() if good}
-        # Weighed by length: seconds over all recordings.
         length = sum(one.length_s for one in good)
         if length:
             found["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
         return found
 
     def records(self) -> list[dict[str, Any]]:
-        """One record per method and recording, then one per method over all (``*``)."""
+        """Return one record per method and recording, then one per method over all (``*``)."""
         records: list[dict[str, Any]] = []
         for method, ones in self.methods.items():
             for one in ones:
@@ -97,7 +96,7 @@ class FolderScores:
         return records + overall
 
     def to_json(self) -> str:
-        """Everything as one JSON object; scores that are not defined are null."""
+        """Return everything as one JSON object; undefined scores are null."""
         methods = {
             method: {
                 "scores": to_plain(self.pool_scores(method)),
@@ -130,30 +129,31 @@ def evaluate_folder(
     processes: int = 2,
     progress: Progress | None = None,
 ) -> FolderScores:
-    """Return every score of every method on every recording that has labels.
+    """Compute all scores of all methods on all labelled recordings.
 
     Parameters
     ----------
     labels : Mapping of Path to LabelSource
-        The recordings and where their labels are, see `kineme.labels.collections.find_labels`.
+        Recordings and the sources of their labels, see `kineme.labels.collections.find_labels`.
     methods : sequence of str
         Names of methods, in the order of the tables.
     mapping : {"recording", "folder"}
-        Whether clusters stand for classes of their recording alone, or for the same in all,
-        over which they are joined before.
+        Whether clusters are mapped to classes for each recording, or shared first and mapped
+        once for the folder.
     n_clusters : int, optional
-        How many clusters signals of the folder are joined to; found out by default.
+        Number of shared clusters of signals; estimated by default.
     read_options : ReadOptions, optional
-        How the recordings are read. Of its columns, which may be patterns, each takes those it has.
+        Options for reading recordings. Columns may be patterns; each recording uses those that it
+        has.
     without : sequence of str
         Patterns of columns to leave out of signals.
     constants : mapping, optional
-        Of every method that are to be others, such as ``{"min_action": 2.0}``. Which there are
-        depends on the recording; one that cannot be taken is an error of it.
+        Constants of the methods to change, such as ``{"min_action": 2.0}``. If a recording's
+        preset does not have one of them, this is an error of the recording.
     processes : int
-        How many at once; 1 stays in this process.
+        Number of processes; with 1, everything runs in this process.
     progress : callable, optional
-        Called with a sentence on each recording that is done.
+        Called with a sentence for each finished recording.
 
     Returns
     -------
@@ -162,7 +162,7 @@ def evaluate_folder(
     Raises
     ------
     ParameterError
-        There is no such method.
+        A method does not exist.
 
     Examples
     --------
@@ -181,99 +181,98 @@ def evaluate_folder(
         for path, source in labels.items()
         for name in methods
     ]
-    answers: dict[Job, Answer] = {}
-    for done, (job, answer) in enumerate(run_jobs(jobs, processes), 1):
-        answers[job] = answer
+    job_results: dict[Job, JobResult] = {}
+    for done, (job, result) in enumerate(run_jobs(jobs, processes), 1):
+        job_results[job] = result
         if progress is not None:
             progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
     results: dict[str, list[RecordingScores]] = {}
     for name in methods:
-        of_method = [(job, answers[job]) for job in jobs if job.method == name]
+        own_results = [(job, job_results[job]) for job in jobs if job.method == name]
         if progress is not None and mapping == "folder":
             progress(f"joining the clusters of all recordings, {name}")
         if mapping == "folder":
-            compared = join_comparisons(of_method, n_clusters)
+            compared = join_comparisons(own_results, n_clusters)
         else:
-            compared = [answer.compared for _, answer in of_method]
+            compared = [result.compared for _, result in own_results]
         results[name] = [
-            RecordingScores(job.path.name, error=answer.error)
+            RecordingScores(job.path.name, error=result.error)
             if one is None
             else RecordingScores(
-                job.path.name, answer.seconds, answer.length_s, compute_results(one), answer.notes
+                job.path.name, result.seconds, result.length_s, compute_results(one), result.notes
             )
-            for (job, answer), one in zip(of_method, compared, strict=True)
+            for (job, result), one in zip(own_results, compared, strict=True)
         ]
     return FolderScores(results, mapping)
 
 
 def join_comparisons(
-    answers: Sequence[tuple[Job, Answer]], n_clusters: int | None = None
+    job_results: Sequence[tuple[Job, JobResult]], n_clusters: int | None = None
 ) -> list[Comparison | None]:
-    """Return the comparisons of one method by one mapping of joined clusters; None of failures."""
+    """Compare the results of one method with shared clusters and one mapping; None for failures."""
     classes: dict[str, int] = {}
     compared = {
         i: compare(sides.truth, found, classes=classes)
-        for i, (sides, found) in _join_clusters(answers, n_clusters).items()
+        for i, (sides, found) in _join_clusters(job_results, n_clusters).items()
     }
     mapping = map_clusters(list(compared.values())) if compared else {}
     mapped = {i: replace(one, mapping=mapping) for i, one in compared.items()}
-    return [mapped.get(i) for i in range(len(answers))]
+    return [mapped.get(i) for i in range(len(job_results))]
 
 
 def _join_clusters(
-    answers: Sequence[tuple[Job, Answer]], n_clusters: int | None
-) -> dict[int, tuple[Sides, Segmentation]]:
-    """By the place of an answer: what was found there, with the joined clusters."""
-    # Recordings whose clusters can be joined: bodies under (), signals by their channels.
+    job_results: Sequence[tuple[Job, JobResult]], n_clusters: int | None
+) -> dict[int, tuple[ComparedSides, Segmentation]]:
+    """Return the results with shared clusters, by index of the job."""
+    # Group recordings whose clusters can be shared: bodies under (), signals by channels.
     kinds: dict[tuple[str, ...], list[int]] = {}
-    for i, (_, answer) in enumerate(answers):
-        if answer.sides is not None:
-            samples = answer.sides.samples
+    for i, (_, result) in enumerate(job_results):
+        if result.sides is not None:
+            samples = result.sides.samples
             kinds.setdefault(samples.names if samples else (), []).append(i)
-    found: dict[int, tuple[Sides, Segmentation]] = {}
+    found: dict[int, tuple[ComparedSides, Segmentation]] = {}
     following = 0
     for rows in kinds.values():
-        jobs = [answers[i][0] for i in rows]
-        sides = [s for i in rows if (s := answers[i][1].sides) is not None]
+        jobs = [job_results[i][0] for i in rows]
+        sides = [s for i in rows if (s := job_results[i][1].sides) is not None]
         shared = _share_clusters(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
-            # Numbers of different kinds must not meet.
+            # Clusters of different groups must have different numbers.
             found[i] = side, _renumber(one, following)
         following += 1 + max(int(one.table.cluster.max()) for one in shared)
     return dict(sorted(found.items()))
 
 
 def _share_clusters(
-    jobs: Sequence[Job], sides: Sequence[Sides], n_clusters: int | None
+    jobs: Sequence[Job], sides: Sequence[ComparedSides], n_clusters: int | None
 ) -> list[Segmentation]:
     segmentations = [one.found for one in sides]
     samples = [one.samples for one in sides if one.samples is not None]
     if samples:
         return share_by_samples(samples, segmentations, n_clusters=n_clusters)
-    # Motions are read again: to keep them all would take much memory.
+    # Read motions again, as keeping them all would need much memory.
     motions = [motion for job in jobs if isinstance(motion := job.read(), Motion)]
     try:
         return share_clusters(motions, segmentations)
-    except MotionError:  # no body whose movements could be compared: nothing is one cluster
-        apart, following = [], 0
+    except MotionError:  # without bodies, movements cannot be compared: share no cluster
+        separate, following = [], 0
         for found in segmentations:
-            apart.append(_renumber(found, following))
+            separate.append(_renumber(found, following))
             following += 1 + int(found.table.cluster.max())
-        return apart
+        return separate
 
 
 def _renumber(found: Segmentation, first: int) -> Segmentation:
-    """Return the same with clusters numbered from a number on."""
+    """Renumber clusters from ``first`` on."""
     return renumber_clusters(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})
 
 
 def read_selected(
     path: Path, options: ReadOptions, without: Sequence[str] = ()
 ) -> Motion | Signals:
-    """Return the recording in a file; where columns are named or left out, its channels.
+    """Read a recording, restricted to some channels if columns are selected or left out.
 
-    Both are patterns (``acc*``), of which a recording takes or leaves those that it has. Capitals
-    and small letters are the same.
+    Columns are patterns (``acc*``), which ignore case. Patterns that match no column are noted.
     """
     if not (options.columns or without):
         return read(path, **vars(options))
@@ -281,20 +280,26 @@ def read_selected(
     if not isinstance(signals, Signals):
         raise ParameterError(f"{path}: has no columns to choose from")
     columns = options.columns or ("*",)
-    kept = [name for name in signals.names if _fits(name, *columns) and not _fits(name, *without)]
+    kept = [
+        name
+        for name in signals.names
+        if _matches_any(name, *columns) and not _matches_any(name, *without)
+    ]
     if not kept:
         names = ", ".join(signals.names)
         raise ParameterError(f"{path}: no column is left of {names:.200}")
-    unmet = [p for p in (*columns, *without) if not any(_fits(name, p) for name in signals.names)]
+    unmet = [
+        p for p in (*columns, *without) if not any(_matches_any(name, p) for name in signals.names)
+    ]
     return signals.select(kept).noted(*(f"{UNMET} {pattern!r:.60}" for pattern in unmet))
 
 
-def _fits(name: str, *patterns: str) -> bool:
+def _matches_any(name: str, *patterns: str) -> bool:
     return any(fnmatchcase(name.lower(), pattern.lower()) for pattern in patterns)
 
 
 def find_recordings(folder: Path) -> list[Path]:
-    """Return the recordings in a folder and in the folders in it, one at least, by name."""
+    """Return the recordings in a folder and its subfolders by name; at least one is required."""
     from kineme.formats.listing import scan_folder
 
     found = scan_folder(folder, recursive=True).recordings
@@ -303,28 +308,28 @@ def find_recordings(folder: Path) -> list[Path]:
     return found
 
 
-def segment_by(
+def segment_with_method(
     name: str, recording: Motion | Signals, *, n_classes: int, **constants: Any
 ) -> Segmentation:
-    """Return the segments that a method finds in a recording."""
+    """Segment a recording with a method."""
     from kineme.methods.segmenter import segment
 
     check_method(name)
-    # None as the preset's value asks for the true number of classes.
+    # Presets with the value None need the true number of classes.
     if getattr(PRESETS[name], NUMBER_OF_CLASSES, 0) is None:
         constants = {NUMBER_OF_CLASSES: n_classes, **constants}
     return segment(recording, preset=name, **constants)
 
 
 def check_method(name: str) -> None:
-    """ParameterError for what is no method."""
+    """Raise ParameterError if there is no such method."""
     if name not in PRESETS:
         raise ParameterError(f"no method {name!r}; there are {', '.join(PRESETS)}")
 
 
 @dataclass(frozen=True)
 class Job:
-    """A method on a recording."""
+    """A method to run on a recording."""
 
     path: Path
     source: LabelSource
@@ -333,34 +338,34 @@ class Job:
     without: Sequence[str] = ()
     """Columns of signals to leave out."""
     joins: bool = False
-    """Whether clusters will be joined with those of other recordings."""
+    """Whether clusters will be shared with other recordings."""
     constants: Mapping[str, Any] = field(default_factory=dict)
-    """Of the method that are to be others."""
+    """Constants of the method to change."""
 
     def __hash__(self) -> int:
         return hash((self.path, self.method))
 
     def read(self) -> Motion | Signals:
-        """Return the recording."""
+        """Read the recording."""
         return read_selected(self.path, self.read_options, self.without)
 
 
 @dataclass(frozen=True, eq=False)
-class Sides:
-    """Both sides of a comparison, to join the clusters of several recordings first."""
+class ComparedSides:
+    """Both sides of a comparison, kept to share clusters with other recordings first."""
 
     truth: Segmentation
     found: Segmentation
     samples: ChannelSamples | None
-    """Of signals; motions are read again."""
+    """Samples of signals; None for motions, which are read again."""
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
-    """What came out of a job: something to compare, or an error."""
+class JobResult:
+    """Result of a job: a comparison, or an error."""
 
     compared: Comparison | None = None
-    sides: Sides | None = None
+    sides: ComparedSides | None = None
     classes: Mapping[str, int] = field(default_factory=dict)
     seconds: float = 0.0
     length_s: float = 0.0
@@ -368,8 +373,8 @@ class Answer:
     error: str = ""
 
 
-def run_jobs(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]]:
-    """Yield each job and its answer, as they come."""
+def run_jobs(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, JobResult]]:
+    """Yield each job with its result, in order of completion."""
     if processes == 1:
         for job in jobs:
             yield job, _try_job(job)
@@ -377,17 +382,19 @@ def run_jobs(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, Answer]
     pool = make_process_pool(processes)
     try:
         with defer_interrupt():
-            waiting: dict[Future[Answer], Job] = {pool.submit(_try_job, job): job for job in jobs}
+            waiting: dict[Future[JobResult], Job] = {
+                pool.submit(_try_job, job): job for job in jobs
+            }
         for future in as_completed(waiting):
             failure = future.exception()
-            answer = future.result() if failure is None else _describe_failure(failure)
-            yield waiting[future], answer
+            result = future.result() if failure is None else _describe_failure(failure)
+            yield waiting[future], result
     finally:
-        # Also reached when the caller stops early.
-        pool.shutdown(cancel_futures=True)  # none is left, or nobody asks any more
+        # Also reached if the caller stops early; then jobs that have not started are cancelled.
+        pool.shutdown(cancel_futures=True)
 
 
-def _try_job(job: Job) -> Answer:
+def _try_job(job: Job) -> JobResult:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", KinemeWarning)
@@ -396,30 +403,30 @@ def _try_job(job: Job) -> Answer:
         return _describe_failure(error)
 
 
-def run_job(job: Job, clock: Callable[[], float] = time.perf_counter) -> Answer:
-    """Return what comes out of a job; raises what its method raises, and times it by this clock."""
+def run_job(job: Job, clock: Callable[[], float] = time.perf_counter) -> JobResult:
+    """Run a job and measure its time with this clock; raise what the method raises."""
     recording = job.read()
     truth = job.source.of(
         n_frames=recording.n_frames, fps=recording.fps, clock=recording.provenance.clock
     )
     classes: dict[str, int] = {}
-    # Numbers the classes as the truth has them; the comparison itself is not needed.
+    # Comparing the truth with itself numbers its classes.
     compare(truth, truth, classes=classes)
     start = clock()
-    found = segment_by(job.method, recording, n_classes=len(classes), **job.constants)
+    found = segment_with_method(job.method, recording, n_classes=len(classes), **job.constants)
     seconds = clock() - start
     compared = compare(truth, found, classes=classes)
     sides = None
     if job.joins:
         samples = compute_channel_samples(recording) if isinstance(recording, Signals) else None
-        # The hierarchy is large and is not needed for joining.
-        sides = Sides(truth, replace(found, hierarchy=None), samples)
+        # Drop the hierarchy, which is large and not needed.
+        sides = ComparedSides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
     notes = (*unmet, *truth.provenance.get("notes", ()))
-    return Answer(compared, sides, classes, seconds, recording.duration, notes)
+    return JobResult(compared, sides, classes, seconds, recording.duration, notes)
 
 
-def _describe_failure(error: BaseException) -> Answer:
+def _describe_failure(error: BaseException) -> JobResult:
     text = " ".join(str(error).split())
     name = "" if isinstance(error, KinemeError) else f"{type(error).__name__}: "
-    return Answer(error=f"{name}{text}")
+    return JobResult(error=f"{name}{text}")

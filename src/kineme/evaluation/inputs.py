@@ -1,12 +1,12 @@
-"""One result against its truth, from files: how the two meet.
+"""Read a result and its truth from files, and compute scores.
 
 Both are label files of any format (`kineme.labels`). They are compared at 30 Hz, as published, or
-at the result's rate if that is lower. Before its first action and behind its last one a truth says
-nothing, and nothing is right or wrong there.
+at the result's rate if that is lower. Frames before the first and after the last action of the
+truth do not count.
 
 A truth may also be the annotations of CMU subject 86: fourteen trials, each with three annotators.
-At another rate than 120 Hz mark m is m × rate / 120, halves up, as in the evaluation of Vögele,
-Krüger, Klein 2014. Frame f counted from 1 is frame f - 1 here.
+At another rate than 120 Hz, mark m is m × rate / 120, with halves rounded up, as in the evaluation
+of Vögele, Krüger, Klein 2014. There frames count from 1, here from 0.
 """
 
 from __future__ import annotations
@@ -32,12 +32,13 @@ from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
 from kineme.segments.segmentation import Segmentation
 
 FPS = 30.0
+"""Highest rate of comparison, Hz."""
 
 
 def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
-    """Return what a method found, in a file of any label format.
+    """Read the result of a method from a file of any label format.
 
-    ``fps`` is used where the file does not tell; without, labels in seconds are taken at 30 Hz.
+    ``fps`` is used if the file has no frame rate; by default, labels in seconds are read at 30 Hz.
     """
     label_format, content = read_content(path)
     if isinstance(content, Segmentation):
@@ -47,20 +48,20 @@ def read_result(path: Path, *, fps: float | None = None) -> Segmentation:
 
 
 def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> Truth:
-    """Return what people say about the recording of a result, at the rate of comparison.
+    """Read the truth for the recording of a result, at the rate of comparison.
 
-    ``fps`` is that of labels which count frames, if not the result's. What is unusual about the
-    labels is a `KinemeWarning`.
+    ``fps`` is the rate of labels in frames; by default that of the result. Problems of the labels
+    are reported as `KinemeWarning`.
     """
-    n_frames, rate = make_comparison(found)
+    n_frames, rate = choose_comparison_rate(found)
     label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
             counted = content.fps or (found.fps if content.unit == "seconds" else fps or found.fps)
             length_s = found.n_frames / found.fps
             content = convert_clock_times(content, found.clock, length_s=length_s)
-            # Labels in seconds reach to the end of the recording, those in frames as many frames.
-            if content.length is None:  # silence at the end
+            # Without a length, labels extend to the end of the recording.
+            if content.length is None:
                 length = length_s if content.unit == "seconds" else round(length_s * counted)
                 content = replace(content, length=length)
             content, unusual = as_segmentation(content, path, label_format.name, fps=counted)
@@ -73,14 +74,14 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
 
 
 def score_agreement(truth: Segmentation, found: Segmentation) -> dict[str, float]:
-    """Return the scores of a result, another segmentation of the recording taken for the truth.
+    """Return the scores of a result, with another segmentation of the recording as truth.
 
     Examples
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
     >>> truth = kineme.read_segments(bundled_truth())
-    >>> agreement(truth, truth)["border_f1"]
+    >>> score_agreement(truth, truth)["border_f1"]
     1.0
     """
     compared = _compare_to_truth(truth, found)
@@ -89,38 +90,37 @@ def score_agreement(truth: Segmentation, found: Segmentation) -> dict[str, float
 
 
 def find_differences(truth: Segmentation, found: Segmentation) -> list[tuple[float, float]]:
-    """Spans in seconds, in order, in which two segmentations of a recording differ.
+    """Find the spans in seconds in which two segmentations of a recording differ.
 
-    Those no longer than the tolerance of borders are none; nor is what the truth calls a
-    transition.
+    Spans up to the tolerance of borders, and transitions of the truth, are ignored.
 
     Examples
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
     >>> truth = kineme.read_segments(bundled_truth())
-    >>> differences(truth, truth)
+    >>> find_differences(truth, truth)
     []
     """
     compared = _compare_to_truth(truth, found)
     if compared is None:
         return []
     least = compared.spans.actions.tolerance_s * compared.fps
-    # Frames on which the truth has a class, and the result another.
+    # Frames of a class of the truth with another class in the result.
     wrong = (compared.truth != compared.mapped) & (compared.truth != UNLABELLED)
     return [
         (run.start / compared.fps, run.stop / compared.fps)
         for run in find_runs(wrong)
-        # `find_runs` of a mask: label 1 where it is true.
+        # Runs of a mask: label 1 is True.
         if run.label and run.stop - run.start > least
     ]
 
 
 def _compare_to_truth(truth: Segmentation, found: Segmentation) -> Comparison | None:
-    """Both at the rate of comparison; None where the truth has no activity."""
+    """Compare both at the rate of comparison; return None if the truth has no activity."""
     if not (truth.activities.kind == "activity").any():
         return None
-    n_frames, fps = make_comparison(found)
+    n_frames, fps = choose_comparison_rate(found)
     return compare_with_truth(make_truth(add_repetitions(truth), n_frames=n_frames, fps=fps), found)
 
 
@@ -130,23 +130,24 @@ def _compute_scores(compared: Comparison) -> dict[str, float]:
     }
 
 
-def make_comparison(found: Segmentation) -> tuple[int, float]:
-    """Frames and rate at which a result is compared: 30 Hz, or its own if lower."""
+def choose_comparison_rate(found: Segmentation) -> tuple[int, float]:
+    """Return the number of frames and the rate of comparison: 30 Hz, or the result's if lower."""
     rate = min(FPS, found.fps)
-    # Frames that fit up to the last one; the small number guards against rounding.
+    # Number of frames up to the last one; 1e-9 guards against rounding.
     return floor((found.n_frames - 1) * rate / found.fps + 1e-9) + 1, rate
 
 
 def score(truth: Truth, found: Segmentation) -> dict[str, float]:
-    """Return every score, of a truth at the rate of comparison."""
+    """Return all scores, for a truth at the rate of comparison."""
     return _compute_scores(compare_with_truth(truth, found))
 
 
 def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:
-    """Return the truth of each trial by its name, at so many frames a second.
+    """Read the truth of each trial by name, at a frame rate.
 
-    The file is ``annotations.json`` or the authors' ``mocap.txt``; ReadError where it is neither,
-    or marks run backwards beyond the known errors. A KinemeWarning names each mended row.
+    The file is ``annotations.json`` or the authors' ``mocap.txt``. Raise ReadError if it is
+    neither, or if marks run backwards, apart from known errors. A KinemeWarning names each
+    corrected row.
     """
     found = {}
     for name, rows in read_actions(path).items():
@@ -158,9 +159,9 @@ def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Tr
 
 
 def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
-    """Return the truth of one trial; known errors are mended in silence.
+    """Read the truth of one trial; known errors are corrected without a warning.
 
-    ReadError where there is no such file, or it holds no such trial.
+    Raise ReadError if the file or the trial does not exist.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KinemeWarning)
@@ -171,8 +172,8 @@ def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
     return trials[name]
 
 
-def is_annotations(path: Path) -> bool:
-    """Return whether a file is ``annotations.json`` or ``mocap.txt``, by what it holds."""
+def is_annotation_file(path: Path) -> bool:
+    """Return whether a file is ``annotations.json`` or ``mocap.txt``, judged by its content."""
     suffix = path.suffix.lower()
     if suffix not in (".txt", ".json") or not path.is_file():
         return False
@@ -188,10 +189,10 @@ def is_annotations(path: Path) -> bool:
 
 def _find_trial_truth(rows: list[Action], fps: float) -> Truth:
     earliest, mean, latest = (
-        # Marks count frames from 1. The last row ends with the recording, and has no border.
+        # - 1: marks count frames from 1. The last row ends with the recording and has no border.
         round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
         for i in (1, 2, 3)
     )
-    # Keeping every fourth frame from the first on keeps ceil(N / 4) of them.
+    # Every fourth of N frames, starting with the first, are ceil(N / 4) frames.
     frames = ceil(rows[-1].latest * fps / TRIAL_FPS)
     return Truth(tuple(row.label for row in rows), earliest, mean, latest, frames, fps)

@@ -1,8 +1,8 @@
-"""What labels say of a recording, as a truth: activities, and the repetitions in them.
+"""Convert labels to a truth: activities, and the repetitions in them.
 
-People who cut repetitions name them all alike, back to back, or keep them on the level
-``primitive``. Both are the same truth (`add_repetitions`): equal labels that touch each other are
-one activity, and each of them is a repetition in it. A column ``count`` tells the number alone.
+People label repetitions either as adjacent segments with the same name, or on the level
+``primitive``. Both give the same truth (`add_repetitions`): adjacent segments with equal labels are
+one activity, and each of them is a repetition. A column ``count`` gives only their number.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ Count = int | None
 
 
 def add_repetitions(labels: Segmentation) -> Segmentation:
-    """Return the same labels on both levels: activities, and as primitives the repetitions of each.
+    """Convert labels to both levels: activities, and their repetitions as primitives.
 
-    Neighbours of one name are one activity. They are its repetitions where nobody says what is:
-    neither primitives nor a count. Of a file of primitives alone each is a repetition, and a pause
-    no longer than those beside it does not end the activity. The provenance has the counts,
-    ``["labels"]["counts"]``: one for each row of the activity level, None where nobody knows.
+    Neighbours with the same name become one activity. Without primitives or a count, they are its
+    repetitions. In a file of primitives only, each is a repetition, and a pause that is not longer
+    than its neighbours does not end the activity. The provenance holds the counts in
+    ``["labels"]["counts"]``: one for each activity, None if unknown.
 
     Examples
     --------
@@ -37,22 +37,22 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     """
     rows = list(labels.activities)
     origin = labels.provenance.get("labels", {})
-    given = _count_repetitions(labels)
+    known_counts = _count_repetitions(labels)
     single = origin.get("level") == "primitive"
     groups = _group_rows(rows, pauses=single)
-    inner = list(labels.primitives) or _make_repetitions(rows, groups, given, single=single)
-    # A sum is known only if each row's count is.
-    known = [[given[i] for i in group if not _is_transition(rows[i])] for group in groups]
+    inner = list(labels.primitives) or _make_repetitions(rows, groups, known_counts, single=single)
+    # A sum is known only if the count of each row is known.
+    known = [[known_counts[i] for i in group if not _is_transition(rows[i])] for group in groups]
     counts: list[Count] = [
         sum(count or 0 for count in some) if some and None not in some else None for some in known
     ]
     starts = [rows[group[0]].start_frame for group in groups]
     found = [row.start_frame for row in inner if not _is_transition(row)]
-    # How many repetitions start in each group.
+    # Number of repetitions that start in each group.
     numbers = np.bincount(np.searchsorted(starts, found, "right") - 1, minlength=len(groups))
     for i, group in enumerate(groups):
-        # A count that people gave is kept.
-        if all(given[row] is None for row in group) and numbers[i]:
+        # Counts given by people are kept.
+        if all(known_counts[row] is None for row in group) and numbers[i]:
             counts[i] = int(numbers[i])
     joined = [replace(rows[g[0]], stop_frame=rows[g[-1]].stop_frame) for g in groups]
     names = [name for name in COLUMNS if name != "activity"]
@@ -65,12 +65,11 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
 
 
 def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
-    """Return the activities of a segmentation as a truth at a rate.
+    """Convert the activities of a segmentation to a truth at a frame rate.
 
-    Transitions are uncertain borders.
-
-    Activities are called by their labels, else by their clusters. Counts are those of the
-    provenance, and repetitions the primitives, see `add_repetitions`.
+    Transitions become uncertain borders. Names of activities are their labels, or else their
+    clusters. Counts are taken from the provenance, and repetitions are the primitives, see
+    `add_repetitions`.
     """
     rows = truth.activities
     clusters = make_labelling(rows, fps=truth.fps)
@@ -78,10 +77,10 @@ def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
         TRANSITION if _is_transition(row) else _name_class(row.label) or name
         for row, name in zip(rows, clusters.labels, strict=True)
     ]
-    # Numbered, so that the rows that remain at the new rate can be told.
+    # Numbers instead of labels identify the rows that remain at the new rate.
     numbered = replace(clusters, labels=tuple(map(str, range(len(names)))))
     numbered = numbered.at(frames=n_frames, fps=fps)
-    kept = [int(label) for label in numbered.labels]  # the others vanished at this rate
+    kept = [int(label) for label in numbered.labels]  # others are shorter than a frame
     labels = replace(numbered, labels=tuple(names[i] for i in kept))
     counts = _count_repetitions(truth)
     actions = Truth.from_labelling(labels, counts=[counts[i] for i in kept])
@@ -92,15 +91,15 @@ def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
 
 
 def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
-    """Return the clusters of one level of a segmentation, as labels.
+    """Convert the clusters of one level of a segmentation to a labelling.
 
-    Transitions are `TRANSITION`; what is in no cluster goes by its label, and without one
-    gets a name of its own.
+    Transitions are `TRANSITION`. Segments without a cluster have their label as name, or else a
+    unique name.
 
     Parameters
     ----------
     rows : SegmentTable
-        Of one level.
+        Segments of one level.
     fps : float
         Frames per second.
 
@@ -116,7 +115,6 @@ def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
     >>> make_labelling(found.activities, fps=found.fps).labels[:4]
     ('0', 'transition', '1', 'transition')
     """
-    # A class of its own for a row without cluster and label.
     labels = [
         TRANSITION
         if row.kind == "transition"
@@ -129,14 +127,16 @@ def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
 
 
 def _count_repetitions(labels: Segmentation) -> Sequence[Count]:
-    """Repetitions of each row of the activity level."""
+    """Return the known number of repetitions of each row of the activity level, or None."""
     counts: Sequence[Count] = labels.provenance.get("labels", {}).get("counts", ())
     rows = len(labels.activities)
-    return counts if len(counts) == rows else [None] * rows  # edited since, or none at all
+    return (
+        counts if len(counts) == rows else [None] * rows
+    )  # the table was edited, or has no counts
 
 
 def _name_class(label: str) -> str:
-    """Return a label as the name of a class, also where people call one what belongs to none."""
+    """Return a label as the name of a class, distinct from `TRANSITION`."""
     return f"{label} (activity)" if label == TRANSITION else label
 
 
@@ -144,22 +144,22 @@ def _is_transition(row: Segment) -> bool:
     return row.kind == "transition"
 
 
-def _name(row: Segment) -> str:
-    """Return what an activity is called; empty for a transition, and where nobody says."""
+def _get_activity_name(row: Segment) -> str:
+    """Return the name of an activity: label or cluster; empty for transitions or if unknown."""
     if _is_transition(row):
         return ""
     return row.label or (f"cluster {row.cluster}" if row.cluster >= 0 else "")
 
 
 def _group_rows(rows: Sequence[Segment], *, pauses: bool) -> list[list[int]]:
-    """Numbers of the rows that are one activity, or one transition."""
+    """Group the indices of rows that form one activity, or one transition."""
     groups: list[list[int]] = []
     for i, row in enumerate(rows):
-        name = _name(row)
-        if name and groups and name == _name(rows[groups[-1][-1]]):
+        name = _get_activity_name(row)
+        if name and groups and name == _get_activity_name(rows[groups[-1][-1]]):
             groups[-1].append(i)
         elif pauses and name and len(groups) > 1 and _is_pause(*rows[i - 2 : i + 1]):
-            # The last group but one takes in the pause and this row.
+            # Merge the pause and this row with the group before the pause.
             groups[-2:] = [[*groups[-2], i - 1, i]]
         else:
             groups.append([i])
@@ -168,7 +168,7 @@ def _group_rows(rows: Sequence[Segment], *, pauses: bool) -> list[list[int]]:
 
 def _is_pause(before: Segment, between: Segment, after: Segment) -> bool:
     shorter = min(before.duration_s, after.duration_s)
-    equal = _is_transition(between) and _name(before) == _name(after)
+    equal = _is_transition(between) and _get_activity_name(before) == _get_activity_name(after)
     return equal and between.duration_s <= shorter
 
 
@@ -179,7 +179,7 @@ def _make_repetitions(
     *,
     single: bool,
 ) -> list[Segment]:
-    """Return the level of primitives that rows of the activity level make up, if they do."""
+    """Return primitives for groups of rows that are repetitions; empty if there are none."""
     inner: list[Segment] = []
     for group in groups:
         first, last = rows[group[0]], rows[group[-1]]
@@ -188,8 +188,8 @@ def _make_repetitions(
             for row in (rows[i] for i in group):
                 kind = choose_kind("primitive", transition=_is_transition(row))
                 inner.append(replace(row, level="primitive", kind=kind))
-        else:  # nobody says
-            # Primitives cover the whole recording, so the rest is a transition.
+        else:
+            # Primitives must tile the recording, so fill unknown parts with a transition.
             inner.append(
                 Segment("primitive", "transition", first.start_frame, last.stop_frame, 0.0, 0.0)
             )

@@ -1,22 +1,22 @@
-"""Scores that come with the package: of frames, of segments, of borders, and of repetitions.
+"""Built-in scores of frames, segments, borders and repetitions.
 
-*Frames.* Is each in the right class, and in one class only?
+*Frames*: whether each frame is in the right class, and each class in one cluster.
 
-*Segments.* Are they right, in kind and order? They are scored as in action segmentation: a segment
-is a run of frames of one class, once clusters have been given the classes that they stand for. A
-border that is a little off costs nothing, a segment too many does (Lea, Flynn, Vidal, Reiter and
-Hager, "Temporal Convolutional Networks for Action Segmentation and Detection", CVPR 2017, section
-4). Repetitions are counted where the truth knows their number.
+*Segments*: whether their classes and order are right, as in action segmentation. A segment is a run
+of frames of one class, after clusters are mapped to classes. Small shifts of a border cost nothing,
+additional segments do (Lea, Flynn, Vidal, Reiter and Hager, "Temporal Convolutional Networks for
+Action Segmentation and Detection", CVPR 2017, section 4). Repetitions are counted if the truth has
+their number.
 
-*Borders.* Is each where people put one, and none elsewhere, and are there as many? A found border
-is right within the span in which people put one, and the tolerance of the truth beyond it; each
-border of the truth can be met once. Neighbours with equal labels have no border between them. A
-found transition of less than 1 s is one border, at its middle; a longer one is a segment of its
-own, with a border at either side.
+*Borders*: whether borders are found where people put them, and nowhere else. A found border is
+right within the span in which people put one, extended by the tolerance of the truth. Each true
+border can be matched once. Neighbours with equal labels have no border between them. A found
+transition of less than 1 s is one border, at its middle; a longer one is a segment with two
+borders.
 
-*Repetitions.* Between those of an action there are borders, too, where people cut them. A pause
-between two repetitions is one border. One is right within 0.5 s, or a quarter of a repetition where
-that is less. What is found near the end of an action is the border of that.
+*Repetitions*: whether borders between repetitions of an action are found, if people cut them. A
+pause between two repetitions is one border. A border is right within 0.5 s, or a quarter of a
+repetition if that is less. Borders found near the end of an action are ignored.
 """
 
 from __future__ import annotations
@@ -37,13 +37,15 @@ from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 OVERLAPS = (10, 25, 50)
 """Intersection over union, in percent, from which a segment counts as found."""
 SHORT_TRANSITION_S = 1.0
+"""Length from which a found transition has two borders, s."""
 REPETITION_TOLERANCE_S = 0.5
+"""Largest tolerance of borders between repetitions, s."""
 REPETITION_TOLERANCE = 0.25
-"""Of the shorter of the two repetitions, where that is less."""
+"""Largest tolerance of borders between repetitions, as a share of the shorter repetition."""
 
 
 def frames_right(compared: Comparison) -> Ratio:
-    """Frames whose cluster stands for their class, of all that count (MoF).
+    """Return the share of frames whose cluster is mapped to their class (MoF).
 
     Parameters
     ----------
@@ -52,7 +54,7 @@ def frames_right(compared: Comparison) -> Ratio:
     Returns
     -------
     Ratio
-        Over a folder every frame weighs the same.
+        Over a folder, every frame has the same weight.
 
     Examples
     --------
@@ -63,14 +65,14 @@ def frames_right(compared: Comparison) -> Ratio:
 
 
 def one_to_one_accuracy(compared: Comparison) -> float:
-    """Return share of a recording's frames that are right: over a folder recordings weigh the same.
+    """Return the share of right frames; over a folder, every recording has the same weight.
 
-    A cluster stands for one class at most, so that an action split into many clusters loses.
+    A cluster is mapped to at most one class, so splitting an action into many clusters lowers it.
 
     Parameters
     ----------
     compared : Comparison
-        Of all frames; its `Comparison.agreed` has those on which people agree.
+        Of all frames; `Comparison.agreed` has only those on which people agree.
 
     Returns
     -------
@@ -86,7 +88,7 @@ def one_to_one_accuracy(compared: Comparison) -> float:
 
 
 def rand_index(compared: Comparison) -> float:
-    """Adjusted Rand index of classes and clusters: 1 is equal, 0 is chance, below is worse.
+    """Return the adjusted Rand index of classes and clusters: 1 is equal, 0 is chance.
 
     Examples
     --------
@@ -97,7 +99,7 @@ def rand_index(compared: Comparison) -> float:
 
 
 def mutual_information(compared: Comparison) -> float:
-    """Mutual information of classes and clusters over the mean of both entropies: 0 to 1.
+    """Return the mutual information of classes and clusters over their mean entropy: 0 to 1.
 
     Examples
     --------
@@ -108,21 +110,20 @@ def mutual_information(compared: Comparison) -> float:
 
 
 def cohen_kappa(compared: Comparison) -> float:
-    """Cohen's kappa: how far frames are right beyond what chance would give.
+    """Return Cohen's kappa: the share of right frames, corrected for chance.
 
-    Chance gives each side's classes the shares of frames that they have, wherever these lie. A
-    cluster goes by the class that it stands for. Source: Cohen, A coefficient of agreement for
-    nominal scales, 1960.
+    Expected agreement follows from the shares of the classes on both sides. Clusters are mapped to
+    classes. Source: Cohen, A coefficient of agreement for nominal scales, 1960.
 
     Parameters
     ----------
     compared : Comparison
-        Of a result, or of a second person, and the truth.
+        Comparison of a result, or of a second person, with the truth.
 
     Returns
     -------
     float
-        1 is equal, 0 is chance, below is worse; also 1 where both sides are one and the same class.
+        1 is equal, 0 is chance, below 0 is worse. It is 1 if both sides have one common class.
 
     Examples
     --------
@@ -132,7 +133,7 @@ def cohen_kappa(compared: Comparison) -> float:
     0.0
     """
     found, true, frames = count_frames(compared.mapped, compared.truth)
-    # Places of the classes that both sides have.
+    # Rows and columns of the classes that both sides have.
     row, column = np.nonzero(found[:, None] == true)
     shares = frames / frames.sum()
     right = shares[row, column].sum()
@@ -142,10 +143,10 @@ def cohen_kappa(compared: Comparison) -> float:
 
 
 def edit_score(compared: Comparison) -> float:
-    """How similar the orders of the segments are: 1 is the same order, 0 has nothing of it.
+    """Return the similarity of the orders of segments: 1 is equal, 0 is completely different.
 
-    1 - distance / length: the fewest segments to add, leave out or exchange that turn one order
-    of classes into the other, over the number of segments of the longer one.
+    It is 1 - distance / length: the fewest insertions, deletions and exchanges of segments that
+    turn one order of classes into the other, divided by the larger number of segments.
 
     Parameters
     ----------
@@ -176,28 +177,28 @@ def compute_edit_distance(a: Sequence[int], b: Sequence[int]) -> int:
     >>> compute_edit_distance([1, 2, 3], [1, 3, 3, 4])
     2
     """
-    # Distances from the empty sequence: as many insertions.
+    # First row of the table: distances from the empty sequence.
     row = np.arange(len(b) + 1)
     columns = np.arange(len(b) + 1)
     other = np.asarray(b)
     for i, label in enumerate(a, 1):
         best = np.minimum(row[1:] + 1, row[:-1] + (other != label))
-        # an insertion costs 1 a column: the least of what stands to the left, plus the way
+        # An insertion costs 1 per column: a running minimum of costs minus columns.
         row = np.minimum.accumulate(np.concatenate([[i], best]) - columns) + columns
     return int(row[-1])
 
 
 def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
-    """F1 of the found segments, one being right where it overlaps a true one of its class enough.
+    """Return the F1 of the found segments, which are right if they overlap a true one enough.
 
-    Each found segment is held against the true segment of its class with which it has the
-    largest intersection over union; a true segment is found once.
+    Each found segment is compared with the true segment of its class that has the largest
+    intersection over union. A true segment can be found only once.
 
     Parameters
     ----------
     compared : Comparison
     percent : float
-        The least intersection over union, in percent.
+        Smallest intersection over union, in percent.
 
     Returns
     -------
@@ -214,7 +215,7 @@ def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
 
 
 def count_errors(compared: Comparison) -> tuple[float, float] | None:
-    """Mean difference from the true number of repetitions, and the share counted exactly.
+    """Return the mean error of the number of repetitions, and the share of exact counts.
 
     Parameters
     ----------
@@ -223,7 +224,7 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     Returns
     -------
     error, exact : float
-        None where the truth knows no count.
+        None if the truth has no counts.
 
     Examples
     --------
@@ -235,32 +236,32 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     """
     truth, primitives = compared.repetitions
     starts, stops = _find_ends(primitives)
-    # A repetition belongs to the action that its middle lies in.
+    # A repetition belongs to the action that contains its middle.
     found = np.histogram((starts + stops) / 2, bins=truth.at_means().borders)[0]
-    # There are no counts where the truth knows none.
+    # `strict=False`: counts are empty if the truth has none.
     pairs = zip(found.tolist(), truth.counts, strict=False)
     errors = [abs(count - true) for count, true in pairs if true is not None]
     return (float(np.mean(errors)), float(np.mean(np.array(errors) == 0))) if errors else None
 
 
 def _count_hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
-    """Return how many true segments are found."""
+    """Count the true segments that are found."""
     # Columns of the runs: label, start, stop.
     labels, starts, stops = np.array(true).T
     hits: set[int] = set()
     for label, start, stop in found:
-        # Negative where the two are apart; the hull is then too large, but never chosen.
+        # Negative for disjoint segments, which are never chosen; then the union is wrong.
         inner = np.minimum(stops, stop) - np.maximum(starts, start)
         union = np.maximum(stops, stop) - np.minimum(starts, start)
         overlap = np.where(labels == label, inner / union, -1.0)
         best = int(np.argmax(overlap))
         if overlap[best] > 0 and overlap[best] >= least:
-            hits.add(best)  # a second one that meets it is wrong
+            hits.add(best)  # a set: each true segment counts once
     return len(hits)
 
 
 class BorderScore(NamedTuple):
-    """Shares of the found borders that are right, of the true ones met, and their harmonic mean.
+    """Share of found borders that are right, share of true borders found, and harmonic mean.
 
     Examples
     --------
@@ -274,10 +275,10 @@ class BorderScore(NamedTuple):
 
 
 def border_score(compared: Comparison) -> BorderScore:
-    """Precision, recall and F1 of the found borders.
+    """Return precision, recall and F1 of the found borders.
 
-    As many pairs are made as can be: in time order each true border takes the first found one
-    that is right. With nothing to find and nothing found all three are 1.
+    The number of pairs is maximal: in time order, each true border takes the first found one that
+    is right. Without true and found borders all three are 1.
 
     Examples
     --------
@@ -287,10 +288,9 @@ def border_score(compared: Comparison) -> BorderScore:
     truth, found = compared.spans.actions, find_border_frames(compared.spans.activities)
     if not truth.mean.size + found.size:
         return BorderScore(1.0, 1.0, 1.0)
-    # The tolerance beyond the span in which people put the border, in frames.
+    # Tolerance in frames, beyond the span in which people put the border.
     slack = truth.tolerance_s * truth.fps
-    hits = len(_matches(truth.earliest - slack, truth.latest + slack, found))
-    # A share of nothing is 0.
+    hits = len(_match_borders(truth.earliest - slack, truth.latest + slack, found))
     return BorderScore(
         hits / found.size if found.size else 0.0,
         hits / truth.mean.size if truth.mean.size else 0.0,
@@ -299,9 +299,9 @@ def border_score(compared: Comparison) -> BorderScore:
 
 
 def repetition_f1(compared: Comparison) -> Ratio | None:
-    """F1 of the borders between repetitions, in the actions whose repetitions people cut.
+    """Return the F1 of borders between repetitions, in actions whose repetitions people cut.
 
-    None where there is none.
+    Return None if there are none.
     """
     truth, primitives = compared.repetitions
     if truth.repetitions is None:
@@ -312,7 +312,7 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
     actions = np.searchsorted(ends, (starts + stops) / 2, "right")
     # Neighbouring repetitions of one action have a border between them.
     before = np.flatnonzero(actions[1:] == actions[:-1])
-    # A pause between two repetitions is one border, anywhere in it.
+    # A pause between two repetitions is one border, which may be anywhere in it.
     earliest, latest = stops[before], starts[before + 1]
     lengths = np.minimum((stops - starts)[before], (stops - starts)[before + 1])
     slack = np.minimum(REPETITION_TOLERANCE_S * truth.fps, REPETITION_TOLERANCE * lengths)
@@ -321,46 +321,43 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
     found = (last[:-1] + first[1:]) / 2
     # Only within actions whose repetitions people cut.
     found = found[np.isin(np.searchsorted(ends, found, "right"), actions)]
-    hits = _matches(earliest - slack, latest + slack, found)
+    hits = _match_borders(earliest - slack, latest + slack, found)
     near = REPETITION_TOLERANCE_S * truth.fps
     begin, end = truth.earliest - near, truth.latest + near
-    # (found, borders): a border near the end of an action is no wrong repetition.
+    # Borders found near the end of an action are not wrong; (found, borders).
     at_ends = np.any((begin <= found[:, None]) & (found[:, None] <= end), axis=1)
-    # Neither right nor near an end of an action.
+    # Neither right nor near the end of an action.
     wrong = np.delete(~at_ends, hits)
-    # 2 TP + FN + FP: true borders, hits, and wrong ones.
+    # 2 TP + FN + FP = true borders + hits + wrong ones.
     total = len(earliest) + len(hits) + int(wrong.sum())
     return Ratio(2 * len(hits), total) if total else None
 
 
 def find_border_frames(found: Labelling) -> Floats:
-    """Where the result changes from one thing to another, frames.
-
-    A transition shorter than 1 s between two others gives its middle alone.
-    """
+    """Return the frames at which the label changes; a short transition has only one border."""
     runs = found.merged()
-    short = [
+    is_short = [
         label == TRANSITION and stop - start < SHORT_TRANSITION_S * found.fps
         for label, start, stop in zip(runs.labels, runs.starts, runs.stops, strict=True)
     ]
-    # At an end of the recording a transition has one border anyway.
-    short[0] = short[-1] = False
+    # A transition at an end of the recording has only one border anyway.
+    is_short[0] = is_short[-1] = False
     borders: list[float] = []
-    for i in range(1, len(short)):
-        if short[i]:
+    for i in range(1, len(is_short)):
+        if is_short[i]:
             borders.append((runs.starts[i] + runs.stops[i]) / 2)
-        elif not short[i - 1]:
-            # Not after a short transition, whose middle stands for both of its sides.
+        elif not is_short[i - 1]:
+            # Skip the end of a short transition, which is represented by its middle.
             borders.append(float(runs.starts[i]))
     return np.array(borders)
 
 
 def covering(compared: Comparison) -> float:
-    """How well each action is met by one found interval, weighted by length: 0 to 1.
+    """Return how well actions are covered by found intervals, weighted by length: 0 to 1.
 
-    For each action of the truth, cut at the mean marks, the best
-    intersection over union with any found interval. Source: Arbeláez et al.
-    2011, equation 4; used for change points by van den Burg and Williams 2020.
+    For each action of the truth, cut at the mean marks, this is the best intersection
+    over union with any found interval. Source: Arbeláez et al. 2011, equation 4; used for
+    change points by van den Burg and Williams 2020.
 
     Examples
     --------
@@ -370,7 +367,7 @@ def covering(compared: Comparison) -> float:
     actions, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
     best = []
     for start, stop in zip(actions.starts, actions.stops, strict=True):
-        # Where the two do not overlap this is negative, and counts as 0 below.
+        # Negative for disjoint intervals, which count as 0 below.
         inner = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
         union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
         best.append((np.maximum(inner, 0) / union).max())
@@ -378,7 +375,7 @@ def covering(compared: Comparison) -> float:
 
 
 def border_ratio(compared: Comparison) -> Ratio:
-    """Borders found over true borders: 1 is as many, above is too many.
+    """Return the number of found borders over that of true ones; above 1 there are too many.
 
     Examples
     --------
@@ -390,7 +387,7 @@ def border_ratio(compared: Comparison) -> Ratio:
 
 
 def cut_ratio(compared: Comparison) -> Ratio:
-    """Return the same where both sides of any found transition are cuts.
+    """Return the ratio as `border_ratio`, with both ends of all found transitions as borders.
 
     Examples
     --------
@@ -402,31 +399,30 @@ def cut_ratio(compared: Comparison) -> Ratio:
 
 
 def cluster_ratio(compared: Comparison) -> Ratio:
-    """Clusters found over classes: 1 is as many, above is too many; transitions are no classes.
+    """Return the number of found clusters over that of classes, both without transitions.
 
     Examples
     --------
     >>> cluster_ratio(Comparison([0, 0, 1, 1], [5, 6, 5, 6], fps=10))
     Ratio(part=2, total=2)
     """
-    # The number -1 is a transition only if the comparison says so.
-    neither = {UNLABELLED} if compared.transitions else set()
-    sides = ({*np.unique(side).tolist()} - neither for side in (compared.found, compared.truth))
+    ignored = {UNLABELLED} if compared.transitions else set()
+    sides = ({*np.unique(side).tolist()} - ignored for side in (compared.found, compared.truth))
     return Ratio(*map(len, sides))
 
 
 def _find_ends(repetitions: Labelling) -> tuple[Ints, Ints]:
-    """Where repetitions start and stop."""
+    """Return starts and stops of repetitions, without transitions."""
     kept = np.array([label != TRANSITION for label in repetitions.labels])
     return repetitions.starts[kept], repetitions.stops[kept]
 
 
-def _matches(first: ArrayLike, last: ArrayLike, found: Floats) -> list[int]:
-    """Which of the found borders are right; each true one takes the first that lies in its span."""
+def _match_borders(first: ArrayLike, last: ArrayLike, found: Floats) -> list[int]:
+    """Match each true span with the first found border in it; return indices of found borders."""
     hits: list[int] = []
     following = 0
     for start, stop in zip(np.asarray(first), np.asarray(last), strict=True):
-        # Borders are in order, so an earlier found border is never needed again.
+        # Borders are sorted, so earlier found borders are not needed again.
         following = max(following, int(np.searchsorted(found, start)))
         if following < found.size and found[following] <= stop:
             hits.append(following)

@@ -1,14 +1,12 @@
-"""Define scores, register them, and give all of one result, also as tables and in files.
+"""Define scores, register them, and compute all scores of one result, for tables and files.
 
-A score is a function of a `Comparison`: what people say of a recording, and what a method found
-there. It gives a number for one recording, or None where the two do not tell. Over a folder,
-numbers are averaged; a function that gives a `Ratio` has its parts and totals summed over the
-recordings first, so that long recordings weigh more.
+A score is a function of a `Comparison` of truth and result. It returns a number for one recording,
+or None if it is undefined. Over a folder, numbers are averaged. If a function returns a `Ratio`,
+parts and totals are summed over the recordings first, so long recordings have more weight.
 
-Other packages add scores by `register`, or by naming them in the entry point group
-``kineme.scores``.
+Other packages add scores with `register`, or through the entry point group ``kineme.scores``.
 
-nan, which a score is where it cannot be had, is empty in CSV and Markdown and null in JSON.
+Undefined scores are nan in Python, empty in CSV and Markdown, and null in JSON.
 """
 
 from __future__ import annotations
@@ -39,7 +37,7 @@ Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "p
 
 
 class Ratio(NamedTuple):
-    """A score that is a part of a total, such as frames right of all frames.
+    """A score that is a part of a total, such as right frames of all frames.
 
     Examples
     --------
@@ -52,7 +50,7 @@ class Ratio(NamedTuple):
 
     @property
     def value(self) -> float:
-        """Return the part over the total; nan where there is none."""
+        """Return part / total; nan if the total is 0."""
         return self.part / self.total if self.total else math.nan
 
 
@@ -61,21 +59,21 @@ Value = float | Ratio | None
 
 @dataclass(frozen=True)
 class Score:
-    """One measure of a result beside a truth.
+    """A measure of a result against a truth.
 
     Parameters
     ----------
     name : str
-        In JSON and CSV, such as ``f1@50``.
+        Name in JSON and CSV, such as ``f1@50``.
     title : str
-        In tables, such as ``F1@50``.
+        Title in tables, such as ``F1@50``.
     help : str
         What it measures, in a sentence.
     level : str
         What is counted: "frames", "segments", "borders", "repetitions" or "clusters"; or
         "published protocols". Tables are grouped by it.
     function : callable
-        From a `Comparison` to a number or a `Ratio`; None where it cannot be had.
+        Returns a number or a `Ratio` for a `Comparison`; None if undefined.
 
     Examples
     --------
@@ -106,7 +104,7 @@ SCORES: Registry[Score] = Registry(
     home="kineme.evaluation",
     builtins=("measures:SCORES",),
 )
-"""In the order in which they are shown."""
+"""Scores by name, in display order."""
 
 
 def scores() -> Mapping[str, Score]:
@@ -115,7 +113,7 @@ def scores() -> Mapping[str, Score]:
     Returns
     -------
     Mapping of str to Score
-        In the order in which they are shown.
+        In display order.
 
     Examples
     --------
@@ -126,19 +124,18 @@ def scores() -> Mapping[str, Score]:
 
 
 def register(new: Score, *, replace: bool = False) -> None:
-    """Make a score known to `kineme evaluate`.
+    """Register a score for `kineme evaluate`.
 
     Parameters
     ----------
     new : Score
-        What is added.
     replace : bool
-        Whether it takes the place of a score of the same name.
+        Whether it may replace a score of the same name.
 
     Raises
     ------
     ParameterError
-        There is a score of this name, or it is none.
+        A score of this name exists, or the argument is not a Score.
 
     Examples
     --------
@@ -154,9 +151,9 @@ def register(new: Score, *, replace: bool = False) -> None:
 
 
 def compute_results(compared: Comparison) -> dict[str, float | Ratio]:
-    """Return all scores of a comparison by name, those left out that cannot be had.
+    """Compute all scores of a comparison by name, without undefined ones.
 
-    A score that fails costs itself only: a `KinemeWarning` names it.
+    A score that fails is left out, with a `KinemeWarning`.
     """
     found = {name: _compute_result(score, compared) for name, score in scores().items()}
     return {name: result for name, result in found.items() if result is not None}
@@ -171,21 +168,21 @@ def evaluate(
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> dict[str, float]:
-    """Return all scores by name, in reading order; best is 1 unless the name says otherwise.
+    """Compute all scores by name, in display order; 1 is best, except as noted.
 
-    Scores of frames and clusters read ``clusters``; those of borders read ``activities``, those
-    of repetitions ``primitives``. Names that end in ``ratio`` are found over true. ``count_error``
-    and ``count_exact`` appear where the truth knows counts, ``repetition_f1`` where it has
-    repetitions; of these ``count_error`` is best at 0.
+    Scores of frames and clusters use ``clusters``, scores of borders ``activities``, and scores of
+    repetitions ``primitives``. Names that end in ``ratio`` are found over true numbers.
+    ``count_error`` (best at 0) and ``count_exact`` need counts in the truth, ``repetition_f1``
+    needs repetitions.
 
     Parameters
     ----------
     truth : Truth
-        What people say; its frame rate is the one of the comparison.
+        The truth; its frame rate is that of the comparison.
     clusters : Labelling
-        Which frames are the same thing.
+        Clusters of frames.
     activities : Labelling, optional
-        Which spans are one activity; by default ``clusters``.
+        Spans of activities; by default ``clusters``.
     primitives : Labelling, optional
         Single repetitions; by default ``clusters``.
     positions : array_like, (frames, joints, 3), optional
@@ -200,7 +197,7 @@ def evaluate(
     Raises
     ------
     ParameterError
-        Labels or data of another length than the truth.
+        Labels or data have another length than the truth.
 
     Examples
     --------
@@ -228,11 +225,10 @@ def evaluate_segmentation(
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> dict[str, float]:
-    """Return all scores of a segmentation; see `evaluate`.
+    """Compute all scores of a segmentation; see `evaluate`.
 
-    Its clusters are those of its activities where they have any (or labels), else those
-    of its primitives. A segment in no cluster goes by its label, and without one is a cluster
-    of its own.
+    Clusters are those of activities if any activity has a cluster or label, and otherwise those
+    of primitives. The cluster of a segment without one is its label, or else unique.
 
     Examples
     --------
@@ -255,11 +251,11 @@ def compare_with_truth(
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> Comparison:
-    """A segmentation beside a truth; which of its clusters count, `evaluate_segmentation` says."""
+    """Compare a segmentation with a truth; for its clusters see `evaluate_segmentation`."""
     rows = found.activities
     activities = make_labelling(rows, fps=found.fps)
     primitives = make_labelling(found.primitives, fps=found.fps) if len(found.primitives) else None
-    # Activities without clusters or labels say nothing: then primitives are compared.
+    # If no activity has a cluster or label, compare primitives.
     grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
     return Comparison.of(
         truth,
@@ -272,13 +268,13 @@ def compare_with_truth(
 
 
 def get_value(result: Value) -> float:
-    """Return the number that a score's function gave, be it one or a ratio; nan for None."""
+    """Convert a number or ratio to a number; None to nan."""
     number = result.value if isinstance(result, Ratio) else result
     return math.nan if number is None else float(number)
 
 
 def pool_scores(results: Iterable[Value]) -> float:
-    """One number for many recordings: of ratios the sums' ratio, of numbers the mean.
+    """Pool the results of many recordings: the ratio of sums for ratios, the mean for numbers.
 
     Examples
     --------
@@ -289,7 +285,7 @@ def pool_scores(results: Iterable[Value]) -> float:
     ratios = [result for result in kept if isinstance(result, Ratio)]
     if ratios:
         return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value
-    # A score that is not defined for a recording leaves it out.
+    # Leave out recordings for which the score is undefined.
     numbers = [value for value in map(get_value, kept) if math.isfinite(value)]
     return sum(numbers) / len(numbers) if numbers else math.nan
 
@@ -299,7 +295,7 @@ def _compute_result(score: Score, compared: Comparison) -> Value:
         return score.function(compared)
     except KinemeError:
         raise
-    except Exception as error:  # noqa: BLE001 (whatever a stranger's score raises)
+    except Exception as error:  # noqa: BLE001 (scores of other packages may raise anything)
         reason = f"{type(error).__name__}: {error}"
         text = f"the score {score.name!r:.60} is left out, it fails: {reason:.200}"
         warnings.warn(text, KinemeWarning, stacklevel=2)
@@ -309,7 +305,7 @@ def _compute_result(score: Score, compared: Comparison) -> Value:
 def choose_number(
     measure: Callable[[Comparison], Sequence[float] | None], number: int
 ) -> Callable[[Comparison], float | None]:
-    """Return the function of a score that is one of several numbers which are computed together."""
+    """Return a score function that selects one of several numbers computed together."""
 
     def function(compared: Comparison) -> float | None:
         numbers = compared.once(measure)
@@ -320,17 +316,17 @@ def choose_number(
 
 OUTPUTS = (".json", ".csv")
 DISAGREEMENT = 0.2
-"""Border F1 above Edit by more than this is explained under the table."""
+"""Difference of border F1 and Edit above which a table has an explanation."""
 COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
-"""What a result cost: no score, but shown below them."""
+"""Run times, which are shown below the scores."""
 
 
-def score_rows(
+def make_score_rows(
     columns: Mapping[str, Mapping[str, float]],
 ) -> list[tuple[str, list[tuple[str, list[str]]]]]:
-    """Groups of rows ready to print: a group's title, and per row its name and cells.
+    """Return groups of rows to print: the title of each group, and name and cells of each row.
 
-    ``columns`` are scores by column title; those that are a number in none are left out.
+    ``columns`` are scores by column title. Scores that are undefined in all columns are left out.
     """
     titles: dict[str, dict[str, str]] = {}
     for name, score in scores().items():
@@ -351,7 +347,7 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
     """Return why scores of borders and of classes disagree, or "" if they do not."""
     for values in columns.values():
         by_class = values.get("edit", math.nan)
-        # False for nan.
+        # The comparison is False for nan.
         if values.get("border_f1", math.nan) - by_class > DISAGREEMENT:
             return (
                 "Borders are better than classes: Edit, F1@k and shares of frames also need the "
@@ -362,12 +358,12 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
 
 
 def format_score(value: float) -> str:
-    """Return a score with three digits behind the point, empty for nan."""
+    """Format a score with three decimals; empty for nan."""
     return f"{value:.3f}" if math.isfinite(value) else ""
 
 
 def format_markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a Markdown table whose first column is left-aligned, the others right."""
+    """Format a Markdown table whose first column is left-aligned, the others right."""
     lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
@@ -396,13 +392,13 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
 
 
 def format_json(records: Sequence[Mapping[str, Any]]) -> str:
-    """Records as one JSON object, with the version."""
+    """Format records as one JSON object, with the version."""
     content = {"kineme": __version__, "scores": [to_plain(record) for record in records]}
     return json.dumps(content, indent=1, ensure_ascii=False)
 
 
 class Result(Protocol):
-    """What a run over a folder gives."""
+    """Interface of results over a folder."""
 
     def to_json(self) -> str: ...
 
@@ -419,10 +415,10 @@ def write_result(result: Result, path: Path) -> None:
 
 
 def to_finite(value: Any) -> Any:
-    """Return the value; None in place of a number that cannot be had."""
+    """Return the value, or None for nan and infinity."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def to_plain(record: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the record with None in place of numbers that cannot be had."""
+    """Return the record with None in place of nan and infinity."""
     return {name: to_finite(value) for name, value in record.items()}

@@ -1,12 +1,10 @@
-"""What people and programs say of a recording: the two forms in which they are compared.
+"""Data structures for comparison: `Labelling` for results of programs, `Truth` for people.
 
-A `Labelling` is what a program says: touching intervals with labels. A `Truth` is what people
-say, one or several: actions in order, and for each border between two of them the span in which
-they put it.
+A `Labelling` consists of adjacent intervals with labels. A `Truth`, by one or more people, consists
+of actions in order, and of the span of each border between two of them.
 
-Frames count from 0 and intervals are half-open, ``[start, stop)``: a border
-at frame b stands before frame b. The label `TRANSITION` marks what
-belongs to no action; it is a class of its own, not a cluster.
+Frames count from 0, and intervals are half-open, ``[start, stop)``: a border at frame b is before
+frame b. The label `TRANSITION` marks frames outside of actions; it is a class, not a cluster.
 """
 
 from __future__ import annotations
@@ -25,19 +23,19 @@ Texts = NDArray[np.object_]
 
 TRANSITION = "transition"
 UNLABELLED = -1
-"""Number of `TRANSITION` where labels are numbers."""
+"""Number of `TRANSITION` if labels are numbers."""
 TOLERANCE_S = 0.25
-"""Seconds beyond the span in which people put a border: within, a found one is right."""
+"""Tolerance of a border beyond the span in which people put it, s."""
 
 
 @dataclass(frozen=True, eq=False)
 class Labelling:
-    """Touching intervals: ``labels[i]`` holds on frames ``[borders[i], borders[i + 1])``.
+    """Adjacent intervals: ``labels[i]`` is the label of frames ``[borders[i], borders[i + 1])``.
 
     Parameters
     ----------
     borders : ndarray
-        Rising frames, from 0 to the length of the recording.
+        Ascending frames, from 0 to the length of the recording.
     labels : tuple of str
         One per interval.
     fps : float
@@ -46,7 +44,7 @@ class Labelling:
     Raises
     ------
     ParameterError
-        Borders do not start at 0 or do not rise, or the number of labels does not fit.
+        Borders do not start at 0 or do not ascend, or the number of labels differs.
 
     Examples
     --------
@@ -78,8 +76,8 @@ class Labelling:
     def from_cuts(
         cls, cuts: ArrayLike, labels: Sequence[object] | None = None, *, frames: int, fps: float
     ) -> Labelling:
-        """Return the intervals between cuts; without labels each gets one of its own."""
-        # 0 and the length are borders, too.
+        """Create a labelling from cuts; by default each interval has a unique label."""
+        # 0 and the length are also borders.
         borders = np.concatenate([[0], np.asarray(cuts, np.int64), [frames]])
         names = range(borders.size - 1) if labels is None else labels
         return cls(borders, tuple(map(str, names)), fps)
@@ -88,13 +86,12 @@ class Labelling:
     def from_frames(
         cls, labels: Sequence[object] | NDArray[np.generic], *, fps: float
     ) -> Labelling:
-        """One interval per run of equal labels, from one label per frame."""
+        """Create a labelling from one label per frame: one interval per run of equal labels."""
         names = np.array([str(label) for label in labels], dtype=object)
         if not names.size:
             raise ParameterError("one label per frame is needed, there are none")
-        # Index of the first frame of each new label.
+        # + 1: the first frame of each new label.
         cuts = np.flatnonzero(names[1:] != names[:-1]) + 1
-        # The first frame of every run tells its label.
         starts = np.concatenate([[0], cuts])
         return cls.from_cuts(cuts, names[starts].tolist(), frames=names.size, fps=fps)
 
@@ -116,18 +113,18 @@ class Labelling:
         return np.repeat(np.array(self.labels, dtype=object), np.diff(self.borders))
 
     def names(self) -> list[str]:
-        """Return each label once, in the order of `numbers`; transitions are none."""
+        """Return the distinct labels without transitions, in the order of `numbers`."""
         return [label for label in dict.fromkeys(self.labels) if label != TRANSITION]
 
     def numbers(self) -> Ints:
-        """Return the number of each frame's label, by `names`; `UNLABELLED` in transitions."""
+        """Return the number of the label of each frame; `UNLABELLED` in transitions."""
         numbers = {name: i for i, name in enumerate(self.names())}
         values = [numbers.get(label, UNLABELLED) for label in self.labels]
         return np.repeat(np.array(values, np.int64), np.diff(self.borders))
 
     def within(self, frames: NDArray[np.bool_]) -> Labelling:
-        """Return the same without the frames that are False; what vanishes is left out."""
-        # New place of each border: how many kept frames come before it.
+        """Remove the frames that are False; intervals without frames are dropped."""
+        # New position of each border: the number of kept frames before it.
         moved = np.concatenate([[0], np.cumsum(frames)])[self.borders]
         rows = np.flatnonzero(np.diff(moved) > 0)
         return Labelling(
@@ -135,7 +132,7 @@ class Labelling:
         )
 
     def merged(self) -> Labelling:
-        """Return the same labels with equal neighbours joined."""
+        """Merge neighbours with equal labels."""
         labels = self.labels
         # Rows at which the label changes.
         rows = [i for i, label in enumerate(labels) if not i or label != labels[i - 1]]
@@ -144,9 +141,9 @@ class Labelling:
         )
 
     def at(self, *, frames: int, fps: float) -> Labelling:
-        """Return the same intervals counted in frames of another rate.
+        """Convert to another frame rate.
 
-        Borders go to the nearest frame, halves up; what vanishes is left out.
+        Borders are rounded to the nearest frame, halves up; empty intervals are dropped.
 
         Raises
         ------
@@ -155,9 +152,8 @@ class Labelling:
         """
         check_length(self.frames, self.fps, frames, fps)
         moved = round_half_up(self.borders * (fps / self.fps))
-        # Rounding must not lead beyond the end; the last border is the end itself.
+        # Rounding must not exceed the end; the last border is the end itself.
         moved = np.append(np.minimum(moved[:-1], frames), frames)
-        # Intervals that round to no frame vanish.
         kept = np.flatnonzero(np.diff(moved) > 0)
         return Labelling(
             np.append(moved[kept], frames), tuple(self.labels[i] for i in kept), float(fps)
@@ -168,8 +164,7 @@ class Labelling:
 class Truth:
     """Actions in order, with the span in which people put each border.
 
-    Action i lies before border i. A border known exactly has
-    ``earliest == mean == latest``.
+    Action i is before border i. An exact border has ``earliest == mean == latest``.
 
     Parameters
     ----------
@@ -182,16 +177,16 @@ class Truth:
     fps : float
         Frames per second.
     counts : tuple of int or None, optional
-        Repetitions in each action, None where not known; empty: none is.
+        Number of repetitions of each action, None if unknown; empty if all are unknown.
     tolerance_s : float
         Seconds beyond these spans within which a found border is right.
     repetitions : Labelling, optional
-        Single repetitions where people cut them, transitions elsewhere; of as many frames.
+        Single repetitions if people cut them, with transitions elsewhere; same length.
 
     Raises
     ------
     ParameterError
-        Borders run backwards, overlap or pass the end, or there is no action.
+        Borders run backwards, overlap or are beyond the end, or there is no action.
 
     Examples
     --------
@@ -231,7 +226,7 @@ class Truth:
                     f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
                     f"them, not {frames.size} ({name})"
                 )
-        # A border must lie within the span in which people put it.
+        # The mean must lie within the span.
         backwards = np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))
         if backwards.size:
             i = backwards[0]
@@ -239,7 +234,7 @@ class Truth:
                 f"the border after action {i + 1} ({self.labels[i]}) runs backwards: earliest "
                 f"{self.earliest[i]}, mean {self.mean[i]}, latest {self.latest[i]}"
             )
-        # Certain part of each action: after the latest start, before the earliest end.
+        # Certain part of each action: from its latest start to its earliest end.
         begins = np.concatenate([[0], self.latest])
         ends = np.concatenate([self.earliest, [self.frames]])
         if self.latest.size and self.latest.max() >= self.frames:
@@ -264,12 +259,12 @@ class Truth:
         counts: Sequence[int | None] = (),
         tolerance_s: float = TOLERANCE_S,
     ) -> Truth:
-        """Return the truth in a labelling: a transition between two actions is an uncertain border.
+        """Create a truth: transitions between two actions become uncertain borders.
 
-        Its middle counts as the mean. A transition at the beginning or the
-        end of the recording stays a row of its own. Counts are one for each interval.
+        The middle of a transition is the mean. A transition at the start or the end of
+        the recording stays an action. There is one count for each interval.
         """
-        # Only transitions between two actions are borders; at the ends they stay rows.
+        # Transitions between two actions are borders; at the ends they stay rows.
         middle = [
             0 < i < len(labelling.labels) - 1 and label == TRANSITION
             for i, label in enumerate(labelling.labels)
@@ -290,7 +285,7 @@ class Truth:
         )
 
     def labelling(self) -> Labelling:
-        """Actions, and the uncertain spans between them as transitions."""
+        """Return actions, with the uncertain spans between them as transitions."""
         borders, labels = [0], []
         for label, start, stop in zip(
             self.labels, self.earliest.tolist(), self.latest.tolist(), strict=False
@@ -303,20 +298,19 @@ class Truth:
         return Labelling(np.array([*borders, self.frames]), (*labels, self.labels[-1]), self.fps)
 
     def at_means(self) -> Labelling:
-        """Actions only, cut at the mean marks."""
+        """Return actions only, cut at the mean marks."""
         return Labelling.from_cuts(self.mean, self.labels, frames=self.frames, fps=self.fps)
 
 
 def round_half_up(values: ArrayLike) -> Ints:
-    """Whole numbers; halves go up, as MATLAB rounds."""
-    # `np.round` would round halves to even numbers.
+    """Round to whole numbers, halves up, as in MATLAB; `np.round` rounds halves to even."""
     return np.floor(np.asarray(values, np.float64) + 0.5).astype(np.int64)
 
 
 def check_length(frames: int, fps: float, others: int, rate: float) -> None:
-    """A `ParameterError` where labels are not as long as their recording, which has the others."""
+    """Raise ParameterError if labels and recording (``others``, ``rate``) differ in length."""
     length, other = frames / fps, others / rate
-    # One frame of the slower rate, which rounding of the length can cost.
+    # Tolerate one frame of the slower rate, for rounding.
     if abs(length - other) > 1 / min(fps, rate) + 1e-9:
         raise ParameterError(
             f"the labels cover {length:.3f} s ({frames} frames at {fps:g} fps), the "
@@ -325,6 +319,6 @@ def check_length(frames: int, fps: float, others: int, rate: float) -> None:
 
 
 def check_rate(fps: float) -> None:
-    """A `ParameterError` where that is no frame rate."""
+    """Raise ParameterError unless the frame rate is finite and positive."""
     if not (np.isfinite(fps) and fps > 0):
         raise ParameterError(f"the frame rate must be a positive number, not {fps}")

@@ -1,7 +1,7 @@
 """Feature vectors of poses: end effectors in the body's own frame, stacked over time.
 
-Where there is no body: distances between points. ``bundling`` is not loaded
-here: it comes with compiled code.
+Without a body, features are distances between points. ``bundling`` is not imported
+here, because it loads compiled code.
 """
 
 from kineme.features.body_frame import compute_body_frame, compute_heading

@@ -1,6 +1,6 @@
-"""Compiled loop of the filters: second-order sections, one after the other, over all channels.
+"""Compiled loop of the filters: a cascade of second-order sections over all channels.
 
-The naive twin is `scipy.signal.sosfiltfilt`, which takes over a second to import.
+It replaces `scipy.signal.sosfiltfilt`, which takes over a second to import.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from kineme._util.parallel import OPTIONS
 def filter_sections(values, sections):
     """Filter (frames, channels) in place by sections (sections, 5): b0, b1, b2, a1, a2.
 
-    Each section begins as if the first frame had always been there.
+    The initial state of each section is that after a constant input of the first frame.
     """
     frames, channels = values.shape
     near, far = np.empty(channels), np.empty(channels)  # the state, direct form II transposed
     for s in range(len(sections)):
         b0, b1, b2, a1, a2 = sections[s]
-        # The answer to a constant 1 is the gain; from it follow both numbers of the state.
+        # Gain for a constant input, from which the steady state follows.
         gain = (b0 + b1 + b2) / (1 + a1 + a2)
         for c in range(channels):
             near[c] = (gain - b0) * values[0, c]

@@ -1,6 +1,6 @@
-"""Compiled loop of the bundling: points drawn to where their neighbours are densest.
+"""Compiled loop of the bundling: move points to the medians of their neighbours.
 
-The naive twin is in ``tests/helpers/naive``.
+The naive version is in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ from numba import njit
 
 from kineme._util.parallel import OPTIONS
 
-PRECISION = 1e-10  # of the neighbours' mean distance; a shorter step is the last
-MOST_STEPS = 1000
+PRECISION = 1e-10
+"""Length of a step that ends the iteration, as a share of the mean distance of neighbours."""
+MAX_STEPS = 1000
+"""Largest number of steps."""
 
 
 @njit(
@@ -20,11 +22,11 @@ MOST_STEPS = 1000
     **OPTIONS,
 )
 def move_to_medians(points, directions, neighbors, start, stop, moved):
-    """Rows ``[start, stop)`` of the points, each moved to its neighbours' geometric median.
+    """Move points ``[start, stop)`` to the geometric medians of their neighbours.
 
-    Among the positions that it reaches at right angles to its direction, the
-    one with the least mean distance to its neighbours. Weiszfeld's iteration;
-    where a position meets a neighbour, as Vardi and Zhang (2000) extend it.
+    The median is taken in the hyperplane orthogonal to the direction of each point.
+    Weiszfeld's iteration, extended by Vardi and Zhang (2000) for positions that
+    coincide with a neighbour.
     """
     dims = points.shape[1]
     count = neighbors.shape[1]
@@ -32,12 +34,12 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
     projections = np.empty(count)
     at, pull = np.empty(dims), np.empty(dims)
     for i in range(start, stop):
-        # Offset from the point, which starts at the mean of the projected neighbours.
+        # `at` is the offset from the point; it starts at the mean of the projected neighbours.
         for d in range(dims):
             at[d] = 0
         for k in range(count):
             projections[k] = 0
-            # Neighbours relative to the point: along its direction, and across it.
+            # Split neighbours, relative to the point, into parts along and across its direction.
             for d in range(dims):
                 across[k, d] = points[neighbors[i, k], d] - points[i, d]
                 projections[k] += across[k, d] * directions[i, d]
@@ -46,17 +48,17 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
                 at[d] += across[k, d] / count
         # Weiszfeld: step to the mean of the neighbours, each weighted by the inverse of its
         # distance.
-        for _ in range(MOST_STEPS):
+        for _ in range(MAX_STEPS):
             weights = distances = strength = 0.0
             coincident = 0
             for d in range(dims):
                 pull[d] = 0
             for k in range(count):
-                # The part along the direction is fixed, but counts in the distance.
+                # The part along the direction is constant, but counts in the distance.
                 square = projections[k] * projections[k]
                 for d in range(dims):
                     square += (across[k, d] - at[d]) ** 2
-                # The weight of a neighbour at the position itself is infinite: it is counted apart.
+                # Neighbours at the position itself would have infinite weight: count them apart.
                 if square == 0:
                     coincident += 1
                     continue
@@ -68,12 +70,11 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
             for d in range(dims):
                 strength += pull[d] * pull[d]
             strength = np.sqrt(strength)
-            # Vardi and Zhang: neighbours here hold the position against the pull of the others.
+            # Vardi and Zhang: coinciding neighbours hold the position against the others' pull.
             if strength <= coincident:
                 break
             share = (1 - coincident / strength) / weights
             for d in range(dims):
-                # The pull, shortened by what coinciding neighbours hold back.
                 at[d] += share * pull[d]
             if share * strength <= PRECISION * distances / count:
                 break

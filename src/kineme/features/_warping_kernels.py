@@ -1,4 +1,7 @@
-"""Compiled dynamic time warping (Sakoe and Chiba 1978); its twin is in ``tests/helpers/naive``."""
+"""Compiled dynamic time warping (Sakoe and Chiba 1978).
+
+The naive version is in ``tests/helpers/naive``.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +15,8 @@ from kineme._util.parallel import OPTIONS
 def find_cheapest_path(cost, step):
     """Return the least sum of ``cost`` from the first to the last corner, and its path.
 
-    The path is given by its rows and columns. A move along one axis alone costs ``step`` besides;
-    infinite costs bar the way.
+    The path is given by its rows and columns. A move along one axis alone costs ``step`` in
+    addition. Infinite costs block the path.
     """
     n, m = cost.shape
     # One more row and column than costs: index 0 is the state before the first pair.
@@ -25,7 +28,7 @@ def find_cheapest_path(cost, step):
             sums[i + 1, j + 1] = cost[i, j] + min(sums[i, j], aside)
     rows, columns = np.empty(n + m, np.int64), np.empty(n + m, np.int64)
     i, j, first = n, m, n + m
-    while i > 0 and j > 0:  # back from the end
+    while i > 0 and j > 0:  # backtrack
         first -= 1
         rows[first], columns[first] = i - 1, j - 1
         both, down, right = sums[i - 1, j - 1], sums[i - 1, j] + step, sums[i, j - 1] + step

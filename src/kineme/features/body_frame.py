@@ -1,17 +1,16 @@
-"""Body's own frame: at the pelvis, upright, facing +z with the left at +x.
+"""Transform positions to the body's own frame: origin at the pelvis, y up, facing +z, left at +x.
 
-Positions relative to the pelvis, turned about the vertical frame by frame so
-that the body always faces the same way. Height differences, pitch and roll
-stay; limbs are not scaled.
+Each frame is turned about the vertical, so that the body always faces the same way.
+Height differences, pitch and roll are kept; limbs are not scaled.
 
-The facing comes from one axis of the pelvis, the one that points from the right hip to the left at
-rest. The authors' program uses the root's +x, which is that axis in CMU's files. Other exporters
-turn their root frames. So the axis is looked up in the skeleton: the nearest of +-x, +-y, +-z. A
-motion without rotations uses the line through the hips instead.
+The heading follows from the axis of the pelvis that points from the right hip to the left at rest.
+In the authors' program this is the root's +x, as in CMU's files. Other exporters rotate the root
+frame, so the axis is found in the skeleton: the nearest of +-x, +-y, +-z. For a motion without
+rotations it is the line through the hips.
 
-Where that axis stands upright (a body on its side, in a cartwheel) there is no facing. Then the
-frame takes that of the nearest frame that has one, the earlier of two equally near. A motion
-without any is left unturned.
+If this axis is vertical (a body on its side, as in a cartwheel), the frame has no heading and takes
+that of the nearest frame with one; at a tie the earlier frame. A motion without any heading is not
+turned.
 """
 
 from __future__ import annotations
@@ -24,13 +23,14 @@ from kineme.errors import MotionError
 from kineme.features.effectors import EndEffectors, end_effectors
 from kineme.recordings import Motion, Skeleton
 
-_UPRIGHT = 1e-6  # horizontal part of the unit axis below which it has no direction
+_UPRIGHT = 1e-6
+"""Length of the horizontal part of the unit axis below which there is no heading."""
 
 
 def compute_body_frame(
     motion: Motion, joints: tuple[int, ...] | None = None, *, effectors: EndEffectors | None = None
 ) -> Floats:
-    """Positions (frames, joints, 3) relative to the pelvis, heading removed, in metres.
+    """Return positions (frames, joints, 3) relative to the pelvis, without heading, in metres.
 
     x points to the body's left, y up, z ahead.
 
@@ -38,16 +38,17 @@ def compute_body_frame(
     ----------
     motion : Motion
     joints : tuple of int, optional
-        Indices of the joints wanted, all by default.
+        Indices of the joints to return; by default all.
     effectors : EndEffectors, optional
-        Where the legs end, which tells pelvis and hips; found by name or shape by default.
+        The ends of the legs, from which pelvis and hips follow; by default found by name or
+        shape.
 
     Raises
     ------
     EndEffectorError
         The legs were not found.
     MotionError
-        The legs have no hips, so nothing tells left from right.
+        The legs have no hips, so left and right are unknown.
 
     References
     ----------
@@ -64,7 +65,7 @@ def compute_body_frame(
     pelvis, cos, sin = _compute_turns(motion, effectors or end_effectors(motion))
     positions = motion.positions if joints is None else motion.positions[:, joints]
     relative = positions - motion.positions[:, pelvis, None]
-    # A copy of x, since its column is overwritten before z needs it.
+    # Copy x, as its column is overwritten before it is used for z.
     x, z = relative[:, :, 0].copy(), relative[:, :, 2]
     relative[:, :, 0] = cos * x + sin * z
     relative[:, :, 2] = cos * z - sin * x
@@ -72,10 +73,10 @@ def compute_body_frame(
 
 
 def compute_heading(motion: Motion, *, effectors: EndEffectors | None = None) -> tuple[int, Floats]:
-    """Return the pelvis's joint, and the angles (frames,) by which the body looks away from +z.
+    """Return the pelvis joint, and the heading (frames,): the angle between facing and +z.
 
-    Radians about the vertical, positive towards +x: what ``compute_body_frame`` takes
-    away. Arguments and errors are those of ``compute_body_frame``.
+    Radians about the vertical, positive towards +x. ``compute_body_frame`` removes this
+    angle; its arguments and errors are the same.
 
     Examples
     --------
@@ -87,17 +88,17 @@ def compute_heading(motion: Motion, *, effectors: EndEffectors | None = None) ->
     ('Hips', (2898,))
     """
     pelvis, cos, sin = _compute_turns(motion, effectors or end_effectors(motion))
-    # `_compute_turns` gives the turn back to +z, which is the opposite of the heading.
+    # `_compute_turns` returns the turn back to +z: the negative heading.
     return pelvis, np.arctan2(-sin, cos)[:, 0]
 
 
 def _compute_turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats, Floats]:
-    """Return the pelvis, and cosine and sine (frames, 1) of the turns that face the body to +z."""
+    """Return the pelvis, and cosine and sine (frames, 1) of the turns that remove the heading."""
     ankles = effectors.left_ankle, effectors.right_ankle
     pelvis, left_hip, right_hip = find_parting(motion.skeleton, *ankles)
     if motion.rotations is None:
         to_left = motion.positions[:, left_hip] - motion.positions[:, right_hip]
-        # A line shorter than the threshold stays shorter than a unit vector and counts as upright.
+        # A line shorter than the threshold does not become a unit vector and counts as vertical.
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
         to_left = _compute_turned_axis(
@@ -109,17 +110,17 @@ def _compute_turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats
 def find_parting(
     skeleton: Skeleton, left_end: int, right_end: int, limbs: str = "legs"
 ) -> tuple[int, int, int]:
-    """Return the joint where limbs part, and the left and right joint where they first lie apart.
+    """Return the joint at which two limbs branch, and the first separate left and right joint.
 
-    Legs part at the pelvis, arms at the chest. MotionError where nothing joins them.
+    Legs branch at the pelvis, arms at the chest. Raise MotionError if they are not connected.
     """
     left, right = skeleton.ancestry(left_end), skeleton.ancestry(right_end)
-    # Both chains begin at the root and are equal down to the joint where the limbs part.
+    # Both chains begin at the root and are equal down to the joint where the limbs branch.
     shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
     if shared == 0:
         raise MotionError(f"the {limbs} hang on different roots: nothing joins them")
     pelvis = left[shared - 1]
-    # Some skeletons have several joints at the same place before the legs are apart.
+    # Some skeletons have several joints at the same place below it.
     for left_hip, right_hip in zip(left[shared:], right[shared:], strict=False):
         if np.linalg.norm(_measure_hip_axis(skeleton, pelvis, left_hip, right_hip)) > 0:
             return pelvis, left_hip, right_hip
@@ -130,41 +131,40 @@ def find_parting(
 
 
 def _measure_hip_axis(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
-    """From the right hip to the left, in the pelvis's own frame, at rest."""
+    """Return the vector from the right hip to the left, in the pelvis's own frame, at rest."""
 
-    def from_pelvis(joint: int) -> Floats:
+    def sum_offsets(joint: int) -> Floats:
         chain = skeleton.ancestry(joint)
-        # Offsets below the pelvis only: they are in the pelvis's own axes at rest.
+        # Offsets below the pelvis only: at rest they are in the pelvis's own axes.
         return np.asarray(skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0))
 
-    return from_pelvis(left_hip) - from_pelvis(right_hip)
+    return sum_offsets(left_hip) - sum_offsets(right_hip)
 
 
 def _compute_turned_axis(
     skeleton: Skeleton, rotations: Floats, pelvis: int, left_hip: int, right_hip: int
 ) -> Floats:
-    """(frames, 3): the pelvis's axis to the left, in the world."""
+    """Return the pelvis's axis to the left in the world, (frames, 3)."""
     rest = _measure_hip_axis(skeleton, pelvis, left_hip, right_hip)
     axis = np.zeros(3)
-    # The coordinate axis nearest to the line of the hips, with its sign.
+    # Coordinate axis nearest to the line of the hips, with its sign.
     axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
-    # Local rotations from the pelvis up to the root bring the axis into the world.
+    # Local rotations from the pelvis up to the root transform the axis to the world.
     for joint in reversed(skeleton.ancestry(pelvis)):
         axis = rot.rotate(rotations[:, joint], axis)
     return axis
 
 
 def find_facing(to_left: Floats, least: float | Floats) -> tuple[Floats, Floats]:
-    """Cosine and sine, (frames, 1) each, of the turn that brings what points to the left to +x.
+    """Return cosine and sine (frames, 1) of the turn about y that turns a left axis to +x.
 
-    Where no more than ``least`` of it lies flat, it is that of the nearest frame that has one.
+    If its horizontal part is not longer than ``least``, take the turn of the nearest other frame.
     """
-    # Length of the horizontal part.
     length = np.hypot(to_left[:, 0], to_left[:, 2])
     level = np.flatnonzero(length > least)
     if len(level) == 0:
         return np.ones((len(length), 1)), np.zeros((len(length), 1))
-    # `searchsorted` among the middles gives the nearest frame; at a tie the earlier one.
+    # `searchsorted` among midpoints finds the nearest frame; at a tie the earlier one.
     middles = (level[:-1] + level[1:]) / 2
     nearest = level[np.searchsorted(middles, np.arange(len(length)))]
     to_left, length = to_left[nearest], length[nearest]

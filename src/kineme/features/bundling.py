@@ -1,21 +1,19 @@
-"""Feature bundling: repetitions of a movement drawn together into one strand.
+"""Feature bundling: reduce the differences between repetitions of a movement.
 
-Seen as a curve in the space of the features, somebody who repeats a movement draws strands side by
-side: each repetition differs a little. Bundling moves every frame towards the middle of similar
-frames, but only at right angles to its own direction of movement. So curves of the same movement
-close up, and their timing stays as it is. Afterwards a smaller radius tells repetitions from other
-movements.
+In the space of the features, repetitions of a movement are curves side by side. Bundling moves
+every frame towards similar frames, but only orthogonally to its own direction of movement. So the
+curves approach each other, and their timing stays the same. Afterwards a smaller radius separates
+repetitions from other movements.
 
-1. Principal components: the fewest that hold 98 % of the variance.
-2. Each frame's direction: a five-point derivative, smoothed by a binomial filter.
-3. Each frame moves, within the hyperplane orthogonal to its direction, to where
-   the mean distance to its nearest neighbours is least (their geometric median).
+1. Project to the fewest principal components with 98 % of the variance.
+2. Compute the direction of each frame: a five-point derivative, smoothed by a binomial filter.
+3. Move each frame, within the hyperplane orthogonal to its direction, to the geometric median of
+   its nearest neighbours, which has the least mean distance to them.
 
-Source: Krueger et al. 2017, section III. There frames climb the density of
-their neighbours, a Gaussian kernel of Scott's bandwidth. In the authors'
-program the bandwidth is inverted: the kernel vanishes, and what is left to
-minimise, step by step and to its own precision, is the mean distance. It is
-convex, needs no bandwidth and no unit, and is minimised here outright.
+Source: Krueger et al. 2017, section III. There frames climb the density of their neighbours,
+estimated with a Gaussian kernel of Scott's bandwidth. In the authors' program the bandwidth is
+inverted, so the kernel vanishes and the mean distance is minimised in effect. This is convex and
+needs no bandwidth and no unit. This module minimises it directly.
 """
 
 from __future__ import annotations
@@ -34,32 +32,34 @@ from kineme._util.parallel import count_threads, make_even_slices, map_threads
 from kineme.errors import ParameterError
 from kineme.features import _kernels
 
-FEWEST_COMPONENTS = 3
+MIN_COMPONENTS = 3
+"""Smallest number of principal components."""
 DERIVATIVE = np.array([1, -8, 0, 8, -1]) / 12
-# Coefficients of (1/2 + 1/2)**10, which sum to 1.
+"""Weights of the five-point derivative."""
 BINOMIAL = np.array([comb(10, k) for k in range(11)]) / 2**10
+"""Weights of the smoothing filter: coefficients of (1/2 + 1/2)**10, which sum to 1."""
 
 
 def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) -> Floats:
-    """Return the features (frames, dims) with every frame moved towards similar ones.
+    """Move every frame of features (frames, dims) towards similar frames.
 
-    What the principal components leave out is lost: the result lies in their
-    space. Turning, moving or scaling the features does the same to the result.
+    The result lies in the space of the principal components; the rest is lost.
+    The function commutes with rotation, translation and scaling of the features.
 
     Parameters
     ----------
     features : array_like of shape (frames, dims)
-        Stacked features in the order of time, finite, in any unit.
+        Stacked features in order of time, finite, in any unit.
     neighbors : int
-        Frames that each frame moves towards: its nearest, without itself. At
-        least as many are taken as there are components.
+        Number of nearest frames that each frame moves towards; at least the number
+        of components.
     variance : float
-        Share of the variance that the components hold at least.
+        Smallest share of the variance that the components explain.
 
     Raises
     ------
     ParameterError
-        Features are not frames × dims or not finite, or a parameter is out of
+        The features are not frames × dims or not finite, or a parameter is out of
         range.
 
     References
@@ -85,7 +85,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
         )
     center = points.mean(axis=0)
     axes = _find_principal_axes(points - center, variance)
-    # The kernel needs rows that are contiguous in memory.
+    # The kernel needs a contiguous array.
     reduced = np.ascontiguousarray((points - center) @ axes)
     # At least as many neighbours as dimensions.
     nearest = _find_nearest_others(reduced, max(neighbors, axes.shape[1]))
@@ -96,44 +96,44 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
         _kernels.move_to_medians(reduced, directions, nearest, part.start, part.stop, moved)
 
     map_threads(move, make_even_slices(len(reduced)))
-    # Back to the original axes; what was left out of the components stays 0.
+    # Back to the original axes.
     return cast(Floats, moved @ axes.T + center)
 
 
 def _find_principal_axes(centered: Floats, variance: float) -> Floats:
-    """(dims, components): the fewest orthonormal axes that hold this share of the variance."""
+    """Return the fewest orthonormal axes (dims, components) with this share of the variance."""
     spread, axes = np.linalg.eigh(centered.T @ centered)
-    # Eigenvalues ascend, so both are reversed; rounding can make the smallest ones negative.
+    # Reverse the ascending eigenvalues; rounding can make the smallest ones negative.
     spread, axes = np.maximum(spread[::-1], 0), axes[:, ::-1]
     totals = np.cumsum(spread)
-    # The first place at which the share is reached, plus one for a count.
+    # The index at which the share is reached, plus one, is the count.
     enough = int(np.searchsorted(totals, variance * totals[-1])) + 1
-    return axes[:, : max(enough, FEWEST_COMPONENTS)]
+    return axes[:, : max(enough, MIN_COMPONENTS)]
 
 
 def _find_nearest_others(points: Floats, count: int) -> NDArray[np.int64]:
-    """(frames, count): each frame's nearest without itself; fewer where there are not as many."""
+    """Return the nearest other frames of each frame, (frames, count), or all if there are fewer."""
     n = len(points)
     count = min(count, n - 1)
-    # A list of ranks keeps the second axis, even for a single neighbour; rank 1 is usually itself.
+    # A list of ranks keeps the second axis for a single neighbour; rank 1 is usually itself.
     _, found = cKDTree(points).query(points, np.arange(1, count + 2), workers=count_threads())
     others = found != np.arange(n)[:, None]
-    others[others.all(axis=1), -1] = False  # among its equals a frame may not find itself
+    # Among equal points a frame may not find itself: drop the farthest instead.
+    others[others.all(axis=1), -1] = False
     return cast(NDArray[np.int64], found[others].reshape(n, count))
 
 
 def _compute_directions(points: Floats) -> Floats:
-    """Unit vectors along the curve of the points; zero where it stands still."""
-    # Steps at both ends; the sum makes them 0 where there is only one point.
+    """Return unit vectors along the curve of the points; zero where it does not move."""
+    # Steps at both ends; the sum is 0 if there is only one point.
     first, last = np.diff(points[:2], axis=0).sum(axis=0), np.diff(points[-2:], axis=0).sum(axis=0)
     beyond = np.array([[1.0], [2.0]])
-    # Two points more at each end, on straight lines, for the derivative of five points.
+    # Extend both ends by two points on straight lines, for the five-point derivative.
     longer = np.concatenate([points[0] - beyond[::-1] * first, points, points[-1] + beyond * last])
-    # Convolution reverses its weights, so they are reversed before.
+    # Convolution reverses the weights, so reverse them first.
     slopes = convolve1d(longer, DERIVATIVE[::-1], axis=0)[2:-2]
-    # Sum of the weights that lie inside, so that ends are not drawn to 0.
+    # Normalise by the weights inside, so that ends are not biased towards 0.
     inside = convolve1d(np.ones(len(points)), BINOMIAL, mode="constant")
     smooth = convolve1d(slopes, BINOMIAL, axis=0, mode="constant") / inside[:, None]
     lengths = np.linalg.norm(smooth, axis=1, keepdims=True)
-    # A direction of length 0 stays 0.
     return np.ascontiguousarray(smooth / np.where(lengths > 0, lengths, 1))

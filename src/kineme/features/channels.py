@@ -1,9 +1,9 @@
-"""Features of channels: at another rate, with equal deviations, and their statistics.
+"""Features of channels: resampling, standardisation, and statistics.
 
-Statistics are the posture and the energy of movement, some times a second. An accelerometer
-seldom shows the same values twice, however regular the movement. What stays is where it hangs (the
-mean over a second) and how strongly it is shaken, slowly and fast (the root mean square in bands of
-frequency). So two samples are similar if these are.
+Statistics are the posture and the energy of movement, a few times a second. An accelerometer
+seldom shows the same values twice, even if a movement is regular. Its orientation (the mean over a
+second) and the strength of slow and fast movement (the root mean square in frequency bands) are
+more stable, so samples are compared by these.
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ from kineme._util.checks import check_rates
 from kineme.features.filters import filter_band
 
 NYQUIST = 0.45
-"""Share of the rate up to which a band of frequency can be told."""
+"""Highest frequency of a band, as a share of the sampling rate."""
 
 
 class Reduction(NamedTuple):
     """A linear map that shrinks some directions of the space of channels, then scales channels.
 
-    It is kept as these directions, since the matrix would have channels² entries.
+    Stored by its directions, as the matrix would have channels² entries.
 
     Attributes
     ----------
     directions : (channels, shrunk) array
         Orthonormal columns.
     factors : (shrunk,) array
-        What each direction is multiplied by; the others stay.
+        Factor of each direction; other directions do not change.
     scales : (channels,) array
-        What each channel is multiplied by afterwards.
+        Factor of each channel, applied afterwards.
     """
 
     directions: Floats
@@ -43,40 +43,40 @@ class Reduction(NamedTuple):
     scales: Floats
 
     def apply(self, rows: Floats) -> Floats:
-        """Return the rows (samples, channels), each mapped."""
-        # Only the shrunk directions change: add what their factors differ from 1.
+        """Apply the map to rows (samples, channels)."""
+        # Only the shrunk directions change, by their factors minus 1.
         shrunk = (rows @ self.directions) * (self.factors - 1)
         return np.asarray((rows + shrunk @ self.directions.T) * self.scales, np.float64)
 
 
 class Mixture(NamedTuple):
-    """Some channels, as they are or with what they share reduced."""
+    """Some channels, unchanged or with their shared variance reduced."""
 
     channels: Ints
     reduction: Reduction | None = None
 
-    def of(self, rows: Floats) -> Floats:
+    def apply(self, rows: Floats) -> Floats:
         """Return the mixture of the columns of an array."""
         chosen = rows if len(self.channels) == rows.shape[1] else rows[:, self.channels]
         return chosen if self.reduction is None else self.reduction.apply(chosen)
 
 
 def resample_channels(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
-    """Return the channels at the times 0, 1/new, 2/new, … up to their last frame.
+    """Resample channels to the times 0, 1/new, 2/new, … up to their last frame.
 
-    Each value is the mean over `smoothing` seconds around its time, or over a frame of the old or
-    new rate where that is longer. So nothing folds back from above the new rate. A lower rate is
-    interpolated in a line. At the ends the mean is over what is there.
+    Each value is the mean over `smoothing` seconds around its time, or over one frame of the old or
+    new rate if that is longer, which avoids aliasing. Values between frames are interpolated
+    linearly. At the ends the window is cut.
 
     Parameters
     ----------
     values : (frames, channels) array
     fps : float
-        Their rate.
+        Frames per second.
     new : float
-        The rate wanted.
+        New frames per second.
     smoothing : float
-        Seconds.
+        Length of the window, s.
 
     Returns
     -------
@@ -85,21 +85,21 @@ def resample_channels(values: ArrayLike, fps: float, new: float, *, smoothing: f
     Raises
     ------
     ParameterError
-        The rate wanted is beyond all measure.
+        A rate is out of range.
     """
     check_rates(fps, new)
     array = np.asarray(values, np.float64)
-    middle: Floats = array.mean(axis=0)  # sums of what is left lose no digits to a large offset
+    middle: Floats = array.mean(axis=0)  # centre first: a large offset would cost precision
     # `sums[k]` is the sum of the first k frames, so any mean is a difference of two sums.
     sums = np.concatenate([np.zeros((1, array.shape[1])), np.cumsum(array - middle, axis=0)])
-    # The small number keeps a last frame that rounding would lose.
+    # 1e-9 keeps a last frame that rounding would drop.
     n = int((len(array) - 1) * new / fps + 1e-9) + 1
     times = np.arange(n) / new
     half = max(smoothing, 1 / fps, 1 / new) / 2
-    # Frame k stands for k - 0.5 to k + 0.5, so the sums at its edges are half a frame later.
+    # Frame k covers k - 0.5 to k + 0.5, hence + 0.5.
     starts = np.clip((times - half) * fps + 0.5, 0, len(array))
     stops = np.clip((times + half) * fps + 0.5, 0, len(array))
-    # Sums between frames are interpolated, so windows need not end at a frame.
+    # Interpolate the sums, as windows need not end at a frame.
     means = (interpolate_frames(sums, stops) - interpolate_frames(sums, starts)) / (stops - starts)[
         :, None
     ]
@@ -107,23 +107,23 @@ def resample_channels(values: ArrayLike, fps: float, new: float, *, smoothing: f
 
 
 def standardize_channels(values: ArrayLike) -> Floats:
-    """Return the channels with mean 0 and standard deviation 1; those that never change are 0."""
+    """Return the channels with mean 0 and standard deviation 1; constant channels become 0."""
     centred = np.asarray(values, np.float64)
     centred = centred - centred.mean(axis=0)
     largest = np.abs(centred).max(axis=0)
-    # Rounding of a constant with a large offset is no variation.
-    steady = largest <= 1e-12 * np.abs(values).max(axis=0)
-    scaled: Floats = centred / np.where(steady, 1.0, largest)  # squares of tiny numbers vanish
-    scaled /= np.where(steady, 1.0, scaled.std(axis=0))
-    # Rounding errors of constant channels must not be scaled up.
-    scaled[:, steady] = 0.0
+    # Rounding errors of a constant with a large offset do not count as variation.
+    is_constant = largest <= 1e-12 * np.abs(values).max(axis=0)
+    # Divide by the maximum first, as squares of tiny numbers would underflow.
+    scaled: Floats = centred / np.where(is_constant, 1.0, largest)
+    scaled /= np.where(is_constant, 1.0, scaled.std(axis=0))
+    scaled[:, is_constant] = 0.0
     return scaled
 
 
 def compute_channel_statistics(
     channels: Floats, fps: float, *, rate: float, window: float, bands: tuple[float, ...]
 ) -> Floats:
-    """Means and energies of channels.
+    """Compute means and energies of channels.
 
     Parameters
     ----------
@@ -132,16 +132,16 @@ def compute_channel_statistics(
     fps : float
         Frames per second.
     rate : float
-        Samples per second wanted.
+        Samples per second of the result.
     window : float
-        Seconds over which means and energies are taken.
+        Window of means and energies, s.
     bands : tuple of float
-        Edges of the bands of frequency, hertz, ascending; those beyond the rate are left out.
+        Edges of the frequency bands, Hz, ascending; bands beyond the rate are left out.
 
     Returns
     -------
     (samples, channels * groups) array
-        One group of means, and one for each band.
+        One group of means, then one group of energies for each band.
 
     Examples
     --------
@@ -150,8 +150,8 @@ def compute_channel_statistics(
     >>> compute_channel_statistics(still, 50.0, rate=5.0, window=1.0, bands=(1.0, 4.0, 16.0)).shape
     (50, 6)
     """
-    every = Mixture(np.arange(channels.shape[1]))
-    return compute_statistics(channels, [every], fps, rate=rate, window=window, bands=bands)[0]
+    mixture = Mixture(np.arange(channels.shape[1]))
+    return compute_statistics(channels, [mixture], fps, rate=rate, window=window, bands=bands)[0]
 
 
 def compute_statistics(
@@ -165,40 +165,37 @@ def compute_statistics(
 ) -> list[Floats]:
     """Return the statistics of each of these mixtures of the channels.
 
-    A band at a time: all bands of a long recording are many times as large as itself.
+    Bands are filtered one at a time, to limit the memory for long recordings.
     """
-    # Windows of this width about each sample, cut at the ends.
+    # Windows around each sample, cut at the ends.
     at, width = choose_frames(len(channels), fps, rate), max(1, round(window * fps))
     first = np.clip(at - width // 2, 0, len(channels))
     last = np.clip(at - width // 2 + width, 0, len(channels))
-    # None stands for the unfiltered channels, of which means are taken.
+    # None stands for the unfiltered channels, whose means are taken.
     edges = [None, *(edge for edge in pairwise(bands) if edge[0] < NYQUIST * fps)]
     groups = []
     for edge in edges:
         band = channels if edge is None else _filter_band(channels, fps, *edge)
-        mixed = (mixture.of(band) for mixture in mixtures)
+        mixed = (mixture.apply(band) for mixture in mixtures)
         groups.append(
             [_compute_means(each, first, last, squared=edge is not None) for each in mixed]
         )
-    # One array for each mixture: its means and bands side by side.
+    # One array per mixture, with means and bands side by side.
     return [np.hstack(each) for each in zip(*groups, strict=True)]
 
 
 def choose_frames(frames: int, fps: float, rate: float) -> Ints:
-    """Return the frames that are looked at, `rate` times a second."""
-    # The small number keeps a last sample that rounding would lose.
+    """Return the frames of samples at `rate`."""
+    # 1e-9 keeps a last sample that rounding would drop.
     n = int((frames - 1) / fps * rate + 1e-9) + 1
     at: Ints = np.minimum(np.rint(np.arange(n) * fps / rate).astype(np.int64), frames - 1)
     return at
 
 
 def _compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
-    """Return the means over the frames from first to last, at the ends over what is there.
-
-    Of squares, the root of it.
-    """
+    """Return the means, or root mean squares, over the frames from first to last."""
     sums = np.zeros((len(values) + 1, values.shape[1]))
-    # Squared into the sums' own memory: a long recording needs no second copy.
+    # Square in place, to avoid a second copy of a long recording.
     np.multiply(values, values if squared else 1.0, out=sums[1:])
     np.cumsum(sums[1:], axis=0, out=sums[1:])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
@@ -207,10 +204,10 @@ def _compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool) ->
 
 
 def _filter_band(channels: Floats, fps: float, low: float, high: float) -> Floats:
-    """Return the channels between two frequencies, without delay (Butterworth, both ways)."""
+    """Filter channels to the band between two frequencies, without delay (Butterworth)."""
     high = min(high, NYQUIST * fps)
     if low >= high:
-        # The whole band is above what the rate can show.
+        # The whole band is above the Nyquist frequency.
         return np.zeros_like(channels)
-    # Padded by three periods of the lowest frequency, but less than the recording.
+    # Padding: three periods of the lowest frequency, but less than the recording.
     return filter_band(channels, fps, low, high, min(len(channels) - 1, int(3 * fps / low)))

@@ -1,19 +1,18 @@
-"""Poses without a body: the distances between their points.
+"""Features of poses without a known body: distances between points.
 
-Where ankles, head and wrists cannot all be found, a pose is described by how far its points are
-from each other: markers of two legs, say, or of a wheelchair. That depends neither on where they
-are, nor on the direction they face, nor on which axis points up.
+If ankles, head and wrists cannot all be found, for example for markers of two legs or of a
+wheelchair, a pose is described by the distances between its points. They do not depend on position,
+heading or the vertical axis.
 
-Of many points some that lie far apart stand for all. Each distance counts by the root of its
-deviation. That is halfway between metres, in which the largest movement hides all others, and
-standard deviations, in which noise counts as much as movement. What their fifteen main axes hold is
-scaled so that it varies as the fifteen numbers of a pose do, whose methods and constants then
-apply.
+Of many points, some that are far apart are chosen. Each distance is divided by the root of its
+deviation. This is a compromise between metres, in which the largest movement dominates, and
+standard deviations, in which noise counts as much as movement. The result is reduced to fifteen
+principal axes and scaled to vary as much as the fifteen numbers of a pose, so that the same
+constants apply.
 
-`have_bones` tells whether points without a skeleton are those of a body. However a body moves, each
-of its points keeps its distance from some other one, as a wrist from its elbow, while both go
-elsewhere. Others come nearer and part, which the points of a box do not. What sensors measure does
-neither.
+`have_bones` decides whether points without a skeleton belong to a body. In a body, each point
+keeps its distance from some other point (a wrist from its elbow) while both move, and other
+distances change. In a rigid box no distance changes. Values of sensors have no constant distances.
 """
 
 from __future__ import annotations
@@ -32,23 +31,30 @@ AXES = 15
 """Numbers in a pose."""
 
 VARIATION, SIZE = 0.52, 1.65
-"""By how much a pose varies, and the body's size, both in metres: subject 86 of the CMU
-database. The first is the root of the summed variances of the fifteen numbers, in the mean."""
+"""Variation of a pose (root of the summed variances of its fifteen numbers) and body size, in
+metres: means of subject 86 of the CMU database."""
 
-MOST_POINTS = 16
-CONSIDERED = 1000
-"""Points of which some are taken; of more, so many: there are as many distances squared."""
-_FRAMES = 200  # enough to tell how points lie and move
-_SAME = 0.01  # of the largest distance: two points nearer than this are one
-_CONSTANT = 0.001  # of the largest distance: by less than this, a distance does not vary
-_STILL = 0.01  # of the largest movement: less than this is none
-_APART = 0.5  # of its movement: a point's distance from what it is fixed to varies less
+MAX_POINTS = 16
+"""Largest number of points whose distances are features."""
+MAX_CANDIDATES = 1000
+"""Largest number of points that are considered: the number of distances is its square."""
+_FRAMES = 200
+"""Number of frames from which points are chosen."""
+_SAME = 0.01
+"""Distance below which two points are the same, as a share of the largest distance."""
+_CONSTANT = 0.001
+"""Deviation below which a distance is constant, as a share of the largest distance."""
+_STILL = 0.01
+"""Movement below which a point is still, as a share of the largest movement."""
+_APART = 0.5
+"""Deviation of the distance of two points, as a share of a point's movement, below which they
+are fixed to each other."""
 
 
 def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
-    """Features (frames, at most 15) that vary by `VARIATION` metres, and the points they are of.
+    """Compute features (frames, at most 15) from distances of points; return them and the points.
 
-    All zero where no distance varies.
+    They are scaled to vary by `VARIATION` metres, and are zero if no distance varies.
 
     Parameters
     ----------
@@ -58,13 +64,13 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     Raises
     ------
     MotionError
-        A single point.
+        There is only one point.
 
     Notes
     -----
-    Rows are in time order: what sticks out for one frame is left out. They are
-    centred. Moving, turning and scaling the whole changes no distance between
-    two of them, but what an axis stands for is arbitrary.
+    Rows must be in time order, as outliers of one frame are removed. Features are centred.
+    Translation, rotation and scaling of all points do not change their distances; the
+    orientation of the axes is arbitrary.
 
     Examples
     --------
@@ -80,7 +86,7 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
         raise MotionError("a single point is in no distance: segment its coordinates as signals")
     points = choose_spread_points(array)
     features = _filter_median(_compute_distances(array[:, points]))
-    # Before centring: the largest mean distance tells the size of the whole.
+    # Before centring: the largest mean distance measures the overall size.
     largest = float(features.mean(axis=0).max(initial=0))
     features -= features.mean(axis=0)
     deviation = features.std(axis=0)
@@ -88,7 +94,7 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     if not varies.any():
         return np.zeros((len(array), 1)), points
     features, deviation = features[:, varies], deviation[varies]
-    # Divided by the root of each deviation; the summed variance is then `VARIATION` squared.
+    # Divide by the root of each deviation; then the summed variance is `VARIATION` squared.
     features *= VARIATION / np.sqrt(deviation * deviation.sum())
     if features.shape[1] > AXES:
         axes = np.linalg.eigh(features.T @ features)[1]
@@ -97,53 +103,52 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     return features, points
 
 
-def choose_spread_points(positions: Floats, most: int = MOST_POINTS) -> Indices:
-    """Return the points (at most so many, ascending) that lie farthest from each other in the mean.
+def choose_spread_points(positions: Floats, most: int = MAX_POINTS) -> Indices:
+    """Choose at most ``most`` points that are far from each other on average, ascending.
 
-    Points of the lab, which stay where they are while the others go elsewhere,
-    are left out; so is all but one of those in the same place.
+    Fixed points of the laboratory, which do not move while the others do, are left out,
+    and so are duplicates.
 
     Parameters
     ----------
     positions : ndarray of shape (frames, points, 3)
     """
     n = positions.shape[1]
-    # Evenly spread over all points.
-    considered = np.arange(min(n, CONSIDERED)) * n // min(n, CONSIDERED)
-    few = positions[:: max(1, len(positions) // _FRAMES), considered]
-    apart, varying = _mean_and_deviation(few)
-    kept = np.flatnonzero(~_find_lab_points(few, varying))
-    # Rows and columns of the points that are kept.
-    apart, varying = apart[np.ix_(kept, kept)], varying[np.ix_(kept, kept)]
-    # The point whose distances vary most, then always the one farthest from those chosen.
-    chosen = [int(varying.sum(axis=1).argmax())]
-    # Mean distance of each point to the nearest of those chosen.
-    nearest = apart[chosen[0]]
-    while len(chosen) < most and nearest.max() > _SAME * apart.max():
+    # Candidates are evenly spread over all points.
+    candidates = np.arange(min(n, MAX_CANDIDATES)) * n // min(n, MAX_CANDIDATES)
+    sample = positions[:: max(1, len(positions) // _FRAMES), candidates]
+    means, deviations = _measure_pair_distances(sample)
+    kept = np.flatnonzero(~_find_lab_points(sample, deviations))
+    means, deviations = means[np.ix_(kept, kept)], deviations[np.ix_(kept, kept)]
+    # Start with the point whose distances vary most; add the one farthest from those chosen.
+    chosen = [int(deviations.sum(axis=1).argmax())]
+    # Mean distance of each point to the nearest chosen one.
+    nearest = means[chosen[0]]
+    while len(chosen) < most and nearest.max() > _SAME * means.max():
         chosen.append(int(nearest.argmax()))
-        nearest = np.minimum(nearest, apart[chosen[-1]])
-    return np.sort(considered[kept[chosen]])
+        nearest = np.minimum(nearest, means[chosen[-1]])
+    return np.sort(candidates[kept[chosen]])
 
 
-def _find_lab_points(positions: Floats, varying: Floats) -> NDArray[np.bool_]:
-    """Return which points never move, though none that move keep their distance from them."""
-    # Root mean square of the distance from the mean place, for each point.
+def _find_lab_points(positions: Floats, deviations: Floats) -> NDArray[np.bool_]:
+    """Mark points that never move and are not fixed to a moving point."""
+    # Root mean square distance of each point from its mean position.
     movement = np.linalg.norm(positions - positions.mean(axis=0), axis=2)
     movement = np.sqrt((movement**2).mean(axis=0))
     moves = movement > _STILL * movement.max()
     if moves.sum() < 2:
         return np.zeros(len(moves), np.bool_)
-    # Fixed to a point that moves: their distance varies less than that point moves.
-    tied = (varying[:, moves] < _APART * movement[moves]).any(axis=1)
-    lonely: NDArray[np.bool_] = ~(moves | tied)
-    return lonely
+    # A point is fixed to a moving one if their distance varies less than that one moves.
+    is_fixed = (deviations[:, moves] < _APART * movement[moves]).any(axis=1)
+    is_lab_point: NDArray[np.bool_] = ~(moves | is_fixed)
+    return is_lab_point
 
 
-def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
-    """Mean and standard deviation (points, points) of the distances."""
+def _measure_pair_distances(positions: Floats) -> tuple[Floats, Floats]:
+    """Return mean and standard deviation (points, points) of the distances of points."""
     n = positions.shape[1]
     mean, deviation = np.empty((n, n)), np.empty((n, n))
-    # One row at a time: all distances of all frames would not fit in memory.
+    # One point at a time, to limit memory.
     for point in range(n):
         distances = np.linalg.norm(positions - positions[:, point, None], axis=2)
         mean[point], deviation[point] = distances.mean(axis=0), distances.std(axis=0)
@@ -151,18 +156,18 @@ def _mean_and_deviation(positions: Floats) -> tuple[Floats, Floats]:
 
 
 def _filter_median(values: Floats) -> Floats:
-    """Return each value the median of itself and its two neighbours in time.
+    """Replace each value by the median of itself and its two neighbours in time.
 
-    A marker that is taken for another for a frame or two would outweigh all movement.
+    Otherwise a marker that is confused with another for one frame would dominate the features.
     """
     before, here, after = values[:-2], values[1:-1], values[2:]
-    # The median of three by minimum and maximum; the first and the last value stay.
+    # Median of three by minimum and maximum; the first and the last value stay.
     middle = np.maximum(np.minimum(before, here), np.minimum(np.maximum(before, here), after))
     return np.concatenate([values[:1], middle, values[1:][-1:]])
 
 
 def _compute_distances(positions: Floats) -> Floats:
-    """(frames, pairs)"""
+    """Return the distances of all pairs of points, (frames, pairs)."""
     pairs = list(combinations(range(positions.shape[1]), 2))
     distances = np.empty((len(positions), len(pairs)))
     for column, (a, b) in enumerate(pairs):
@@ -170,16 +175,16 @@ def _compute_distances(positions: Floats) -> Floats:
     return distances
 
 
-POINTS = 5
-"""A body has as many at least: head, hands and feet."""
-TIED = 0.15
-"""Points are joined whose distance deviates by less than this share of how both move."""
-BENT = 0.2
-"""Some distance deviates by more than this share of itself, or nothing bends."""
+MIN_BODY_POINTS = 5
+"""Smallest number of points of a body: head, hands and feet."""
+MAX_BONE_DEVIATION = 0.15
+"""Deviation of the distance of two points of one bone, as a share of their movement."""
+MIN_BENDING = 0.2
+"""Deviation of some distance in a body that bends, as a share of the distance."""
 
 
 def have_bones(positions: ArrayLike) -> bool:
-    """Return whether each point is joined to another one, and not all to all.
+    """Return whether points are those of a body: all are joined by bones, but not rigidly.
 
     Parameters
     ----------
@@ -202,22 +207,22 @@ def have_bones(positions: ArrayLike) -> bool:
     False
     """
     array = np.asarray(positions, np.float64)
-    # Every n-th frame: distances vary alike in fewer frames.
+    # Every n-th frame is enough to measure deviations.
     array = array[:: max(1, len(array) // 2000)]
-    if array.shape[1] < POINTS:
+    if array.shape[1] < MIN_BODY_POINTS:
         return False
-    # (points,): variance of the place, summed over the three axes.
-    moved = array.var(axis=0).sum(axis=1)
-    bent = False
+    # Variance of each point, summed over the three axes.
+    variances = array.var(axis=0).sum(axis=1)
+    bends = False
     for point in range(array.shape[1]):
         distances = np.linalg.norm(array - array[:, point, None], axis=2)
         deviation = distances.std(axis=0)
-        # If two points moved independently, their distance would deviate by about this much.
-        both = np.sqrt(moved + moved[point])
-        tied = deviation < TIED * both
-        tied[point] = False
-        if not tied.any():
+        # Approximate deviation of the distance of two points that move independently.
+        independent = np.sqrt(variances + variances[point])
+        is_joined = deviation < MAX_BONE_DEVIATION * independent
+        is_joined[point] = False
+        if not is_joined.any():
             return False
-        # In a rigid body no distance varies, and a body bends.
-        bent = bent or bool((deviation > BENT * distances.mean(axis=0)).any())
-    return bent
+        # A body bends: some distance varies.
+        bends = bends or bool((deviation > MIN_BENDING * distances.mean(axis=0)).any())
+    return bends

@@ -1,15 +1,15 @@
-"""End effectors: the ankles, the head and the wrists of any skeleton.
+"""Find the end effectors of any skeleton: ankles, head and wrists.
 
-Section 3.1 of Voegele, Krueger and Klein (2014) describes a pose by five points
+Section 3.1 of Voegele, Krueger and Klein (2014) describes a pose by the five points
 that move most: both feet, the head and both hands. They are found
 
-1. where the user says they are;
+1. by the names that the user gives;
 2. by the usual names, see `kineme.recordings.joint_names`;
 3. by the shape of the skeleton, see ``topology``.
 
-For the names of CMU's ASF files the points are those of the authors' program:
-the tips of ltibia, rtibia, head, lwrist and rwrist. Elsewhere the ankle and
-wrist joints, and the crown of the head where the skeleton has one.
+For the joint names of CMU's ASF files they are the points of the authors' program:
+the tips of ltibia, rtibia, head, lwrist and rwrist. Otherwise they are the ankle and
+wrist joints, and the crown of the head or the head joint.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from kineme.recordings.kinematics import place_at_rest
 PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
 Names = Mapping[str, str] | Sequence[str]
 
-SHOWN = 60
-"""Joints that a message names before it only counts."""
+MAX_SHOWN = 60
+"""Largest number of joints that a message lists by name."""
 _NAMED = (("*_ankle", "*_foot"), ("head",), ("*_wrist", "*_hand"))
 
 
@@ -59,11 +59,11 @@ class EndEffectors:
 
     @property
     def indices(self) -> tuple[int, int, int, int, int]:
-        """Joints in the order of the features: ankles, head, wrists, left before right."""
+        """Return the joints in the order of features: ankles, head, wrists, left before right."""
         return self.left_ankle, self.right_ankle, self.head, self.left_wrist, self.right_wrist
 
     def describe(self, skeleton: Skeleton) -> str:
-        """One line for people: ``left ankle = LeftFoot (by name), ...``."""
+        """Describe the end effectors in one line: ``left ankle = LeftFoot (by name), ...``."""
         return ", ".join(
             f"{part.replace('_', ' ')} = {skeleton.names[joint]} ({how})"
             for part, joint, how in zip(PARTS, self.indices, self.how, strict=True)
@@ -71,21 +71,21 @@ class EndEffectors:
 
 
 def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> EndEffectors:
-    """Ankles, head and wrists of a skeleton.
+    """Find the ankles, head and wrists of a skeleton.
 
     Parameters
     ----------
     source : Skeleton or Motion
-        A skeleton, or a motion: then its most upright pose, not the rest pose, tells the shape
-        where names do not help.
+        If names do not help, the shape of the skeleton is used: in its most upright pose for a
+        motion, or in its rest pose.
     names : mapping of str to str or sequence of str, optional
-        Joint names by part ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist"; those
-        left out are searched for), or all five in this order.
+        Joint names by part ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist";
+        missing parts are searched), or all five in this order.
 
     Raises
     ------
     EndEffectorError
-        A part was not found, or a given name is not in the skeleton.
+        A part was not found, or the skeleton has no joint of a given name.
 
     References
     ----------
@@ -102,9 +102,9 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     """
     check_type(source, (Motion, Skeleton), "end_effectors", "kineme.read(path) gives a motion")
     skeleton = source.skeleton if isinstance(source, Motion) else source
-    # The first source that names a part wins: the user, the rig, usual names, shape.
-    rig, of_rig = find_rig_joints(skeleton.names)
-    ways = [(_find_named(skeleton, names), "as named"), (of_rig, f"by {rig} name"),
+    # In order of priority: names given by the user, names of a known rig, usual names, shape.
+    rig, rig_joints = find_rig_joints(skeleton.names)
+    ways = [(_find_named(skeleton, names), "as named"), (rig_joints, f"by {rig} name"),
             (_find_by_names(skeleton), "by name")]  # fmt: skip
     if len({part for joints, _ in ways for part in joints}) < len(PARTS):
         ways.append((find_by_shape(skeleton.parents, _find_upright_pose(source)), "by shape"))
@@ -113,14 +113,14 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     if missing:
         raise EndEffectorError(
             f"{_list_words(missing)} not found among the joints "
-            f"{join_names(skeleton.names, SHOWN)}; " + suggest_remedy(skeleton),
+            f"{join_names(skeleton.names, MAX_SHOWN)}; " + suggest_remedy(skeleton),
             reason=f"no {_list_words(missing, 'or')} among the joints",
         )
     joints = [found[part][0] for part in PARTS]
-    # One joint that serves as two parts would count twice.
+    # A joint must not serve as two parts.
     if len(set(joints)) < len(PARTS):
-        twice = next(joint for joint in joints if joints.count(joint) > 1)
-        reason = f"joint {skeleton.names[twice]!r} serves as two end effectors"
+        duplicate = next(joint for joint in joints if joints.count(joint) > 1)
+        reason = f"joint {skeleton.names[duplicate]!r} serves as two end effectors"
         raise EndEffectorError(
             f"{reason}; name five different joints with --effectors", reason=reason
         )
@@ -128,8 +128,8 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
 
 
 def suggest_remedy(skeleton: Skeleton) -> str:
-    """How a recording becomes that of a body in which the end effectors were not found."""
-    if max(skeleton.parents) < 0:  # where a body stands and faces, a pelvis tells
+    """Say how to make the end effectors of a recording known, if they were not found."""
+    if max(skeleton.parents) < 0:  # markers: the body's own frame also needs a pelvis
         return (
             "to be looked at as a body, the markers of pelvis, ankles, head and wrists need the "
             "names of a marker set (LASI, RASI, LPSI, RPSI, LANK, ...)"
@@ -139,7 +139,7 @@ def suggest_remedy(skeleton: Skeleton) -> str:
 
 
 def _list_words(words: list[str], last: str = "and") -> str:
-    """Return the words as people list them: ``a, b and c``."""
+    """Join words to a list: ``a, b and c``."""
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
@@ -147,8 +147,8 @@ def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
     if names is None:
         return {}
     if not isinstance(names, Mapping):
-        given: object = names
-        is_list = isinstance(given, Collection) and not isinstance(given, str)
+        value: object = names
+        is_list = isinstance(value, Collection) and not isinstance(value, str)
         if not is_list or len(names) != len(PARTS):
             raise EndEffectorError(
                 f"five joint names are needed ({', '.join(PARTS)}), not {names!r}"
@@ -160,7 +160,7 @@ def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
         if not is_one_of(name, skeleton.names):
             raise EndEffectorError(
                 f"no joint is called {name!r} (given for {part}); there are "
-                + join_names(skeleton.names, SHOWN)
+                + join_names(skeleton.names, MAX_SHOWN)
             )
     return {part: skeleton.names.index(name) for part, name in names.items()}
 
@@ -172,14 +172,14 @@ def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
 
 
 def _find_crown(skeleton: Skeleton, head: int) -> int:
-    """Return the leaf that ends the head joint, or the head joint itself."""
+    """Return the end of the head joint, or the head joint itself if it has none."""
     leaves = [
         joint
         for joint, parent in enumerate(skeleton.parents)
         if parent == head
         and (joint in skeleton.end_sites or has_word(skeleton.names[joint], CROWN))
     ]
-    # Of several ends the farthest one is the crown.
+    # The crown is the farthest of several ends.
     return max(leaves, key=lambda j: float(np.linalg.norm(skeleton.offsets[j])), default=head)
 
 
@@ -193,11 +193,11 @@ def _find_upright_pose(source: Skeleton | Motion) -> NDArray[np.float64]:
 
 
 def measure_body_size(motion: Motion, effectors: EndEffectors) -> float:
-    """Length of the chain of bones from the ankles to the head, in metres.
+    """Return the length of the bones from the ankles to the head, in metres.
 
-    The legs' mean plus the trunk's, at rest: close to the height of the person.
-    In a motion without rotations a bone is as long as the distance of its ends
-    in the median frame.
+    This is the mean length of the legs plus that of the trunk, at rest. It is close to
+    the height of the person. In a motion without rotations, the length of a bone is the
+    median distance of its ends.
 
     Raises
     ------
@@ -217,12 +217,10 @@ def measure_body_size(motion: Motion, effectors: EndEffectors) -> float:
     ]
     size = float(np.mean(legs)) + _measure_chain(motion, effectors.head)
     if not size > 0:
-        lacking = (
-            "" if max(motion.skeleton.parents) >= 0 else f": {suggest_remedy(motion.skeleton)}"
-        )
+        remedy = "" if max(motion.skeleton.parents) >= 0 else f": {suggest_remedy(motion.skeleton)}"
         raise MotionError(
             "the bones between ankles and head have no length, as among markers without a pelvis"
-            + lacking
+            + remedy
         )
     return size
 
@@ -231,7 +229,7 @@ def _measure_chain(motion: Motion, joint: int) -> float:
     """Return the length of the bones from a joint up to the hips."""
     length = 0.0
     parent = motion.skeleton.parents[joint]
-    # The carrier is the hips, where the chain ends.
+    # The carrier is the hips joint, where the chain ends.
     while parent >= 0 and joint != motion.skeleton.carrier:
         if motion.rotations is None:
             bone = motion.positions[:, joint] - motion.positions[:, parent]

@@ -1,12 +1,11 @@
-"""Muscle signals: what is left of an electromyogram when only its strength counts.
+"""Compute the envelopes of muscle signals (electromyograms).
 
-Electrodes see a noise of both signs whose strength tells how active a muscle
-is. Rectified and low-passed it becomes the envelope that repeats itself as the
-movement does; resampling follows with that of all signals.
+Electrodes measure noise of both signs, whose strength shows the activity of a muscle.
+The rectified and low-passed signal is the envelope, which repeats with the movement.
 
-Source: Krüger et al. 2017, section VII-B (rectified, resampled, low-passed). The
-low-pass comes before the resampling here, so that nothing folds back. Its
-cutoff and order are those usual for linear envelopes in biomechanics.
+Source: Krüger et al. 2017, section VII-B (rectified, resampled, low-passed). Here the
+low-pass filter comes before the resampling, to avoid aliasing. Its cutoff and order are
+those usual for linear envelopes in biomechanics.
 """
 
 from __future__ import annotations
@@ -18,14 +17,14 @@ from kineme.errors import ParameterError
 from kineme.features.filters import filter_low
 
 CUTOFF = 6.0
-"""Hertz."""
+"""Default cutoff of the low-pass filter, Hz."""
 
 
 def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> NDArray[np.float64]:
-    """Return envelope (frames, channels) of raw muscle signals, at the same rate, never below 0.
+    """Return the envelopes (frames, channels) of raw muscle signals, at the same rate, at least 0.
 
-    Each channel loses its mean, is rectified, and low-passed without delay
-    (Butterworth of second order, forwards and backwards: fourth order in all).
+    Each channel is centred, rectified, and low-passed without delay (Butterworth filter
+    of second order, forwards and backwards: fourth order in total).
 
     Parameters
     ----------
@@ -33,12 +32,12 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     fps : float
         Samples per second; more than twice the cutoff.
     cutoff : float, optional
-        Hertz.
+        Cutoff frequency, Hz.
 
     Raises
     ------
     ParameterError
-        A cutoff that the sampling rate does not reach.
+        The cutoff is not below half of the sampling rate.
 
     Examples
     --------
@@ -55,7 +54,7 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
         )
     raw = np.asarray(values, np.float64)
     rectified = np.abs(raw - raw.mean(axis=0))
-    # One cycle of the cutoff, but less than the recording.
+    # One period of the cutoff, but less than the recording.
     padding = min(len(raw) - 1, int(fps / cutoff))
     smooth = filter_low(rectified.reshape(len(raw), -1), fps, cutoff, padding)
     # The filter overshoots below 0 after strong bursts.

@@ -1,4 +1,4 @@
-"""Where a point of a foot is low and slow, which is how standing is told from positions."""
+"""Find frames in which a point of a foot is low and slow, so that the foot stands."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 
-LOWEST = 5.0
-"""Per cent of the frames in which a point is as low as its lowest place."""
+GROUND_PERCENTILE = 5.0
+"""Percentile of the heights of a point that counts as its lowest height."""
 
 
 def measure_speed(path: Floats, fps: float) -> Floats:
-    """How fast a point is, metres per second; 0 for a single frame.
+    """Return the speed of a point in metres per second; 0 for a single frame.
 
     Parameters
     ----------
@@ -37,10 +37,10 @@ def find_low_and_slow(
     fps : float
         Frames per second.
     height : float
-        Metres above its lowest place, below which it is low.
+        Metres above its lowest height, below which it is low.
     speed : float
         Metres per second, below which it is slow.
     """
-    # A low percentile instead of the minimum, which may be a tracking error.
-    low = path[:, 1] < np.percentile(path[:, 1], LOWEST) + height
+    # A low percentile is robust to tracking errors, unlike the minimum.
+    low = path[:, 1] < np.percentile(path[:, 1], GROUND_PERCENTILE) + height
     return np.asarray(low & (measure_speed(path, fps) < speed))

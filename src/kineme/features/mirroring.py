@@ -1,14 +1,13 @@
-"""Mirroring: left and right exchanged, of motions and of pose features.
+"""Mirror motions and pose features: exchange left and right.
 
-The sagittal mirror: x turns its sign, and what the left limbs did the right ones
-do. A person who steps out with the left foot then steps out with the right.
-Both forms agree where left and right are of the same lengths: the features of
-the mirrored motion are the mirrored features. Mirroring twice changes nothing.
+The mirror plane is x = 0: x changes its sign, and left and right limbs exchange their
+movements. If both sides have the same bone lengths, the features of the mirrored motion
+equal the mirrored features. Mirroring twice restores the motion.
 
-The skeleton stays as it is. With G the rotation of a joint in the world, M the
-mirror, k the joint's partner and X the reflection of the partner's axes onto its
-own, the rotation in the mirror is M G[k] X^-1, whichever way bones lie along
-their axes.
+The skeleton does not change. Let G be the rotation of a joint in the world, M the
+mirror, k the partner of the joint on the other side, and X the reflection of the
+partner's axes onto the joint's own. Then the mirrored rotation is M G[k] X^-1, for any
+orientation of bones in their axes.
 
 Source: Krueger et al. 2017, section V.
 """
@@ -34,40 +33,45 @@ from kineme.recordings.motion import check_motion
 from kineme.recordings.posing import get_rig
 
 FLIP = np.array([-1.0, 1.0, 1.0])
-HALF_TURN = np.array([0.0, 1.0, 0.0, 0.0])  # its opposite is that flip
+"""Diagonal of the mirror."""
+HALF_TURN = np.array([0.0, 1.0, 0.0, 0.0])
+"""Quaternion of the rotation whose negative is the mirror."""
 FLIPS = np.array([[-1, -1, -1], [-1, 1, 1], [1, -1, 1], [1, 1, -1]], np.float64)
-"""Reflections of axes onto those of the other side, as programs set up rigs; diagonals."""
+"""Diagonals of the reflections of axes onto those of the other side that rigs use."""
 
 SYMMETRIC = 0.1
-"""Share of the size of a body by which its sides may differ at rest."""
+"""Largest difference of both sides at rest, as a share of the size of the body."""
 
 UPRIGHT = 0.98
-"""Cosine of the angle to an axis, 11 degrees, below which the body's plane lies along that axis."""
+"""Cosine of the angle (11 degrees) between the normal of the body's plane and a coordinate axis
+within which the axis is used as normal."""
 
 SLIDES = 0.01
-"""Metres by which a joint leaves its mean place in its parent's frame and counts as sliding."""
+"""Metres by which a sliding joint leaves its mean position in its parent's frame."""
 
 FIT, TWIST, TINY = 4.0, 1e-3, 1e-9
-"""Weights of the children's offsets against the usual rotation, and of a guess against these."""
+"""Weight of the children's offsets relative to the mean rotations, weight of the default
+reflection relative to both, and smallest divisor."""
 
-EXCHANGED = [1, 0, 2, 4, 3]  # ankles and wrists in the order of PARTS
+EXCHANGED = [1, 0, 2, 4, 3]
+"""Indices into PARTS with left and right exchanged."""
 
 _SIDES = {"left": "right", "right": "left", "l": "r", "r": "l"}
-# At the start of a word: "lhand", "hand_l", "WristLeft", "mixamorig:LeftHand".
 _SIDE = re.compile(r"(?:(?<![a-zA-Z])|(?<=[a-z])(?=[A-Z]))((?i:left|right|l|r))")
+"""A side at the start of a word: "lhand", "hand_l", "WristLeft", "mixamorig:LeftHand"."""
 
 
 def mirror(motion: Motion) -> Motion:
-    """Return the motion in a mirror that stands in the plane x = 0, left and right exchanged.
+    """Mirror a motion in the plane x = 0, with left and right exchanged.
 
-    The skeleton and its rig stay as they are: rotations are what is mirrored. So a left limb that
-    is longer than the right one stays longer, and joints are where the mirror shows them only as
-    far as both sides have the same lengths.
+    The skeleton and its rig do not change; rotations are mirrored. So a left limb that is longer
+    than the right one stays longer, and positions are exactly mirrored only if both sides have the
+    same lengths.
 
     Raises
     ------
     MotionError
-        No joint has a counterpart on the other side by name, or a limb has no equal there.
+        No two joints are named as left and right, or a joint has no counterpart.
 
     Examples
     --------
@@ -82,19 +86,19 @@ def mirror(motion: Motion) -> Motion:
     positions = motion.positions[:, partners] * FLIP
     if motion.rotations is None:
         return replace(motion, positions=positions, provenance=provenance)
-    # A reflection is the opposite of a rotation; of two in a product the signs cancel.
+    # A reflection is the negative of a rotation; in a product of two the signs cancel.
     flips = _reflect_axes(skeleton, motion.rotations, partners)
-    around = np.array([HALF_TURN if p < 0 else flips[p] for p in skeleton.parents])
-    rotations = rot.multiply(around, motion.rotations[:, partners])
+    parent_flips = np.array([HALF_TURN if p < 0 else flips[p] for p in skeleton.parents])
+    rotations = rot.multiply(parent_flips, motion.rotations[:, partners])
     rotations = rot.multiply(rotations, rot.conjugate(flips))
     shifts = compute_local_translations(skeleton, motion.positions, motion.rotations)
-    spread = np.linalg.norm(shifts - shifts.mean(axis=0), axis=2).max(axis=0)
-    # Rigid bones keep their offset, and what they leave it by is mirrored. Of joints that slide,
-    # and of those above the hips, the whole place is.
-    shared = np.array(skeleton.offsets)
-    shared[np.maximum(spread, spread[partners]) > SLIDES] = 0.0
-    shared[skeleton.ancestry(skeleton.carrier)] = 0.0
-    moved = shared - rot.rotate(around, shifts[:, partners] - shared[partners])
+    deviations = np.linalg.norm(shifts - shifts.mean(axis=0), axis=2).max(axis=0)
+    # Rigid bones keep their offset, and only deviations from it are mirrored. For sliding joints
+    # and joints above the hips, the whole translation is mirrored.
+    kept_offsets = np.array(skeleton.offsets)
+    kept_offsets[np.maximum(deviations, deviations[partners]) > SLIDES] = 0.0
+    kept_offsets[skeleton.ancestry(skeleton.carrier)] = 0.0
+    moved = kept_offsets - rot.rotate(parent_flips, shifts[:, partners] - kept_offsets[partners])
     roots = [joint for joint, parent in enumerate(skeleton.parents) if parent < 0]
     moved[:, roots] = positions[:, roots]
     return replace(
@@ -106,13 +110,13 @@ def mirror(motion: Motion) -> Motion:
 
 
 def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) -> Floats:
-    """Return how the axes of each joint's partner are reflected onto its own.
+    """Return the reflections of the axes of each joint's partner onto its own.
 
     Returns
     -------
     ndarray of shape (joints, 4)
-        A rotation, whose opposite is the reflection X: with o the offset of a child of the
-        partner, X o is that of the child's partner. X of the partner is the inverse.
+        Rotations whose negatives are the reflections X. If o is the offset of a child of the
+        partner, X o is the offset of the child's partner. X of the partner is the inverse.
     """
     places, turns = get_rig(skeleton).rest()
     frames, means = (
@@ -120,30 +124,35 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
         [to_matrices(rotations[:, j]).mean(0) for j in range(len(turns))],
     )
     image = _reflect_rest(skeleton, places, partners)
-    found = np.empty((skeleton.n_joints, 3, 3))
+    reflections = np.empty((skeleton.n_joints, 3, 3))
     for joint, (other, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
-        around = np.diag(FLIP) if parent < 0 else found[parent]
+        parent_reflection = np.diag(FLIP) if parent < 0 else reflections[parent]
         if other < joint:
-            found[joint] = found[other].T
+            reflections[joint] = reflections[other].T
             continue
         if joint in skeleton.end_sites:
-            found[joint] = around
+            reflections[joint] = parent_reflection
             continue
         children = list(skeleton.children[joint])
-        here = skeleton.offsets[children]
-        fit, size = here.T @ skeleton.offsets[[partners[c] for c in children]], np.sum(here**2)
+        own_offsets = skeleton.offsets[children]
+        fit, size = (
+            own_offsets.T @ skeleton.offsets[[partners[c] for c in children]],
+            np.sum(own_offsets**2),
+        )
         if image is not None:
-            near = frames[joint].T @ image @ frames[other]
+            default = frames[joint].T @ image @ frames[other]
         else:
-            # What the joint usually does tells how it is twisted about its bone.
-            usual = FIT * fit / max(size, TINY) + means[joint].T @ around @ means[other]
-            near = np.diag(max(FLIPS, key=lambda flip: float(flip @ np.diag(usual))))
-        # The orthogonal matrix nearest to the fit of the children, then to that guess.
-        u, _, v = np.linalg.svd(fit + max(TWIST * size, TINY) * near)
-        found[joint] = u @ np.diag([1.0, 1.0, -np.linalg.det(u @ v)]) @ v
-    flips = from_matrices(-found)
+            # Mean rotations determine the twist about the bone, which offsets do not.
+            estimate = (
+                FIT * fit / max(size, TINY) + means[joint].T @ parent_reflection @ means[other]
+            )
+            default = np.diag(max(FLIPS, key=lambda flip: float(flip @ np.diag(estimate))))
+        # Nearest reflection to the fit of the children, or to the default if that is ambiguous.
+        u, _, v = np.linalg.svd(fit + max(TWIST * size, TINY) * default)
+        reflections[joint] = u @ np.diag([1.0, 1.0, -np.linalg.det(u @ v)]) @ v
+    flips = from_matrices(-reflections)
     for joint, other in enumerate(partners):
-        if other > joint:  # so that the signs of a motion mirrored twice are its own
+        if other > joint:  # exact inverse, so that mirroring twice restores the signs
             flips[other] = -rot.conjugate(flips[joint])
     ends = sorted(skeleton.end_sites)
     flips[ends] = flips[[skeleton.parents[end] for end in ends]]
@@ -151,15 +160,15 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
 
 
 def _reflect_rest(skeleton: Skeleton, places: Floats, partners: list[int]) -> Floats | None:
-    """Return the reflection (3, 3) of a body at rest; None where the rest pose is that of no body.
+    """Return the reflection (3, 3) of a body at rest; None if the rest pose is not symmetric.
 
-    So it is in a BVH whose bones lie along their local axes.
+    This happens in BVH files whose bones lie along their local axes.
     """
     apart = places - places[partners]
-    # The direction that most of the lines from left to right have.
+    # Normal of the mirror plane: the principal direction of the lines from left to right.
     normal = np.linalg.eigh(apart.T @ apart)[1][:, -1]
     if np.abs(normal).max() > UPRIGHT:
-        # Bodies are modelled along an axis, up to differences between their sides.
+        # Bodies are modelled along an axis, apart from small differences of their sides.
         normal = np.eye(3)[np.abs(normal).argmax()]
     image = np.eye(3) - 2 * np.outer(normal, normal)
     from_hips = (places - places[skeleton.carrier])[list(skeleton.body)]
@@ -169,17 +178,17 @@ def _reflect_rest(skeleton: Skeleton, places: Floats, partners: list[int]) -> Fl
 
 
 def mirror_features(features: ArrayLike) -> Floats:
-    """Pose features of the mirrored motion, stacked or not.
+    """Mirror pose features, stacked or not.
 
     Parameters
     ----------
     features : array_like of shape (frames, 15 * blocks)
-        As `pose_features` and `stack` give them.
+        As returned by `pose_features` and `stack`.
 
     Raises
     ------
     ParameterError
-        No such features.
+        They are not pose features.
 
     Examples
     --------
@@ -204,7 +213,7 @@ def mirror_features(features: ArrayLike) -> Floats:
 
 
 def _find_partners(skeleton: Skeleton) -> list[int]:
-    """Return for each joint that of the other side; itself on the midline."""
+    """Return the counterpart of each joint on the other side; itself on the midline."""
     names = skeleton.names
     index = {name: joint for joint, name in enumerate(names)}
     partners = [
@@ -218,7 +227,7 @@ def _find_partners(skeleton: Skeleton) -> list[int]:
     for joint, parent in enumerate(skeleton.parents):
         other = partners[joint]
         beside = skeleton.parents[other]
-        # Both sides must hang on partners, or the mirrored limbs would tear.
+        # Parents of partners must be partners, too, or mirrored limbs would be torn apart.
         if partners[other] != joint or beside != (partners[parent] if parent >= 0 else -1):
             raise MotionError(
                 f"joint {names[joint]!r} has no counterpart on the other side of the body"
@@ -227,13 +236,13 @@ def _find_partners(skeleton: Skeleton) -> list[int]:
 
 
 def _swap_side(name: str) -> Iterator[str]:
-    """Yield the name with one word for a side turned into the other, each way to do so."""
-    # A name may hold several letters that look like a side, as in `l_hand_r`.
-    for found in _SIDE.finditer(name):
-        side = found[1]
+    """Yield the name with one word for a side replaced by the other side, for each such word."""
+    # A name may have several matches, as `l_hand_r`.
+    for match in _SIDE.finditer(name):
+        side = match[1]
         other = _SIDES[side.lower()]
         if side.isupper():
             other = other.upper()
         elif side[0].isupper():
             other = other.capitalize()
-        yield name[: found.start()] + other + name[found.end() :]
+        yield name[: match.start()] + other + name[match.end() :]

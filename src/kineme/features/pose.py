@@ -1,9 +1,9 @@
-"""Pose features, and their stacking with neighbouring frames.
+"""Compute pose features, and stack them with neighbouring frames.
 
 A pose is 15 numbers: x, y, z of the left ankle, right ankle, head, left wrist
 and right wrist in the body's own frame (see ``compute_body_frame``), in metres. Stacked
-with the poses some frames before and after, it also tells the direction of
-movement, and is what the neighbour search compares.
+with the poses some frames before and after it, it also shows the direction of
+movement.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from kineme.recordings.motion import check_motion
 
 
 def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = None) -> Floats:
-    """Positions (frames, 15) of the five end effectors in the body's own frame, in metres.
+    """Return the positions (frames, 15) of the end effectors in the body's own frame, in metres.
 
     Parameters
     ----------
     motion : Motion
     effectors : EndEffectors or mapping of str to str or sequence of str, optional
-        The end effectors or their names (see ``end_effectors``); searched for by default.
+        The end effectors or their names (see ``end_effectors``); by default they are searched.
 
     Raises
     ------
@@ -55,16 +55,16 @@ def pose_features(motion: Motion, *, effectors: EndEffectors | Names | None = No
 
 
 def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
-    """``stacked[t]`` holds ``features[t + o]`` side by side for the offsets o in ascending order.
+    """Stack frames with their neighbours: row t holds ``features[t + o]`` for ascending offsets o.
 
-    Beyond either end the two outermost frames are continued in a straight
-    line; a single frame is repeated.
+    Beyond both ends, features are extrapolated linearly from the two outermost frames; a
+    single frame is repeated.
 
     Parameters
     ----------
     features : array_like of shape (frames, dims)
     offsets : sequence of int
-        Frames relative to the one in question; 0 is not added by itself.
+        Frames relative to t; 0 is not added automatically.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
     Raises
     ------
     ParameterError
-        Features are not two-dimensional or empty, or there are no offsets or equal ones.
+        The features are not two-dimensional or are empty; or offsets are empty or not distinct.
 
     Examples
     --------
@@ -87,7 +87,7 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
         raise ParameterError(f"features must be frames x dims, not of shape {features.shape}")
     if len(offsets) == 0 or len(set(offsets)) < len(offsets):
         raise ParameterError(f"offsets must be different frames, at least one, not {offsets!r}")
-    # Frames that are needed beyond either end.
+    # Number of frames that are needed beyond each end.
     before, after = max(0, -min(offsets)), max(0, *offsets)
     longer = _extrapolate(features, before, after)
     frames, dims = features.shape
@@ -99,12 +99,12 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
 
 
 def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
-    """Offsets in whole frames, ascending, from offsets in seconds.
+    """Convert offsets from seconds to whole frames, ascending.
 
     Raises
     ------
     ParameterError
-        An offset is not a number, or two become the same frame.
+        An offset is not finite, or two fall on the same frame.
 
     Examples
     --------
@@ -125,11 +125,11 @@ def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
 
 
 def _extrapolate(features: Floats, before: int, after: int) -> Floats:
-    """Return features with so many frames more at either end, in line with the two outermost."""
-    # A single frame has no step and is repeated.
+    """Extend features at both ends, linearly from the two outermost frames."""
+    # A single frame is repeated.
     first = features[1] - features[0] if len(features) > 1 else np.zeros(features.shape[1])
     last = features[-1] - features[-2] if len(features) > 1 else first
-    # The farthest frame comes first in time, so the steps descend.
+    # The farthest frame is the first in time, so multiples descend.
     head = features[0] - np.arange(before, 0, -1)[:, None] * first
     tail = features[-1] + np.arange(1, after + 1)[:, None] * last
     return np.concatenate([head, features, tail])

@@ -1,8 +1,8 @@
-"""Compute how the joints of a body are turned, for presets whose view is rotations.
+"""Compute rotations of joints, for presets whose features are rotations.
 
-Barbič et al. (2004) chose 14 joints and left the root out; Zhou et al. (2013) took them over. Their
+Barbič et al. (2004) chose 14 joints without the root, and Zhou et al. (2013) use the same. Their
 program maps the raw Euler angles of AMC files. ``Motion.rotations`` are the same rotations in other
-axes, constant per joint: each log map is turned as a whole, and no distance changes.
+axes, constant per joint. This rotates each log map as a whole and does not change distances.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ JOINTS = (
 
 
 def compute_joint_quaternions(motion: Motion) -> Floats:
-    """Local rotations of the 14 joints, unit quaternions (w, x, y, z) with w >= 0.
+    """Return the local rotations of the 14 joints: unit quaternions (w, x, y, z) with w >= 0.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def compute_joint_quaternions(motion: Motion) -> Floats:
     Raises
     ------
     MotionError
-        The motion has no rotations, or not these joints.
+        The motion has no rotations, or lacks one of these joints.
     """
     if motion.rotations is None:
         raise MotionError("the motion has positions only; these methods need its rotations")
@@ -46,12 +46,12 @@ def compute_joint_quaternions(motion: Motion) -> Floats:
             f"ASF files: {', '.join(JOINTS)}"
         )
     q = motion.rotations[:, [names.index(joint) for joint in JOINTS]]
-    # q and -q are the same rotation; w >= 0 chooses the shorter way.
+    # q and -q are the same rotation; w >= 0 selects the shorter one.
     return np.where(q[..., :1] < 0, -q, q)
 
 
 def compute_log_maps(quaternions: Floats) -> Floats:
-    """Half the rotation vector of each quaternion.
+    """Return half of the rotation vector of each quaternion.
 
     Parameters
     ----------
@@ -63,6 +63,6 @@ def compute_log_maps(quaternions: Floats) -> Floats:
     (frames, 3 * joints) array
     """
     half = np.arccos(np.clip(quaternions[..., :1], -1, 1))
-    # `sinc(half / pi)` is sin(half) / half, which is 1 at the identity: no division by 0.
+    # `sinc(half / pi)` is sin(half) / half, and 1 at the identity, which avoids a division by 0.
     logs = quaternions[..., 1:] / np.sinc(half / np.pi)
     return logs.reshape(len(logs), -1)

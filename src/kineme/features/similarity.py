@@ -1,18 +1,16 @@
-"""Self-similarity matrix of a recording, at every zoom.
+"""Compute the self-similarity matrix of a recording at several zoom levels.
 
-A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance
-of their features, from 0 (nothing in common, or not seen) to 1. Features are
-taken 0.2 s before to 0.2 s after. Those of a motion are those of the ``kineme``
-method, the ends of the body in its own frame; two frames are 1 apart at a fifth
-of a body. Motions without a known body are compared by the distances between
-their points, signals by their channels, each divided by its deviation.
+A cell of level 0 is the similarity of two samples: ``exp(-d²)`` of the distance of
+their features, from 0 (nothing in common, or a gap) to 1. Features are stacked from
+0.2 s before to 0.2 s after each sample. For a motion they are the end effectors in the
+body's own frame; a distance of 1 is a fifth of the body size. For a motion without a
+known body they are distances between points, for signals the standardised channels.
 
-A cell of level L merges 2^L samples on either side. It compares how their poses
-are distributed, mean and deviation of each feature (the Fréchet distance of
-normal distributions with independent features), so that from afar an activity
-is a plain square, whatever the phase of its samples.
+A cell of level L compares two spans of 2^L samples by mean and deviation of each
+feature (the Fréchet distance of normal distributions with independent features). So
+at low zoom an activity is a uniform square, independent of the phase of its samples.
 
-Nothing of cells × cells is held: cells are computed from two spans of features.
+The matrix is not stored: cells are computed on demand from the features of two spans.
 """
 
 from __future__ import annotations
@@ -32,26 +30,27 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample
 
 COARSEST = 256
-"""Cells a side up to which there is no coarser level."""
+"""Largest number of cells per side of the coarsest level."""
 RATE = 10.0
-"""Cells per second: what can still be told apart on a screen."""
-MOST_CELLS = 36_000
-"""An hour; longer recordings get fewer cells per second."""
+"""Cells per second, which is fine enough for a screen."""
+MAX_CELLS = 36_000
+"""Largest number of cells per side: one hour. Longer recordings have fewer cells per second."""
 OFFSETS = (-0.2, -0.1, 0.0, 0.1, 0.2)
-"""Seconds, as in the preset ``kineme``."""
+"""Time offsets of stacked samples, s."""
 BODY_SCALE = 0.2
-"""Body sizes; where the activities of subject 86 stand out."""
+"""Unit of distances in body sizes, chosen for a good contrast of CMU's subject 86."""
 SIGNAL_SCALE = 0.5
-"""Share of the distance of two samples drawn at random."""
-MOST_CHANNELS = 16
+"""Unit of distances as a share of the distance of two random samples."""
+MAX_CHANNELS = 16
+"""Largest number of dimensions of signals; of more, principal components are used."""
 
 
 @dataclass(frozen=True, eq=False)
 class SimilarityMatrix:
-    """A recording's self-similarity: ``levels[L]`` holds the features of each cell of level L.
+    """Self-similarity of a recording: ``levels[L]`` holds the features of the cells of level L.
 
-    They are (cells, dims), in units of the scale, nan where nothing was seen; level 0 has ``fps``
-    cells a second.
+    They are (cells, dims), in units of distance, and nan in gaps. Level 0 has ``fps`` cells per
+    second.
     """
 
     fps: float
@@ -60,16 +59,16 @@ class SimilarityMatrix:
     def cells(self, level: int, rows: slice, columns: slice) -> Float32s:
         """Return the similarities of some cells of a level, (rows, columns) from 0 to 1."""
         down, across = self.levels[level][rows], self.levels[level][columns]
-        # All squared distances |a|² + |b|² - 2 a·b by one matrix product.
+        # All squared distances, |a|² + |b|² - 2 a·b, by one matrix product.
         squared = (down**2).sum(axis=1)[:, None] + (across**2).sum(axis=1) - 2 * (down @ across.T)
-        # Distances to unseen cells are nan: nothing in common.
+        # Distances to gaps are nan: similarity 0.
         return np.asarray(np.nan_to_num(np.exp(-np.maximum(squared, 0)), nan=0.0), np.float32)
 
 
 def compare_frames(
     recording: Motion | Signals, *, effectors: Names | None = None
 ) -> SimilarityMatrix:
-    """Return the matrix of a recording; what lies in its gaps is similar to nothing."""
+    """Compute the matrix of a recording; gaps have a similarity of 0 to everything."""
     if isinstance(recording, Motion):
         return compare_frames_of_motion(recording, effectors=effectors)
     values = np.array(recording.values)
@@ -79,9 +78,7 @@ def compare_frames(
 
 
 def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) -> SimilarityMatrix:
-    """Return the matrix of a motion.
-
-    Of the distances between its points where it has no known body.
+    """Compute the matrix of a motion; without a known body by distances between points.
 
     Examples
     --------
@@ -104,9 +101,9 @@ def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) 
 
 
 def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
-    """Return the matrix of any signal (frames, channels) or (frames,); nan for what was not seen.
+    """Compute the matrix of a signal (frames, channels) or (frames,), with nan in gaps.
 
-    ParameterError for what is no such signal, or a frame rate that is not positive.
+    Raise ParameterError if it is not a signal, or if the frame rate is not positive.
 
     Examples
     --------
@@ -134,16 +131,13 @@ def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
 
 
 def _measure_distances(motion: Motion) -> Floats:
-    """Return the features of a motion without a body, in units of the scale.
-
-    Any values in its gaps.
-    """
+    """Return the features of a motion without a body, in units of distance; arbitrary in gaps."""
     visible = np.ones(motion.n_frames, np.bool_)
     for start, stop in motion.gaps:
         visible[start:stop] = False
     if motion.skeleton.n_joints < 2 or not visible.any():
         return np.zeros((motion.n_frames, 1))
-    # Frames in gaps would distort the scale, and are left out.
+    # Leave out frames in gaps, which would distort the scale.
     features, _ = compute_distance_features(motion.positions[visible])
     values = np.zeros((motion.n_frames, features.shape[1]))
     values[visible] = features / (BODY_SCALE * SIZE)
@@ -151,64 +145,60 @@ def _measure_distances(motion: Motion) -> Floats:
 
 
 def _standardise(values: Floats) -> Floats:
-    """Return the channels over their deviation, reduced to the main ones if there are many."""
+    """Standardise channels; reduce many channels to their principal components."""
     visible = np.asarray(np.isfinite(values).all(axis=1))
     if not visible.any():
         return np.full((len(values), 1), np.nan)
-    # Centred over what was seen; rows with a gap become nan.
+    # Centred over visible rows; rows in gaps become nan.
     out = np.where(visible[:, None], values, np.nan) - values[visible].mean(axis=0)
     deviation = out[visible].std(axis=0)
     out = out[:, deviation > 0] / deviation[deviation > 0]
     if out.shape[1] == 0:
         return np.where(visible[:, None], 0.0, np.nan)
-    if out.shape[1] > MOST_CHANNELS:
+    if out.shape[1] > MAX_CHANNELS:
         from scipy.linalg import eigh
 
         n = out.shape[1]
         # The last eigenvectors have the largest eigenvalues.
-        axes = eigh(np.cov(out[visible].T), subset_by_index=(n - MOST_CHANNELS, n - 1))[1]
+        axes = eigh(np.cov(out[visible].T), subset_by_index=(n - MAX_CHANNELS, n - 1))[1]
         out = out @ axes
-    # Twice the summed variance is the mean squared distance of two samples drawn at random.
+    # Twice the summed variance is the mean squared distance of two random samples.
     return np.asarray(out / (SIGNAL_SCALE * np.sqrt(2 * out[visible].var(axis=0).sum())))
 
 
 def _stack_levels(values: Floats, fps: float, seconds: float) -> SimilarityMatrix:
-    """Return the matrix of features (samples, dims) at every zoom.
+    """Compute all levels of the matrix from features (samples, dims).
 
-    ``seconds`` is the recording's length.
-
-    They are so scaled that two of them are ``exp(-1)`` similar at a distance of 1; nan where
-    nothing was seen.
+    Features are in units of distance, and nan in gaps. ``seconds`` is the length of the recording.
     """
-    rate = min(RATE, fps, MOST_CELLS / seconds)
-    # Middles of the cells; a tiny rest of a cell, which rounding may leave, is none.
+    rate = min(RATE, fps, MAX_CELLS / seconds)
+    # Middles of the cells; 1e-6 drops a tiny last cell that rounding may add.
     middles = np.asarray((np.arange(ceil(seconds * rate - 1e-6)) + 0.5) / rate, np.float64)
     stacked = np.concatenate(
         [_sample_at(values, middles + offset, fps) for offset in OFFSETS], axis=1
     )
-    # Five stacked poses shall not make distances larger.
+    # Stacking must not make distances larger.
     stacked /= np.sqrt(len(OFFSETS))
-    # A cell counts only if all of its stacked samples were seen.
+    # A cell is visible only if all of its stacked samples are.
     visible = np.asarray(np.isfinite(stacked).all(axis=1))
-    # Sums instead of means, so that levels can be merged by adding.
+    # Sums instead of means, so that cells can be merged by addition.
     total = np.where(visible[:, None], stacked, 0.0)
     squares, counts = total**2, visible.astype(float)[:, None]
     levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
     while len(total) > COARSEST:
         total, squares, counts = (_sum_pairs(sums) for sums in (total, squares, counts))
-        # 0 / 0: where nothing was seen there is nothing to compare.
+        # 0 / 0 in gaps.
         with np.errstate(invalid="ignore"):
             mean = total / counts
-            # Variance as mean of squares less squared mean, which rounding can make negative.
+            # Variance: mean of squares less squared mean, which rounding can make negative.
             deviation = np.sqrt(np.maximum(squares / counts - mean**2, 0))
-        # The squared distance of means and deviations is the Fréchet distance of the distributions.
+        # The squared distance of means and deviations is the squared Fréchet distance.
         levels.append(np.concatenate([mean, deviation], axis=1).astype(np.float32))
     return SimilarityMatrix(rate, tuple(levels))
 
 
 def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
-    """Return the values at seconds, where frame i stands for the time around (i + 0.5) / fps."""
-    # Frame i is at its middle, half a frame later than its number.
+    """Interpolate values at times in seconds; frame i is at (i + 0.5) / fps."""
     at = np.clip(times * fps - 0.5, 0, len(values) - 1)
     before = np.floor(at).astype(np.intp)
     after = np.minimum(before + 1, len(values) - 1)
@@ -217,5 +207,5 @@ def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
 
 
 def _sum_pairs(sums: Floats) -> Floats:
-    """Return sums of two neighbouring rows; the last of an odd number stays alone."""
+    """Return sums of pairs of neighbouring rows; an odd last row stays alone."""
     return np.add.reduceat(sums, np.arange(0, len(sums), 2), axis=0)

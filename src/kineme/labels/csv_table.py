@@ -45,7 +45,7 @@ from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
 from kineme.recordings.times import is_date, parse_date
-from kineme.segments.editing.annotating import assign_comments, from_rows
+from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking
 
@@ -81,7 +81,7 @@ def read(path: Path) -> Segmentation | Labels:
         columns = _list_columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
     found = _attach_provenance(columns, path)
-    return found if comments is None else from_rows(found, comments)
+    return found if comments is None else set_comments_by_row(found, comments)
 
 
 def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:

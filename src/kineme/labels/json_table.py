@@ -55,7 +55,7 @@ from kineme.formats.files import load
 from kineme.labels.delimited import read_first_bytes, read_last_bytes
 from kineme.labels.registry import LabelFormat
 from kineme.segments.annotation import Annotation
-from kineme.segments.editing.annotating import assign_comments, from_rows
+from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, find_lacking
@@ -289,7 +289,7 @@ def read_parquet(path: Path) -> Segmentation:
     if COMMENT not in names:
         return found
     comments = read_parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
-    return from_rows(found, [str(text or "") for text in comments])
+    return set_comments_by_row(found, [str(text or "") for text in comments])
 
 
 PARQUET = LabelFormat(

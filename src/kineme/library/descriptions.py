@@ -33,7 +33,7 @@ from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.transfer.embeddings import describe_course, embedding
+from kineme.transfer.embeddings import describe_curve, embedding
 
 UNIT = 0.5
 """Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
@@ -66,7 +66,7 @@ class Description:
             return embedding(self.poses[samples])
         found = np.zeros(EMBEDDED, np.float32)
         if len(self.features):
-            numbers = describe_course(self.features[samples].astype(np.float64))
+            numbers = describe_curve(self.features[samples].astype(np.float64))
             found[: min(EMBEDDED, len(numbers))] = numbers[:EMBEDDED]
         return found
 

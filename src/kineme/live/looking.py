@@ -61,7 +61,7 @@ def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
     """
     preset = options.resolved(signals=signals)
     if isinstance(preset, KinemeConstants):
-        preset = preset.in_scale(0)
+        preset = preset.select_view(0)
     return replace(options, preset=preset, constants={})
 
 

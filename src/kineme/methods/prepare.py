@@ -94,7 +94,7 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
     preset : Preset
     effectors : joints, optional
         Joints to use as head, hands and feet if their names are not recognised. If no body is
-        ends, features are distances between points.
+        found, features are distances between points.
 
     Raises
     ------

@@ -442,7 +442,7 @@ def rescale_spans(prepared: Prepared, recording: Motion | Signals, fps: float) -
 Spans = Sequence[tuple[int, int]]
 
 GAP_TOLERANCE = 0.2
-"""Seconds: borders this close to a gap are moved to it. Shorter gaps of a file are filled."""
+"""Borders this close to a gap are moved to it, s. Shorter gaps do not count as gaps."""
 
 
 def convert_to_frames(

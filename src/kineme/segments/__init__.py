@@ -1,1 +1,1 @@
-"""Everything that is true of a result, whoever found it: the table, its editing, its history."""
+"""Results of segmentation, independent of the method: the table, its editing, its history."""

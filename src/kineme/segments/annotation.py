@@ -1,9 +1,9 @@
-"""What people did to a segment table, beside it: marks, comments, names, how much was corrected.
+"""Annotation of a segment table by people: marks, comments, cluster names, number of corrections.
 
-A mark is on a span of a level and holds as long as a segment has exactly these frames: one that
-was moved or joined since is not the one that was marked. A comment is at a frame of a level, and
-so on the segment that holds this frame, whatever becomes of its borders: no edit and no new
-segmentation loses one. So it is with repetitions that are left out of means.
+A mark belongs to a span of a level. It is valid only while a segment has exactly these frames, so
+it ends if the segment is moved or merged. A comment belongs to a frame of a level, and thus to the
+segment that contains this frame. So no edit and no new segmentation loses a comment. Repetitions
+that are excluded from means are stored in the same way.
 """
 
 from __future__ import annotations
@@ -23,25 +23,25 @@ Comment = tuple[Level, int, str]
 """Level, frame and text."""
 
 
-@dataclass(frozen=True, slots=True)  # slots: msgspec then sets what a file leaves out
+@dataclass(frozen=True, slots=True)  # slots: msgspec then sets defaults for missing fields
 class Annotation:
-    """What people did to a segment table.
+    """Annotation of a segment table by people.
 
     Attributes
     ----------
     checked : tuple of (level, start_frame, stop_frame)
-        Segments that somebody looked at and found right, which no new segmentation changes.
+        Segments that somebody confirmed; a new segmentation does not change them.
     by_hand : tuple of (level, start_frame, stop_frame)
-        Segments that somebody made, which no new segmentation changes.
+        Segments that somebody made; a new segmentation does not change them.
     comments : tuple of (level, frame, text)
-        What people said about segments.
+        Comments on segments.
     cluster_names : dict of str
-        By cluster; empty for one that has none, whatever its segments are called. A cluster that
-        is not there is called what more than half of its segments are.
+        Names by cluster; empty for a cluster without a name. A cluster that is missing here has
+        the label of more than half of its segments as name.
     corrections : int
-        How often the table was corrected.
+        Number of corrections of the table.
     excluded : tuple of int
-        Frames: the primitives that hold them count in no mean of `kineme.cycles`.
+        Frames: `kineme.cycles` leaves the primitives that contain them out of means.
 
     Examples
     --------
@@ -58,12 +58,12 @@ class Annotation:
 
     @classmethod
     def from_json(cls, content: object) -> Self:
-        """Return the annotation that a file holds.
+        """Return the annotation from the JSON of a file.
 
         Raises
         ------
         ParameterError
-            It is of another shape.
+            The content has another structure.
         """
         try:
             return convert_json(content, cls)
@@ -71,14 +71,14 @@ class Annotation:
             raise ParameterError(f"the annotation is not as kineme writes it: {error}") from error
 
     def to_json(self) -> dict[str, Any]:
-        """Return what a file holds of it: the parts that there are, empty where there is none."""
+        """Return the JSON for a file, without empty parts."""
         parts: dict[str, Any] = msgspec.to_builtins(self, str_keys=True)
         return {name: part for name, part in parts.items() if part}
 
     def excludes(self, start_frame: int, stop_frame: int) -> bool:
-        """Return whether a primitive of these frames counts in no mean."""
+        """Return whether a primitive of these frames is left out of means."""
         return any(start_frame <= frame < stop_frame for frame in self.excluded)
 
 
 NO_ANNOTATION = Annotation()
-"""Of a table that nobody did anything to."""
+"""Annotation of a table that nobody has edited."""

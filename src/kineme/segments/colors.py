@@ -1,8 +1,7 @@
-"""One colour per cluster, the same in every picture, report and page.
+"""Choose one colour per cluster, the same in every picture, report and page.
 
-The nine colours of the first clusters stay apart for people with any of the
-common forms of colour blindness; further clusters repeat them lighter, then
-darker.
+The nine colours of the first clusters can be distinguished with all common forms of
+colour blindness. Further clusters repeat them in lighter, then in darker shades.
 
 Source: Paul Tol, Colour Schemes, SRON/EPS/TN/09-002, 2021: the "muted" scheme.
 """
@@ -28,7 +27,7 @@ NO_CLUSTER = "#DDDDDD"
 
 
 class Row(Protocol):
-    """What of a segment its colour depends on."""
+    """Properties of a segment that determine its colour."""
 
     @property
     def label(self) -> str: ...
@@ -40,13 +39,15 @@ class Row(Protocol):
     def stop_s(self) -> float: ...
 
 
-_MIXES = ((0.0, 0), (0.5, 255), (0.4, 0))  # share and grey value mixed in, round by round
+_MIXES = ((0.0, 0), (0.5, 255), (0.4, 0))
+"""Share and value of the grey that is mixed in, for each round through the palette."""
 
 
 def choose_label_colors(rows: Iterable[Row]) -> dict[str, str]:
-    """``#RRGGBB`` of each label, the same as in the pages.
+    """Return the colour ``#RRGGBB`` of each label, the same as in the pages.
 
-    That of the cluster that has the label most; else one made from the text itself.
+    A label has the colour of the cluster in which it lasts longest, or else one derived from its
+    text.
     """
     most: dict[str, Counter[int]] = {}
     used = set()
@@ -67,8 +68,8 @@ def choose_label_colors(rows: Iterable[Row]) -> dict[str, str]:
 
 
 def _choose_free_color(text: str, used: set[str]) -> str:
-    """Return a colour for a text, the same on every day; another one where that is taken."""
-    hashed = 2166136261  # FNV-1a, over what a page takes for letters
+    """Return a colour derived from a text, or the next unused one."""
+    hashed = 2166136261  # FNV-1a hash over UTF-16 code units, as in JavaScript
     units = text.encode("utf-16-le", "surrogatepass")
     for low, high in zip(units[::2], units[1::2], strict=True):
         hashed = ((hashed ^ (low | high << 8)) * 16777619) % 2**32
@@ -78,7 +79,7 @@ def _choose_free_color(text: str, used: set[str]) -> str:
 
 
 def get_cluster_color(cluster: int) -> str:
-    """``#RRGGBB`` of a cluster; grey for -1, which is none."""
+    """Return the colour ``#RRGGBB`` of a cluster; grey for -1 (no cluster)."""
     if cluster < 0:
         return NO_CLUSTER
     color = PALETTE[cluster % len(PALETTE)]

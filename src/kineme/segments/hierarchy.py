@@ -1,7 +1,7 @@
 """Levels of detail: the tables of one recording from coarse to fine, each nested in the next.
 
-Detail 1 is what a method finds by default, less is coarser, more is finer. A
-border of either level at one detail is a border at any finer one.
+Detail 1 is the default result of a method; less is coarser, more is finer. A border of a
+level at one detail is also a border at all finer ones.
 """
 
 from __future__ import annotations
@@ -22,21 +22,21 @@ DEFAULT_DETAIL = 1.0
 
 @dataclass(frozen=True, repr=False)
 class Hierarchy:
-    """Tables of one recording by their detail, and which of them is looked at.
+    """Tables of one recording by detail, one of which is selected.
 
     Parameters
     ----------
     details : tuple of float
         Ascending and above 0.
     tables : tuple of SegmentTable
-        One for each; its borders are among those of the next.
+        One for each detail; the borders of each are also borders of the next.
     detail : float
-        The detail that is looked at, one of them.
+        The selected detail, one of `details`.
 
     Raises
     ------
     ParameterError
-        Details out of order, or a border that a finer table does not have.
+        Details are out of order, or a finer table lacks a border.
 
     Examples
     --------
@@ -69,12 +69,12 @@ class Hierarchy:
 
     @classmethod
     def of(cls, tables: Mapping[float, SegmentTable]) -> Hierarchy:
-        """Return hierarchy of tables by detail, those left out that equal their coarser neighbour.
+        """Return the hierarchy of tables by detail, without tables that equal the next coarser one.
 
         Parameters
         ----------
         tables : mapping of float to SegmentTable
-            That of detail 1 among them, which is looked at and never left out.
+            With a table of detail 1, which is selected and never left out.
 
         Returns
         -------
@@ -85,8 +85,7 @@ class Hierarchy:
             if not _have_same_spans(tables[detail], tables[kept[-1]]):
                 kept.append(detail)
         for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
-            # Equal to its finer neighbour, which is not detail 1: the coarser detail is kept for
-            # both.
+            # Of two equal neighbours the coarser is kept, except if the finer is detail 1.
             if _have_same_spans(tables[detail], tables[kept[0]]) and kept[0] < DEFAULT_DETAIL:
                 kept[0] = detail
             elif not _have_same_spans(tables[detail], tables[kept[0]]):
@@ -95,16 +94,16 @@ class Hierarchy:
 
     @property
     def table(self) -> SegmentTable:
-        """Return the table that is looked at."""
+        """Return the selected table."""
         return self.tables[self.details.index(self.detail)]
 
     def at(self, detail: float) -> Hierarchy:
-        """Return the hierarchy with the finest table looked at that is no finer than this.
+        """Select the finest table that is not finer than ``detail``.
 
         Parameters
         ----------
         detail : float
-            Above 0; below all there are, the coarsest is taken.
+            Above 0; below all details, the coarsest table is selected.
 
         Returns
         -------
@@ -113,15 +112,15 @@ class Hierarchy:
         Raises
         ------
         ParameterError
-            No such number.
+            `detail` is not a number above 0.
         """
         check_detail(detail)
-        # Rounding must not lose the detail asked for.
+        # The factor tolerates rounding errors of the requested detail.
         place = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
         return Hierarchy(self.details, self.tables, self.details[max(0, int(place))])
 
     def borders(self, level: Level = "activity") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Return the borders of the finest table, and the least detail at which each is there.
+        """Return the borders of the finest table, and the coarsest detail that has each.
 
         Parameters
         ----------
@@ -134,7 +133,7 @@ class Hierarchy:
         """
         frames = _find_starts(self.tables[-1], level)
         details = np.full(len(frames), self.details[-1])
-        # From fine to coarse, so that each border ends with the least detail.
+        # From fine to coarse, so that the coarsest detail is stored last.
         for detail, table in zip(self.details[::-1], self.tables[::-1], strict=True):
             details[np.isin(frames, _find_starts(table, level))] = detail
         return frames, details
@@ -146,7 +145,7 @@ class Hierarchy:
 
 
 def check_detail(detail: object) -> None:
-    """ParameterError for what is no detail."""
+    """Raise ParameterError unless the value is a number above 0."""
     if isinstance(detail, bool) or not (is_number(detail) and detail > 0):  # type: ignore[operator]
         raise ParameterError(
             f"detail must be a number above 0 (1 is the default, less is coarser), "
@@ -166,13 +165,12 @@ def _check_details(details: tuple[float, ...], present: float) -> None:
 
 
 def _find_starts(table: SegmentTable, level: Level) -> NDArray[np.int64]:
-    """Where segments of a level begin, but the first."""
-    # The first segment begins at 0, which is no border.
+    """Return the starts of segments of a level, without the first, which is no border."""
     return np.sort(table.start_frame[table.level == level])[1:]
 
 
 def _have_same_spans(a: SegmentTable, b: SegmentTable) -> bool:
-    """Whether two tables have the same segments in the same clusters, however these are counted."""
+    """Return whether two tables have equal segments and clusters, apart from cluster numbers."""
     same = all(
         np.array_equal(getattr(a, name), getattr(b, name))
         for name in ("level", "kind", "start_frame", "stop_frame")
@@ -180,5 +178,5 @@ def _have_same_spans(a: SegmentTable, b: SegmentTable) -> bool:
     if not same:
         return False
     first, second = a.cluster.tolist(), b.cluster.tolist()
-    # One to one: as many pairs of numbers as there are numbers on either side.
+    # Clusters map one to one if there are as many pairs of numbers as numbers on each side.
     return len({*zip(first, second, strict=True)}) == len({*first}) == len({*second})

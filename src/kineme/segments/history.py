@@ -1,7 +1,6 @@
-"""Undo and redo as a value: the present table, the ones before it, and the ones undone.
+"""Undo and redo as an immutable value: present, past and undone states.
 
-Nothing here changes in place, so that a state that could not be saved is
-simply dropped.
+Nothing changes in place, so a state that could not be saved can simply be dropped.
 """
 
 from __future__ import annotations
@@ -14,21 +13,21 @@ from kineme.errors import ParameterError
 State = TypeVar("State")
 
 LONGEST = 100
-"""States to go back; the table of an hour has a few hundred kilobytes."""
+"""Largest number of past states; the table of one hour has a few hundred kilobytes."""
 
 
 @dataclass(frozen=True)
 class History(Generic[State]):
-    """A state and how it came about.
+    """A state, with past and undone ones.
 
     Parameters
     ----------
     present : State
         Usually a `kineme.segments.segmentation.Segmentation`.
     past : tuple of State
-        Those before it, oldest first.
+        Earlier states, oldest first.
     future : tuple of State
-        Those undone, the next one to redo first.
+        Undone states, the next one to redo first.
 
     Examples
     --------
@@ -44,7 +43,7 @@ class History(Generic[State]):
     future: tuple[State, ...] = ()
 
     def followed_by(self, state: State) -> History[State]:
-        """Return the history with a new present; what was undone cannot be redone any more."""
+        """Return the history with a new present state; undone states are dropped."""
         return History(state, (*self.past, self.present)[-LONGEST:])
 
     def undone(self) -> History[State]:

@@ -1,7 +1,7 @@
-"""A segment table along a line of seconds, as HTML for notebooks.
+"""Draw a segment table as a timeline, in HTML for notebooks.
 
-Each level is a row, each segment a bar in the colour of its cluster, the same
-in every picture; grey is what is in no cluster, lighter grey a transition.
+Each level is a row, each segment a bar in the colour of its cluster. Segments in no
+cluster are grey, transitions lighter grey.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from kineme.segments.colors import choose_label_colors, get_cluster_color
 TRANSITION = "#F0F0F0"
 NO_LABELS: Mapping[str, str] = {}
 WIDTH, HEIGHT = 720, 16
-"""Pixels of a row in a notebook."""
+"""Width and height of a row, pixels."""
 FIRST_ROWS = 8
-"""Rows of a table that a notebook shows."""
+"""Number of rows of a table that a notebook shows."""
 HEADER = ("kind", "start s", "stop s", "duration s", "cluster", "label", "confidence")
 
 
 class Row(colors.Row, Protocol):
-    """What pictures need of a `kineme.segments.table.Segment`."""
+    """Properties of a `kineme.segments.table.Segment` that are drawn."""
 
     @property
     def kind(self) -> str: ...
@@ -38,7 +38,7 @@ class Row(colors.Row, Protocol):
 
 
 class Rows(Protocol):
-    """What pictures need of a `kineme.segments.table.SegmentTable`."""
+    """Properties of a `kineme.segments.table.SegmentTable` that are drawn."""
 
     @property
     def start_s(self) -> NDArray[np.float64]: ...
@@ -52,7 +52,7 @@ class Rows(Protocol):
 
 
 def get_segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> str:
-    """``#RRGGBB`` of a segment's bar: of its cluster, else of its label."""
+    """Return the colour ``#RRGGBB`` of a segment's bar: that of its cluster, or of its label."""
     if segment.cluster < 0 and segment.label in labels:
         return labels[segment.label]
     if segment.cluster < 0 and segment.kind == "transition":
@@ -61,7 +61,7 @@ def get_segment_color(segment: Row, labels: Mapping[str, str] = NO_LABELS) -> st
 
 
 def draw_timeline(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
-    """Return rows of segments as an ``<svg>``: never more bars in a row than it has pixels."""
+    """Draw rows of segments as an ``<svg>``, with at most one bar per pixel in each row."""
     height = HEIGHT * len(rows)
     labels = choose_label_colors(segment for table in rows for segment in table)
     bars = [
@@ -78,7 +78,7 @@ def draw_timeline(rows: Sequence[Rows], start_s: float, stop_s: float) -> str:
 
 
 def make_page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
-    """HTML of a title, timelines below each other, and the first rows of a table."""
+    """Return HTML of a title, timelines below each other, and the first rows of a table."""
     shown = [table for table in timelines if len(table)]
     picture = ""
     if shown:
@@ -113,11 +113,13 @@ def _make_cells(segment: Row) -> str:
 
 
 def _find_pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, float, float]]:
-    """Return the segments that begin a pixel of their own, and the pixels of start and stop."""
+    """Return the first segment that starts in each pixel, with the pixels of start and stop."""
     scale = WIDTH / max(stop_s - start_s, 1e-9)
     left = (table.start_s - start_s) * scale
+    # `return_index` gives the first segment of each pixel.
     _, first = np.unique(left.astype(np.int64), return_index=True)
     right = (table.stop_s - start_s) * scale
+    # Gap between bars, but at most half of a short bar.
     gap: NDArray[np.float64] = np.minimum(0.8, (right - left) / 2)
     return [
         (segment, round(a, 1), round(max(b, a + 0.5), 1))
@@ -128,6 +130,6 @@ def _find_pixels(table: Rows, start_s: float, stop_s: float) -> list[tuple[Row, 
 
 
 def _describe(segment: Row) -> str:
-    """Return what a bar says when the pointer is on it."""
+    """Return the tooltip of a bar."""
     name = segment.label or (f"cluster {segment.cluster}" if segment.cluster >= 0 else segment.kind)
     return escape(f"{name}: {segment.start_s:.2f} to {segment.stop_s:.2f} s")

@@ -1,9 +1,9 @@
-"""Segmentation: the segments of a recording, where they came from, what they cost.
+"""Segmentation: the segments of a recording, with provenance and timings.
 
 The columns of its table are described in `kineme.segments.table`.
 
-Every segmentation is checked when it is made: levels tile the recording, primitives lie in
-activities, provenance is plain JSON.
+Every segmentation is validated on creation: levels tile the recording, primitives lie in
+activities, and provenance is plain JSON.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 FASTEST, LONGEST = 1e9, 1e11
-"""Frames per second and seconds, below which every label format can tell them."""
+"""Upper limits of frames per second and of seconds that every label format can store."""
 
 
 class Input(TypedDict, total=False):
@@ -48,7 +48,7 @@ class Input(TypedDict, total=False):
 
 
 class LabelFile(TypedDict, total=False):
-    """File that labels were read from, and repetitions of each activity where it has some."""
+    """File that labels were read from, with repetition counts of activities if it has some."""
 
     path: str | None
     format: str | None
@@ -56,7 +56,7 @@ class LabelFile(TypedDict, total=False):
 
 
 class Provenance(TypedDict, total=False):
-    """What is read again of a provenance, as the package writes it; people may add to it."""
+    """Parts of a provenance that the package reads again; it may hold more."""
 
     input: Input | None
     labels: LabelFile
@@ -67,7 +67,7 @@ class Provenance(TypedDict, total=False):
 
 
 def check_recording(n_frames: int, fps: float) -> None:
-    """ParameterError where no recording has this length or rate."""
+    """Raise ParameterError for an impossible length or rate of a recording."""
     if not (is_number(n_frames) and n_frames >= 1):
         raise ParameterError(f"a recording has at least 1 frame, not {n_frames!r:.60}")
     if not (is_number(fps) and 0 < fps < FASTEST):
@@ -77,12 +77,12 @@ def check_recording(n_frames: int, fps: float) -> None:
 
 
 def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
-    """ParameterError where the segments of a level do not follow each other from start to end."""
+    """Raise ParameterError unless the segments of a level tile the recording."""
     if not len(rows) and level == "primitive":
         return
     if not len(rows) or rows.start_frame[0] != 0 or rows.stop_frame[-1] != n_frames:
         raise ParameterError(f"the {level} level must cover frames 0 to {n_frames}")
-    # The first of these, if any.
+    # Report the first mismatch, if any.
     for row in np.flatnonzero(rows.stop_frame[:-1] != rows.start_frame[1:])[:1].tolist():
         raise ParameterError(
             f"one {level} stops at frame {rows.stop_frame[row]}, the next starts at "
@@ -94,10 +94,10 @@ def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
 
 
 def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
-    """ParameterError where a primitive does not lie in the activity that it names."""
+    """Raise ParameterError unless each primitive lies in the activity that it names."""
     if (activities.activity != np.arange(len(activities))).any():
         raise ParameterError("column 'activity' of the activity level must count 0, 1, 2, ...")
-    # The activity of each primitive: the last that begins at or before it.
+    # Activity of each primitive: the last one that begins at or before it.
     enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
     outside = primitives.stop_frame > activities.stop_frame[enclosing]
     if outside.any():
@@ -116,20 +116,20 @@ def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
 
 
 def copy_as_json(value: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """A copy made of what JSON has: dicts, lists, texts, finite numbers, booleans, None."""
+    """Copy a mapping to plain JSON values; raise ParameterError if that is impossible."""
     try:
         copy: dict[str, Any] = json.loads(json.dumps(dict(value), allow_nan=False))
     except (TypeError, ValueError, RecursionError) as error:
         raise ParameterError(f"{name} cannot be written as JSON: {error}") from error
-    if fault := find_fault(copy):  # which nobody could read again
+    if fault := find_fault(copy):  # valid for `json`, but not for other readers
         raise ParameterError(f"{name} {fault}")
     return copy
 
 
 def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a copy of plain JSON; an input that is a text is the path of one.
+    """Return a copy in plain JSON; an input that is a text becomes a path.
 
-    ParameterError where something that the package writes there is of another shape.
+    Raise ParameterError if a known part has another structure than the package writes.
     """
     provenance = copy_as_json(value, "provenance")
     if isinstance(provenance.get("input"), str):
@@ -145,33 +145,33 @@ def as_provenance(value: Mapping[str, Any]) -> dict[str, Any]:
 class Segmentation:
     """Segments of one recording.
 
-    Usually made by `kineme.segment`, `from_columns` or `kineme.read_segments`.
+    It is usually created by `kineme.segment`, `from_columns` or `kineme.read_segments`.
 
     Parameters
     ----------
     table : SegmentTable
         The segments of both levels.
     n_frames : int
-        Length of the recording, frames of the source file.
+        Length of the recording in frames of the source file.
     fps : float
         Frames per second of the source file.
     provenance : mapping
-        What JSON can hold: ``kineme`` (version), ``preset``, ``parameters``,
-        ``input`` (``path``, ``format``, ``sha256``), ``notes`` (sentences on what was
-        inferred), and where the recording has them its ``clock`` and the ``rows`` of the source
-        at its borders. A producer may add more.
+        Plain JSON: ``kineme`` (version), ``preset``, ``parameters``, ``input`` (``path``,
+        ``format``, ``sha256``), ``notes`` (sentences on what was inferred), and, if the
+        recording has them, its ``clock`` and the ``rows`` of the source at its borders. It may
+        hold more.
     timings : mapping of str to float
-        Seconds spent per stage; two results that differ in these alone are equal.
+        Seconds per stage; ignored when results are compared.
     hierarchy : Hierarchy, optional
-        The tables at other details, and this one among them; what `level` gives by number.
-        None where there is one detail, and where the table is not one of them (any more).
+        Tables at all details, including this one. None if there is only one detail, or if the
+        table has been edited.
     annotation : Annotation
-        What people did to the table.
+        Annotation of the table by people.
 
     Raises
     ------
     ParameterError
-        A level does not tile the recording, a row contradicts another, or the
+        A level does not tile the recording, rows contradict each other, or the
         provenance cannot be written as JSON.
 
     Examples
@@ -206,8 +206,8 @@ class Segmentation:
         object.__setattr__(self, "provenance", as_provenance(self.provenance))
         object.__setattr__(self, "timings", copy_as_json(self.timings, "timings"))
         if self.hierarchy is not None:
-            looked_at = self.hierarchy.table
-            if looked_at is not self.table and looked_at != self.table:
+            selected = self.hierarchy.table
+            if selected is not self.table and selected != self.table:
                 object.__setattr__(self, "hierarchy", None)
 
     @classmethod
@@ -221,18 +221,17 @@ class Segmentation:
         timings: Mapping[str, float] | None = None,
         annotation: Annotation = NO_ANNOTATION,
     ) -> Segmentation:
-        """Return a segmentation from columns in any row order.
+        """Create a segmentation from columns in any row order.
 
-        ``level``, ``kind``, ``start_frame`` and ``stop_frame`` are needed.
-        ``cluster`` is -1, ``label`` empty, ``confidence`` and ``border_confidence``
-        nan where not given; ``activity`` then follows from the frames.
-        ``start_s``, ``stop_s`` and ``action`` are always computed, whatever
-        is given.
+        ``level``, ``kind``, ``start_frame`` and ``stop_frame`` are required. By default
+        ``cluster`` is -1, ``label`` is empty, ``confidence`` and ``border_confidence``
+        are nan, and ``activity`` follows from the frames. ``start_s``, ``stop_s`` and
+        ``action`` are always computed.
 
         Parameters
         ----------
         columns : mapping of str to array_like
-            By name, one value for each segment.
+            Columns by name, with one value for each segment.
         n_frames : int
             Length of the recording.
         fps : float
@@ -240,7 +239,7 @@ class Segmentation:
         provenance, timings : mapping, optional
             As in `Segmentation`.
         annotation : Annotation
-            What people did to the table.
+            Annotation of the table by people.
 
         Returns
         -------
@@ -249,7 +248,7 @@ class Segmentation:
         Raises
         ------
         ParameterError
-            A column is missing or holds what it cannot, or as for `Segmentation`.
+            A column is missing or holds invalid values, or as for `Segmentation`.
         """
         check_recording(n_frames, fps)
         check_type(columns, Mapping, "from_columns", "give arrays by the names of columns")
@@ -265,7 +264,7 @@ class Segmentation:
 
     @property
     def primitives(self) -> SegmentTable:
-        """Return the primitive level: single repetitions, and transitions whole."""
+        """Return the primitive level: single repetitions, and transitions."""
         return self.level("primitive")
 
     def level(self, level: Level) -> SegmentTable:
@@ -287,13 +286,13 @@ class Segmentation:
         ----------
         detail : float
             Above 0. 1 is the default result, less is coarser, more is finer. Every border at
-            one detail is a border at any finer one.
+            one detail is also a border at all finer ones.
 
         Returns
         -------
         Segmentation
-            The finest result that is no finer than `detail`, with the same hierarchy, so that
-            coarser and finer results stay available. Without a hierarchy: this result.
+            The finest result that is not finer than `detail`, with the same hierarchy, so that
+            other details stay available. Without a hierarchy, this result.
 
         Raises
         ------
@@ -319,16 +318,16 @@ class Segmentation:
         return replace(self, table=chosen.table, provenance=provenance, hierarchy=chosen)
 
     def cuts(self, level: Level = "activity") -> NDArray[np.int64]:
-        """Return the frames where one segment of a level ends and the next starts."""
+        """Return the frames at which one segment of a level ends and the next starts."""
         return self.level(level).start_frame[1:]
 
     def repetitions(self) -> dict[int, int]:
-        """Return how many primitives each cluster has; those in no cluster are not counted."""
+        """Return the number of primitives of each cluster."""
         clusters = self.primitives.cluster
         return dict(sorted(Counter(clusters[clusters >= 0].tolist()).items()))
 
     def per_frame(self, column: str = "cluster", *, level: Level = "primitive") -> NDArray[Any]:
-        """Return a column of the table spread over the frames.
+        """Return the value of a column for each frame.
 
         Parameters
         ----------
@@ -359,7 +358,7 @@ class Segmentation:
         return np.repeat(values, rows.stop_frame - rows.start_frame)
 
     def describe(self) -> str:
-        """Return how many of each there are, for people; primitives without transitions."""
+        """Describe the numbers of activities, transitions, primitives and clusters."""
         kinds = self.activities.kind.tolist()
         clusters = {*self.activities.cluster.tolist(), *self.primitives.cluster.tolist()}
         counts = {
@@ -372,51 +371,51 @@ class Segmentation:
 
     @property
     def clock(self) -> Clock | None:
-        """That of the recording, where its seconds are not those of frames counted from 0."""
+        """Return the clock of the recording, if its times do not start at 0."""
         content = self.provenance.get("clock")
         return None if content is None else Clock.from_json(content)
 
     def start_times(self) -> list[str]:
-        """Return what the clock shows when each segment of the table starts; empty without a clock.
+        """Return the clock time at the start of each segment; empty without a clock.
 
         Returns
         -------
         list of str
-            Seconds, or dates of ISO 8601 where the clock counts since 1970.
+            Seconds, or ISO 8601 dates if the clock counts since 1970.
         """
         clock = self.clock
         return [] if clock is None else [clock.shown(row.start_s) for row in self]
 
     def rows(self) -> dict[str, NDArray[np.int64]]:
-        """Return ``start_row`` and ``stop_row`` of each segment, in the source in order of time.
+        """Return ``start_row`` and ``stop_row`` of each segment in the time-ordered source.
 
         Returns
         -------
         dict of str to (segments,) array
-            Empty where frames are the rows of the source.
+            Empty if frames are the rows of the source.
         """
         known = self.provenance.get("rows")
         if known is None:
             return {}
-        # Borders that a person moved lie between those that are known.
+        # Interpolate for borders that were moved by hand.
         ends = {"start_row": self.table.start_frame, "stop_row": self.table.stop_frame}
-        places = {n: np.interp(end, known["frames"], known["rows"]) for n, end in ends.items()}
-        return {name: np.rint(rows).astype(np.int64) for name, rows in places.items()}
+        rows = {n: np.interp(end, known["frames"], known["rows"]) for n, end in ends.items()}
+        return {name: np.rint(values).astype(np.int64) for name, values in rows.items()}
 
     def more_columns(self) -> dict[str, Sequence[Any]]:
-        """Return columns that files and data frames have where the recording's times need them."""
+        """Return additional columns of files and data frames: clock times and source rows."""
         times = self.start_times()
         clock: dict[str, Sequence[Any]] = {START_TIME: times} if times else {}
         return clock | {name: rows.tolist() for name, rows in self.rows().items()}
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Return the table of both levels, as `SegmentTable.to_dataframe` gives it.
+        """Return the table of both levels as a data frame, see `SegmentTable.to_dataframe`.
 
         Returns
         -------
         pandas.DataFrame
-            With a column ``start_time`` where the recording has a clock, see `start_times`, and
-            ``start_row`` and ``stop_row`` where its frames are not the rows of the source.
+            With ``start_time`` if the recording has a clock, see `start_times`, and with
+            ``start_row`` and ``stop_row`` if its frames are not the rows of the source.
 
         Raises
         ------

@@ -1,13 +1,12 @@
-"""Segment table: the package's common tongue.
+"""Segment table: the common data structure of the package.
 
-`Segment` declares its columns, a field each: type, meaning, unit, and what holds where nothing is
-known. Rows and arrays, the checks, CSV, JSON, Parquet and data frames, the JSON Schema, the table
-in the docs and the messages of the pages are made from that; a column more is a field more there.
+The fields of `Segment` declare its columns: type, meaning, unit and default. Rows and arrays,
+validation, CSV, JSON, Parquet, data frames, the JSON Schema, the table in the docs and the messages
+of the pages follow from this declaration, so a new column needs only a new field.
 
-Rows are ordered by level, then by time. The activity level tiles the recording, and so does the
-primitive level where there is one: the first segment starts at 0, each starts where the one before
-it stops, the last stops at ``n_frames``. Frames are the truth; seconds are always derived from
-them.
+Rows are ordered by level, then by time. Each level tiles the recording (the primitive level may be
+empty): the first segment starts at 0, each starts where the previous one stops, and the last stops
+at ``n_frames``. Seconds are always derived from frames.
 """
 
 from __future__ import annotations
@@ -45,26 +44,26 @@ Values = TypeVar("Values")
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a table: what files, pages and docs need to know of it.
+    """Declaration of a column, for files, pages and docs.
 
     Attributes
     ----------
     meaning : str
-        In a sentence.
+        Its meaning, in a sentence.
     type : type
-        Of its cells; a float is nan where nothing is known.
+        Type of its cells; unknown floats are nan.
     unit : str
-        Of its numbers, where they have one.
+        Unit of its numbers, or empty.
     least : int, optional
-        The smallest of its numbers.
+        Its smallest allowed number.
     optional : bool
-        True if a file may lack it.
+        Whether a file may lack it.
     derived : bool
         Whether it follows from other columns.
     allowed : tuple of str
-        The texts that it may hold; any where there are none.
+        Allowed texts; empty if any text is allowed.
     default : str or float, optional
-        What holds where nothing is known; None: it is always needed.
+        Value if unknown; None if the column is required.
     """
 
     meaning: str
@@ -79,7 +78,7 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One row of the table: a span ``[start_frame, stop_frame)`` and what it is.
+    """One row of the table: a span ``[start_frame, stop_frame)`` with its properties.
 
     Examples
     --------
@@ -131,12 +130,12 @@ class Segment:
 
     @property
     def duration_s(self) -> float:
-        """Seconds from start to stop."""
+        """Return the duration in seconds."""
         return self.stop_s - self.start_s
 
 
 def _list_columns() -> Iterator[tuple[str, Column]]:
-    """Name and column of each field of a segment."""
+    """Yield name and column of each field of a segment."""
     hints = get_type_hints(Segment, include_extras=True)
     for field in fields(Segment):
         kind, column = get_args(hints[field.name])
@@ -155,9 +154,9 @@ def _list_columns() -> Iterator[tuple[str, Column]]:
 COLUMNS: Mapping[str, Column] = MappingProxyType(dict(_list_columns()))
 """Columns by name, in the documented order."""
 START_TIME = "start_time"
-"""One more column of files and data frames, where the recording has a clock: what it shows."""
+"""Additional column of files and data frames: clock time, if the recording has a clock."""
 COMMENT = "comment"
-"""One more column of files: what people said about a segment, in tables that have comments."""
+"""Additional column of files: comments on segments, if there are any."""
 
 
 NEEDED = [name for name, column in COLUMNS.items() if not column.optional]
@@ -170,12 +169,12 @@ def find_lacking(names: Container[str]) -> list[str]:
 
 
 def choose_kind(level: Level, *, transition: bool) -> Kind:
-    """Return the kind of a segment of a level that is a transition, or none."""
+    """Return the kind of a segment by its level: "transition", or the level itself."""
     return "transition" if transition else level
 
 
 def _make_columns_class(table: type[Values]) -> type[Values]:
-    """Return the class as a dataclass of one array for each column."""
+    """Turn the class into a dataclass with one array for each column."""
     table.__annotations__ = dict.fromkeys(COLUMNS, NDArray[Any])
     return dataclass(frozen=True, eq=False, repr=False)(table)
 
@@ -184,8 +183,8 @@ def _make_columns_class(table: type[Values]) -> type[Values]:
 class SegmentTable:
     """Segments as columns: one numpy array for each field of a `Segment`, all of the same length.
 
-    Usually taken from a `Segmentation`. A slice, a mask or row numbers pick rows,
-    as in numpy; one number gives a `Segment`.
+    It is usually taken from a `Segmentation`. A slice, a mask or row numbers select
+    rows, as in numpy; one number returns a `Segment`.
 
     Examples
     --------
@@ -203,7 +202,7 @@ class SegmentTable:
 
     @property
     def duration_s(self) -> NDArray[np.float64]:
-        """Seconds from start to stop of each segment."""
+        """Return the duration of each segment in seconds."""
         seconds: NDArray[np.float64] = self.stop_s - self.start_s
         return seconds
 
@@ -212,11 +211,11 @@ class SegmentTable:
         return {name: getattr(self, name) for name in COLUMNS}
 
     def with_columns(self, **columns: NDArray[Any]) -> Self:
-        """Return the same segments with other values in some columns, which are not checked."""
+        """Replace some columns, without validation."""
         return type(self)(**{**self.columns(), **columns})
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row per segment: the columns in the documented order, and ``duration_s``.
+        """Return a data frame: the columns in the documented order, and ``duration_s``.
 
         Raises
         ------
@@ -239,7 +238,7 @@ class SegmentTable:
         return frame
 
     def select(self, rows: slice | ArrayLike) -> Self:
-        """Return the rows that a mask, a slice or an index array picks, as ``table[rows]``.
+        """Return the rows that a mask, a slice or an index array selects, as ``table[rows]``.
 
         Parameters
         ----------
@@ -255,12 +254,12 @@ class SegmentTable:
         IndexError
             There is no such row.
         ParameterError
-            It picks no rows.
+            The argument is not a valid selection.
         """
         picked = rows if isinstance(rows, slice) else _check_selection(rows, len(self))
         try:
             columns = {name: column[picked] for name, column in self.columns().items()}
-        except (TypeError, ValueError):  # a slice that is none of whole numbers
+        except (TypeError, ValueError):  # a slice of other values than whole numbers
             raise ParameterError(f"{rows!r} picks no rows: give whole numbers") from None
         return type(self)(**columns)
 
@@ -275,16 +274,14 @@ class SegmentTable:
     @overload
     def __getitem__(self, rows: slice | ArrayLike) -> Self: ...
     def __getitem__(self, rows: Any) -> Segment | Self:
-        """Return the segment in a row.
-
-        Or the table of those that a slice, mask or index array picks.
+        """Return the segment in a row, or the rows that a slice, mask or index array selects.
 
         Raises
         ------
         IndexError
             There is no such row.
         ParameterError
-            Neither a row nor what picks rows.
+            The argument is not a valid selection.
         """
         if not isinstance(rows, int | np.integer) or isinstance(rows, bool):
             return self.select(rows)
@@ -293,7 +290,7 @@ class SegmentTable:
         return Segment(*(column[rows].item() for column in self.columns().values()))
 
     def __eq__(self, other: object) -> bool:
-        """Equal in every cell, where nan equals nan."""
+        """Return whether all cells are equal; nan equals nan."""
         if not isinstance(other, SegmentTable):
             return NotImplemented
         return all(
@@ -317,7 +314,7 @@ class SegmentTable:
 
 
 def make_segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
-    """Return a table from columns in any row order; see `Segmentation.from_columns`."""
+    """Create a table from columns in any row order; see `Segmentation.from_columns`."""
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():
         if column.default is None and name not in columns:
@@ -339,7 +336,7 @@ def make_segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentT
 
 
 def choose_kinds(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:
-    """Return the kinds of segments by their levels: a transition stays one, the rest follow."""
+    """Return the kinds of segments: transitions stay transitions, others get their level."""
     if ((levels == "activity") & (kinds == "primitive")).any():
         raise ParameterError(
             "a segment of level 'activity' is an activity or a transition, not a primitive"
@@ -348,12 +345,12 @@ def choose_kinds(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[n
 
 
 def _compute_derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str, NDArray[Any]]:
-    """Return the columns that follow from others."""
+    """Compute the columns that follow from others."""
     start = arrays["start_frame"]
     activities = np.flatnonzero(arrays["level"] == "activity")
     activities = activities[np.argsort(start[activities], kind="stable")]
     enclosing = np.searchsorted(start[activities], start, side="right") - 1
-    clusters = np.append(arrays["cluster"][activities], -1)  # the last: that of none
+    clusters = np.append(arrays["cluster"][activities], -1)  # appended for index -1
     return {
         "start_s": start / fps,
         "stop_s": arrays["stop_frame"] / fps,
@@ -363,10 +360,7 @@ def _compute_derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str
 
 
 def _check_column(values: ArrayLike, name: str) -> NDArray[Any]:
-    """Return the values of a column as an array of its type.
-
-    ParameterError where it cannot hold them.
-    """
+    """Convert the values of a column to an array of its type; raise ParameterError if invalid."""
     column = COLUMNS[name]
     try:
         array = np.asarray(values)
@@ -391,23 +385,24 @@ def _convert_integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
 
 def _convert_texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[np.str_]:
     values = array.ravel().tolist()
-    other = next((value for value in values if not isinstance(value, str)), "")
-    if other != "":
-        raise ParameterError(f"column {name!r} must hold texts, not {other!r:.60}")
+    invalid = next((value for value in values if not isinstance(value, str)), "")
+    if invalid != "":
+        raise ParameterError(f"column {name!r} must hold texts, not {invalid!r:.60}")
     for text in set(values):
         if allowed and text not in allowed:
             raise ParameterError(f"{name} must be {' or '.join(allowed)}, not {text!r}")
+        # Control characters, surrogates, line and paragraph separators.
         if any(unicodedata.category(letter) in ("Cc", "Cs", "Zl", "Zp") for letter in text):
             raise ParameterError(f"{name} {text!r} must be one line of plain text")
     return array.astype(np.str_)
 
 
 def _check_selection(rows: ArrayLike, n: int) -> NDArray[Any]:
-    """Return a mask or row numbers of a table of n rows, checked."""
+    """Return a valid mask or valid row numbers of a table of n rows."""
     try:
         picked = np.asarray(rows)
     except ValueError:
-        picked = np.empty(())  # of lists of several lengths
+        picked = np.empty(())  # nested lists of different lengths
     if picked.shape == (0,):
         return picked.astype(np.int64)
     if picked.ndim != 1 or picked.dtype.kind not in "biu":

@@ -1,4 +1,4 @@
-"""Label transfer: what a knowledge base calls its primitives, others like them are called.
+"""Label transfer: give segments the labels of similar primitives in a knowledge base.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1.
 """

@@ -1,4 +1,4 @@
-"""Compiled loops of the search. Naive twins are in ``tests/helpers/naive``."""
+"""Compiled loops of the search. Naive versions are in ``tests/helpers/naive``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from numba import njit
 
 from kineme._util.parallel import OPTIONS
 
-HALF, NOTHING = np.float32(0.5), np.float32(0)
+HALF, ZERO = np.float32(0.5), np.float32(0)
 
 
 @njit(
@@ -16,29 +16,30 @@ HALF, NOTHING = np.float32(0.5), np.float32(0)
     **OPTIONS,
 )
 def warp_columns(products, squares, example_squares, first, sums, begins, rows, costs, starts):
-    """Cost and start of the cheapest warping of an example that ends at each sample.
+    """Compute the cost and start of the cheapest warping of an example that ends at each sample.
 
-    ``products[j, i]`` is -2 times that of sample first + j of a recording and sample i of an
-    example of m, ``squares`` those of the recording, ``example_squares`` of the example: the sum
-    of the three is the square of their distance. ``sums``, ``begins`` (3, m + 1) and ``rows``
-    (2, m) go on from one call to the next: sums of distances up to each sample of the example,
-    for the last three samples of the recording in turn, where their warpings begin, and the
-    distances from the last two of its samples in turn. The first column of ``sums`` is infinite,
-    and before the first call all of it.
+    The squared distance of sample first + j of a recording and sample i of an example of length m
+    is ``products[j, i] + squares[j] + example_squares[i]``, where ``products`` are -2 x·y and the
+    others |x|² and |y|².
+
+    ``sums``, ``begins`` (3, m + 1) and ``rows`` (2, m) are rolling buffers that are kept from one
+    call to the next. For the last three samples of the recording, they hold the sums of distances
+    up to each sample of the example, and the starts of these warpings; for the last two samples,
+    the distances. Before the first call all of ``sums`` is infinite; its first column stays so.
     """
     n, m = products.shape
     for j in range(n):
         now, one, two = (first + j) % 3, (first + j - 1) % 3, (first + j - 2) % 3
         here, before = rows[(first + j) % 2], rows[(first + j - 1) % 2, 1:]
         for i in range(m):
-            here[i] = np.sqrt(max(products[j, i] + squares[j] + example_squares[i], NOTHING))
+            here[i] = np.sqrt(max(products[j, i] + squares[j] + example_squares[i], ZERO))
         next_one = here[1:]
         quick_sums, quick_begins = sums[one], begins[one]
         even_sums, even_begins = sums[one, 1:], begins[one, 1:]
         slow_sums, slow_begins = sums[two, 1:], begins[two, 1:]
         new_sums, new_begins = sums[now, 2:], begins[now, 2:]
         for i in range(m - 1):
-            # No branches: these run eight at a time.
+            # Without branches, so that the compiler can vectorise the loop.
             even = even_sums[i] + next_one[i]
             slow = slow_sums[i] + HALF * (before[i] + next_one[i])
             quick = quick_sums[i] + (here[i] + next_one[i])
@@ -55,10 +56,10 @@ def warp_columns(products, squares, example_squares, first, sums, begins, rows, 
 
 @njit("int64(int64[::1], int32[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
 def choose_apart(ends, starts, most, occupied, chosen):
-    """Ends of matches that do not overlap, the first ones first; how many are ``chosen``.
+    """Choose at most ``most`` matches that do not overlap, in order; return their number.
 
-    ``ends`` are in the order in which they are to be taken, ``starts[end]`` is where each begins.
-    ``occupied`` is false for every sample before the call, and true after it for those in a match.
+    ``ends`` are the ends of matches in order of preference, ``starts[end]`` their starts. The ends
+    of the chosen ones are written to ``chosen``. ``occupied`` marks the samples of chosen matches.
     """
     n = 0
     for end in ends:

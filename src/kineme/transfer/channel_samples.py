@@ -1,8 +1,9 @@
-"""What channels are like, sample by sample, so that recordings of one collection can be compared.
+"""Compute samples of channels that can be compared across the recordings of a collection.
 
-Five times a second and per channel: the mean over a second, and the logarithm of the deviation
-within it. A recording alone is divided by its own deviations. Here all of a collection are divided
-by those of the collection: what lies still in one must not look like what runs in another.
+A sample holds the mean of each channel over one second, and the logarithm of its deviation within
+this second, five times a second. All recordings are scaled by the deviations of the collection,
+and not each by its own: a sensor at rest in one recording must not look like one that moves in
+another.
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from kineme.recordings import Signals
 RATE = 5.0
 """Samples per second."""
 WINDOW = 1.0
-"""Seconds around each."""
+"""Window around each sample, s."""
 STILL = 0.05
-"""Movement of less than this share of how much a channel's means vary in the collection is none."""
+"""Smallest movement that counts, as a share of the deviation of a channel in the collection."""
 
 
 class ChannelSamples(NamedTuple):
-    """What the channels of a recording are like, `RATE` times a second.
+    """Samples of the channels of a recording, at `RATE`.
 
-    ``rows[i]`` are the second of a sample, then the means and the deviations of all channels over
-    `WINDOW`, in their units.
+    ``rows[i]`` holds the time of a sample in seconds, then the means and then the deviations of all
+    channels over `WINDOW`, in their units.
     """
 
     names: tuple[str, ...]
@@ -36,7 +37,7 @@ class ChannelSamples(NamedTuple):
 
 
 def compute_channel_samples(signals: Signals) -> ChannelSamples:
-    """Return the samples of a recording, `RATE` a second outside of its gaps.
+    """Compute the samples of a recording at `RATE`, outside of its gaps.
 
     Examples
     --------
@@ -51,6 +52,7 @@ def compute_channel_samples(signals: Signals) -> ChannelSamples:
         n = len(values)
         at = np.arange(0, n, signals.fps / RATE).astype(np.int64)
         spans = np.maximum(at - half, 0), np.minimum(at + half, n)
+        # Centre first: cumulative sums of a large offset would lose precision.
         middle = values.mean(axis=0)
         means = _compute_means(values - middle, *spans)
         squares = _compute_means((values - middle) ** 2, *spans)
@@ -60,37 +62,38 @@ def compute_channel_samples(signals: Signals) -> ChannelSamples:
 
 
 def fit_units(rows: NDArray[Any]) -> Callable[[NDArray[Any]], Float32s]:
-    """Return what turns rows of any recording into features, in the units of these rows.
+    """Return a function that converts rows of any recording to features, scaled by these rows.
 
-    Features are (samples, 2 · channels): means, and how much each channel moves.
+    Features are (samples, 2 · channels): means, and logarithms of the movement of each channel.
     """
-    values, within = _measure_means_and_deviations(rows)
+    values, within = _split_means_and_deviations(rows)
     varies = values.std(axis=0)
     varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
 
-    def numbers(rows: NDArray[Any]) -> Floats:
-        values, within = _measure_means_and_deviations(rows)
+    def compute_numbers(rows: NDArray[Any]) -> Floats:
+        values, within = _split_means_and_deviations(rows)
         return np.hstack([values, np.log(within / np.where(varies > 0, varies, 1.0) + STILL)])
 
-    fitted = numbers(rows)
+    fitted = compute_numbers(rows)
     centre, deviation = fitted.mean(axis=0), fitted.std(axis=0)
-    # A channel that does not vary, but for rounding, tells nothing.
+    # Constant channels, apart from rounding errors, become 0.
     largest = np.abs(fitted.reshape(len(rows), 2, -1)).max(axis=(0, 2)).repeat(len(varies))
     deviation = np.where(deviation > 1e-9 * largest, deviation, np.inf)
-    return lambda rows: ((numbers(rows) - centre) / deviation).astype(np.float32)
+    return lambda rows: ((compute_numbers(rows) - centre) / deviation).astype(np.float32)
 
 
 def thin_samples(rows: NDArray[Any], step: int) -> NDArray[Any]:
-    """Return every n-th row, from the middle of the first n: recordings begin at rest."""
+    """Return every n-th row, starting in the middle of the first n, as recordings begin at rest."""
     return rows[min(step, len(rows)) // 2 :: step]
 
 
-def _measure_means_and_deviations(rows: NDArray[Any]) -> tuple[Floats, Floats]:
+def _split_means_and_deviations(rows: NDArray[Any]) -> tuple[Floats, Floats]:
     n = rows.shape[1] // 2
     return rows[:, 1 : 1 + n].astype(np.float64), rows[:, 1 + n :].astype(np.float64)
 
 
 def _compute_means(values: Floats, first: Ints, last: Ints) -> Floats:
+    # Cumulative sums: the sum of a span is the difference of two.
     sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
     return means

@@ -1,27 +1,26 @@
-"""Clusters in common: which clusters of several recordings are the same movement.
+"""Find common clusters: clusters of several recordings that are the same movement.
 
-Segmentation finds clusters in each recording alone, here called local clusters. An `Assignment`
-says which cluster in common each of them belongs to.
+Segmentation finds clusters in each recording separately, here called local clusters. An
+`Assignment` gives the common cluster of each.
 
 **Bodies** (`link_clusters`). The example of a local cluster is its typical segment. Its context is
-the activity around that: another recording may cut the same cyclic movement at another phase. The
-distance of two local clusters is the mean of the distances at which a search (see
-`kineme.transfer.subsequences`) finds the example of each in the context of the other, 1 at most.
-Average linkage joins them up to the threshold of a search, unless the two groups are clearly apart:
-walking and running, of which each recording has one. Local clusters of one recording were found to
-differ there, so their distance is set to 2.
+the activity around it, because another recording may cut the same cyclic movement at another phase.
+A search (see `kineme.transfer.subsequences`) finds the example of each local cluster in the context
+of the other. Their distance is the mean of both search distances, at most 1. Average linkage merges
+clusters up to the threshold of the search, unless the two groups are clearly separate, such as
+walking and running. Local clusters of one recording differ, so their distance is set to 2.
 
-More local clusters than ``most`` are linked in rounds, so that time grows with their number, not
-with its square. A round links a sample. All others are compared with representatives of the few
-clusters whose embeddings are nearest, and take the nearest cluster within the threshold. What fits
-none is left for the next round: rare movements are not lost.
+More local clusters than ``most`` are linked in rounds, so that run time is linear in their number.
+A round links a sample. All others are compared with representatives of the clusters with the
+nearest embeddings, and take the nearest cluster within the threshold. The rest is left for the next
+round, so that rare movements are not lost.
 
-**Signals** (`assign_to_centres`). A cluster of a single recording depends on what else is in it: a
-recording of walking tells fast from slow, one of walking and sitting does not. So the samples of
-all recordings are clustered (k-means, the best of several starts) in common units. Each local
-cluster takes the centre that is nearest to the mean of its samples.
+**Signals** (`assign_to_centres`). Clusters of a single recording depend on its content: a recording
+of walking separates fast from slow, one of walking and sitting does not. So the samples of all
+recordings are clustered together (k-means, the best of several runs) in common units. Each local
+cluster is assigned to the centre nearest to the mean of its samples.
 
-**Numbers** (`keep_numbers`). A cluster that is found again keeps the number that it had.
+**Numbers** (`keep_numbers`). A cluster that is found again keeps its number.
 """
 
 from __future__ import annotations
@@ -43,50 +42,50 @@ from kineme.transfer.channel_samples import fit_units
 from kineme.transfer.subsequences import THRESHOLD, Searched
 
 FARTHEST = 1.0
-"""Distance of two movements that have nothing in common."""
+"""Distance of two movements with nothing in common."""
 SAME_RECORDING = 2.0
 """Distance of local clusters of one recording."""
 SEPARATOR = 1e3
 """Value of each feature between two contexts, so that no match crosses from one to the other."""
 BLOCK = 100
-"""Local clusters that are compared at a time."""
+"""Number of local clusters that are compared at a time."""
 
 MAX_SAMPLES = 20_000
-"""Samples of channels that k-means takes; of more, every n-th of each recording."""
-STARTS = 5
-"""Runs of k-means, of which the best counts."""
+"""Largest number of samples for k-means; of more, every n-th of each recording is used."""
+N_STARTS = 5
+"""Number of runs of k-means; the best is used."""
 MIN_EXPLAINED = 0.02
-"""Share of the variance of all samples that one more cluster must explain."""
+"""Share of the variance of all samples that an additional cluster must explain."""
 COUNTING_SAMPLES = 10_000
-"""Samples from which the number of clusters is estimated."""
+"""Largest number of samples from which the number of clusters is estimated."""
 PATIENCE = 3
-"""Numbers of clusters that are tried beyond the best."""
+"""Number of larger numbers of clusters that are tried after the best."""
 
 Features = Sequence[Float32s]
-"""Those (samples, dims) of an example, and of its context."""
+"""Features (samples, dims) of an example, and of its context."""
 Spans = tuple[Floats, Floats, Ints]
 """Starts and stops in seconds, and clusters, of the activities of a recording."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ClusterConstants:
-    """How local clusters are compared and linked."""
+    """Constants for comparing and linking local clusters."""
 
     join: float = THRESHOLD
-    """Largest mean distance at which clusters are joined: that of a search."""
+    """Largest mean distance at which clusters are merged."""
     apart: float = 0.2
-    """Mean silhouette above which two groups are not joined."""
+    """Mean silhouette above which two groups are not merged."""
     fewest: int = 3
-    """Local clusters in a group for which that is asked."""
+    """Smallest size of groups for which the silhouette is tested."""
     longest_example: float = 4.0
     longest_context: float = 12.0
-    """Seconds to which longer ones are cut."""
+    """Longest example and context, s; longer ones are cut."""
     most: int = 400
-    """Local clusters in the sample of a round."""
+    """Largest number of local clusters in the sample of a round."""
     typical: int = 5
-    """Representatives of each cluster of a round, those of least spread."""
+    """Number of representatives of each cluster of a round: those with the least spread."""
     nearest: int = 4
-    """Clusters of a round that each other local cluster is compared with."""
+    """Number of clusters of a round with which each other local cluster is compared."""
     unsure: float = 0.1
     """Confidence below which an assignment is shown as uncertain."""
 
@@ -95,12 +94,12 @@ CONSTANTS = ClusterConstants()
 
 
 class Assignment(NamedTuple):
-    """``cluster[i]`` is the cluster in common of local cluster i, those of most seconds first.
+    """Common clusters: ``cluster[i]`` is that of local cluster i, numbered by descending duration.
 
-    ``next_cluster`` is the nearest other one, -1 without any. ``spread`` is the mean distance from
-    the other members of its cluster (of signals, from its centre). ``confidence`` is 1 - spread /
-    distance from the next cluster, 0 to 1, nan without a next. Of several rounds, they are those of
-    the round in which a local cluster was assigned.
+    ``next_cluster`` is the nearest other cluster, or -1. ``spread`` is the mean distance to the
+    other members of the cluster (for signals, to its centre). ``confidence`` is 1 - spread /
+    distance to the next cluster, 0 to 1, or nan without one. With several rounds, the values are
+    from the round in which a local cluster was assigned.
     """
 
     cluster: Ints
@@ -109,14 +108,14 @@ class Assignment(NamedTuple):
     spread: Floats
 
     def shift(self, count: int) -> Assignment:
-        """Return the same with clusters numbered from ``count`` on."""
+        """Return the assignment with clusters numbered from ``count`` on."""
         cluster, following = (np.where(n < 0, -1, n + count) for n in self[:2])
         return self._replace(cluster=cluster, next_cluster=following)
 
 
 @dataclass(frozen=True, eq=False)
 class LocalCluster:
-    """A cluster of one recording; its typical segment is a row of the segment table."""
+    """A cluster of one recording; ``row`` is its typical segment in the segment table."""
 
     recording: int
     cluster: int
@@ -127,18 +126,18 @@ class LocalCluster:
     """Starts and stops of all its segments, (segments, 2) seconds."""
     example: tuple[float, float]
     context: tuple[float, float]
-    """Seconds from and to which it is compared."""
+    """Start and stop of the example, and of its context, in seconds."""
 
     @property
     def seconds(self) -> float:
-        """How long its segments last together."""
+        """Return the total duration of its segments."""
         return round(float((self.spans[:, 1] - self.spans[:, 0]).sum()), 6)
 
 
 def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluster]:
     """Return the clusters of a segment table, in ascending order.
 
-    The typical segment is the repetition of median length, or the activity if none was counted.
+    The typical segment is the repetition of median length, or else the activity.
     """
     active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
     found = []
@@ -147,11 +146,11 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
         repeated = members[finer[members]]
         chosen = repeated if len(repeated) else members
         row = int(chosen[np.argsort(lasts[chosen], kind="stable")[len(chosen) // 2]])
-        # Of one level, so that no second counts twice: activities, if there are any.
+        # One level only, so that no time counts twice: activities, if there are any.
         counted = members[finer[members] == finer[members[0]]]
         spans = np.column_stack([table.start_s[counted], table.stop_s[counted]])
         start_s, stop_s = float(table.start_s[row]), float(table.stop_s[row])
-        # The example is the middle of a longer segment, the context the activity around that.
+        # The example is the middle part of a long segment; the context is the activity around it.
         middle = (start_s + stop_s) / 2
         half = min(stop_s - start_s, CONSTANTS.longest_example) / 2
         reach = max(CONSTANTS.longest_context, 2 * half) / 2
@@ -167,10 +166,10 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
 
 @dataclass(frozen=True, eq=False)
 class ClusterSet:
-    """Local clusters to be linked.
+    """Local clusters to link.
 
-    ``load(cluster)`` returns the features of one. They are not kept, as a set may be large.
-    ``embeddings`` (n, 32) are those of typical segments.
+    ``load(cluster)`` returns the features of one. They are not stored, as a set may be large.
+    ``embeddings`` (n, 32) are those of the typical segments.
     """
 
     local: Sequence[LocalCluster]
@@ -194,10 +193,10 @@ def link_clusters(
     *,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Assignment:
-    """Return the cluster in common of each local cluster, by average linkage.
+    """Find the common cluster of each local cluster, by average linkage.
 
-    ``keys`` tell recordings apart. Samples are drawn by digests of them, so that a few recordings
-    more change little. ``progress`` is told of several rounds how many have their cluster.
+    ``keys`` identify recordings. Samples are drawn in the order of their digests, so that a few
+    more recordings change little. ``progress`` is called after each of several rounds.
     """
     n, count = len(clusters.local), 0
     result = Assignment(np.full(n, -1), np.full(n, -1), np.full(n, np.nan), np.zeros(n))
@@ -215,7 +214,7 @@ def link_clusters(
         sample, others = np.sort(waiting[: constants.most]), waiting[constants.most :]
         linked = _link(clusters.select(sample), constants)
         store(sample, linked)
-        # Least spread first within each cluster, of which the first few are typical.
+        # Sort each cluster by spread; the first few members represent it.
         order = np.lexsort((linked.spread, linked.cluster))
         ordered = linked.cluster[order]
         place = np.arange(len(order)) - np.searchsorted(ordered, ordered)
@@ -230,15 +229,16 @@ def link_clusters(
 
 
 def _link(clusters: ClusterSet, constants: ClusterConstants) -> Assignment:
-    """Compare local clusters pairwise and join them by average linkage."""
+    """Compare local clusters pairwise and merge them by average linkage."""
     rows, recording = np.arange(len(clusters.local)), clusters.recording
-    # Distances are symmetric: a block of rows is compared from its own columns on.
-    wanted = rows >= rows[:, None] // BLOCK * BLOCK
-    distances = measure_distances(clusters, clusters, wanted)
-    distances = np.where(wanted, distances, distances.T)
+    # Distances are symmetric: compute only blocks on and above the diagonal.
+    is_needed = rows >= rows[:, None] // BLOCK * BLOCK
+    distances = measure_distances(clusters, clusters, is_needed)
+    distances = np.where(is_needed, distances, distances.T)
     distances[recording[:, None] == recording] = SAME_RECORDING
     np.fill_diagonal(distances, 0.0)
     cluster = group_by_distance(distances, constants)
+    # One-hot rows: products with them sum over clusters.
     members = np.eye(int(cluster.max()) + 1)[cluster]
     sums, sizes = distances @ members, members.sum(axis=0)
     spread = sums[rows, cluster] / np.maximum(sizes[cluster] - 1, 1)
@@ -248,8 +248,8 @@ def _link(clusters: ClusterSet, constants: ClusterConstants) -> Assignment:
 def group_by_distance(distances: Floats, constants: ClusterConstants = CONSTANTS) -> Ints:
     """Return the group of each row of a distance matrix, by average linkage.
 
-    Two groups at a mean distance up to ``join`` are joined, unless both have ``fewest`` members and
-    their mean silhouette [1]_ is above ``apart``.
+    Two groups at a mean distance up to ``join`` are merged, unless both have at least ``fewest``
+    members and their mean silhouette [1]_ is above ``apart``.
 
     References
     ----------
@@ -286,12 +286,12 @@ def group_by_distance(distances: Floats, constants: ClusterConstants = CONSTANTS
 def _are_apart(
     distances: Floats, ones: list[int], others: list[int], constants: ClusterConstants
 ) -> bool:
-    """Tell whether members of two groups are much nearer to their own group than to the other."""
+    """Return whether members of two groups are much nearer to their own group than to the other."""
     if min(len(ones), len(others)) < constants.fewest:
         return False
     silhouettes = []
     for group, other in ((ones, others), (others, ones)):
-        # The distance of a member from itself is 0 and is not counted.
+        # Divide by size - 1: the distance of a member to itself is 0.
         own = distances[np.ix_(group, group)].sum(axis=1) / (len(group) - 1)
         away = distances[np.ix_(group, other)].mean(axis=1)
         silhouettes += ((away - own) / np.maximum(np.maximum(away, own), 1e-9)).tolist()
@@ -299,7 +299,7 @@ def _are_apart(
 
 
 class Representatives(NamedTuple):
-    """Most typical local clusters of a round, and the cluster of each."""
+    """Representatives of the clusters of a round, and the cluster of each."""
 
     clusters: ClusterSet
     cluster: Ints
@@ -309,6 +309,7 @@ def assign(
     clusters: ClusterSet, typical: Representatives, constants: ClusterConstants
 ) -> Assignment:
     """Return the nearest cluster of each local cluster, -1 if none is within the threshold."""
+    # Compare only with the representatives of the clusters with the nearest embeddings.
     near = np.zeros((len(clusters.local), len(typical.cluster)), np.bool_)
     for row, embedding in enumerate(clusters.embeddings):
         apart = ((typical.clusters.embeddings - embedding) ** 2).sum(axis=1)
@@ -326,7 +327,7 @@ def assign(
 
 
 def _compare_with_next(cluster: Ints, spread: Floats, distances: Floats) -> Assignment:
-    """Add next cluster and confidence, from distances (n, clusters); inf where not compared."""
+    """Add next cluster and confidence, from distances (n, clusters), inf if not compared."""
     others = distances.copy()
     others[np.arange(len(cluster)), cluster] = np.inf
     least = others.min(axis=1)
@@ -336,26 +337,28 @@ def _compare_with_next(cluster: Ints, spread: Floats, distances: Floats) -> Assi
 
 
 def _number_by_seconds(found: Assignment, seconds: Sequence[float]) -> Assignment:
-    """Number the clusters from 0, those of most seconds first."""
+    """Number the clusters from 0 by descending total duration."""
     totals = np.round(np.bincount(found.cluster, seconds), 6)
+    # `argsort` twice gives ranks; the appended -1 is found by index -1.
     rank = np.append(np.argsort(np.argsort(-totals, kind="stable")), -1)
     return found._replace(cluster=rank[found.cluster], next_cluster=rank[found.next_cluster])
 
 
 def measure_distances(ones: ClusterSet, others: ClusterSet, wanted: NDArray[np.bool_]) -> Floats:
-    """``distances[i, j]``: the mean of i's example found in j's context, and j's in i's.
+    """Return the mean distance of i's example in j's context and of j's example in i's context.
 
-    `FARTHEST` where not ``wanted``, (ones, others) of bool.
+    Only pairs that are ``wanted`` (ones, others) are measured; the others get `FARTHEST`.
     """
     distances = np.full(wanted.shape, FARTHEST)
     for first in range(0, len(wanted), BLOCK):
         rows = slice(first, first + BLOCK)
         columns = np.flatnonzero(wanted[rows].any(axis=0))
         part = wanted[rows][:, columns]
-        here = [ones.load(each) for each in ones.local[rows]]
-        there = [others.load(each) for each in others.select(columns).local]
-        with threadpool_limits(1):  # sums do not depend on the number of threads
-            both = _search(here, there, part) + _search(there, here, part.T).T
+        row_features = [ones.load(each) for each in ones.local[rows]]
+        column_features = [others.load(each) for each in others.select(columns).local]
+        with threadpool_limits(1):  # so that sums do not depend on the number of threads
+            both = _search(row_features, column_features, part)
+            both = both + _search(column_features, row_features, part.T).T
         distances[rows, columns] = both / 2
     return distances
 
@@ -363,14 +366,14 @@ def measure_distances(ones: ClusterSet, others: ClusterSet, wanted: NDArray[np.b
 def _search(
     ones: Sequence[Features], others: Sequence[Features], wanted: NDArray[np.bool_]
 ) -> Floats:
-    """Return how far the example of each is from the nearest movement in contexts of others."""
-    every = _join_contexts(others) if wanted.all() else None
+    """Return the distance of each example to the nearest match in the contexts of others."""
+    all_contexts = _join_contexts(others) if wanted.all() else None
 
     def search_one(number: int) -> Floats:
         distances = np.full(len(others), FARTHEST)
         columns = np.flatnonzero(wanted[number])
         if len(columns):
-            searched, starts = every or _join_contexts([others[i] for i in columns.tolist()])
+            searched, starts = all_contexts or _join_contexts([others[i] for i in columns.tolist()])
             found, _ = searched.distances(ones[number][0], most=FARTHEST)
             distances[columns] = np.minimum(np.minimum.reduceat(found, starts), FARTHEST)
         return distances
@@ -379,7 +382,7 @@ def _search(
 
 
 def _join_contexts(others: Sequence[Features]) -> tuple[Searched, Ints]:
-    """Return contexts as one recording to search, and where each starts in it."""
+    """Concatenate contexts to one recording to search; return it and the start of each."""
     gap = np.full((1, others[0][1].shape[1]), SEPARATOR, np.float32)
     searched = Searched(np.concatenate([part for _, context in others for part in (context, gap)]))
     return searched, np.cumsum([0, *(len(context) + 1 for _, context in others[:-1])])
@@ -392,17 +395,17 @@ def assign_to_centres(
     *,
     n_clusters: int | None = None,
 ) -> Assignment:
-    """Return the cluster of each group of spans, by the samples of channels in them.
+    """Assign each group of spans to a cluster, by the samples of channels in them.
 
     Parameters
     ----------
     loads : sequence of callable
         ``load(n)`` returns every n-th row of the `ChannelSamples.rows` of a recording. Sums depend
-        on the order of recordings: sort them by content, not by name.
+        on the order of recordings, so sort them by content, not by name.
     counts : sequence of int
-        Rows of each recording.
+        Number of rows of each recording.
     spans : sequence of sequence of (segments, 2) array
-        Groups of each recording, such as the segments of a local cluster, in seconds.
+        Groups of spans of each recording, for example the segments of a local cluster, in seconds.
     n_clusters : int, optional
         By default `estimate_n_clusters` decides.
     """
@@ -417,32 +420,32 @@ def assign_to_centres(
         features = to_features(rows).astype(np.float64)
         means += [features[find_samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]
     distances = np.sqrt(((np.array(means)[:, None] - centres) ** 2).sum(axis=2))
-    # A centre may be nobody's nearest: there is no cluster of it.
+    # Number only centres that are the nearest of some group.
     used, cluster = np.unique(distances.argmin(axis=1), return_inverse=True)
     found = _compare_with_next(cluster, distances.min(axis=1), distances[:, used])
-    lasts = [float((each[:, 1] - each[:, 0]).sum()) for groups in spans for each in groups]
-    return _number_by_seconds(found, lasts)
+    durations = [float((each[:, 1] - each[:, 0]).sum()) for groups in spans for each in groups]
+    return _number_by_seconds(found, durations)
 
 
 def find_samples_in(seconds: NDArray[Any], spans: Floats) -> Ints:
-    """Return which samples lie in spans; of a span without any, the next one."""
+    """Return the samples inside spans; for a span without samples, the next one."""
     firsts = np.minimum(np.searchsorted(seconds, spans[:, 0]), len(seconds) - 1)
     stops = np.maximum(np.searchsorted(seconds, spans[:, 1]), firsts + 1)
     return np.concatenate([np.arange(*span) for span in zip(firsts, stops, strict=True)])
 
 
 def fit_centres(points: Float32s, n_clusters: int) -> tuple[Float32s, float]:
-    """Return the centres of k-means, fewer if fewer points differ, and the squares left."""
-    from sklearn.cluster import KMeans  # takes a second
+    """Return the centres of k-means (at most the number of distinct points), and the inertia."""
+    from sklearn.cluster import KMeans  # imported here, as it takes a second
 
     count = min(n_clusters, len(np.unique(points, axis=0)))
-    with threadpool_limits(1):  # sums do not depend on the number of cores
-        found = KMeans(count, n_init=STARTS, random_state=0).fit(points)
+    with threadpool_limits(1):  # so that sums do not depend on the number of cores
+        found = KMeans(count, n_init=N_STARTS, random_state=0).fit(points)
     return found.cluster_centers_, float(found.inertia_)
 
 
 def estimate_n_clusters(points: Float32s) -> int:
-    """Return how many clusters points have: one more explains `MIN_EXPLAINED` of their variance.
+    """Estimate the number of clusters: each must explain `MIN_EXPLAINED` of the variance.
 
     Examples
     --------
@@ -453,7 +456,7 @@ def estimate_n_clusters(points: Float32s) -> int:
     points = points[:: -(-len(points) // COUNTING_SAMPLES)]
     total = max(float(points.var(axis=0, dtype=np.float64).sum()) * len(points), 1e-12)
     costs = [1.0 + MIN_EXPLAINED]
-    # Even with nothing left unexplained, one more must not cost more than the best.
+    # Stop after PATIENCE failures, or if even a perfect fit would cost more than the best.
     while len(costs) <= np.argmin(costs) + 1 + PATIENCE and len(costs) * MIN_EXPLAINED < min(costs):
         left = fit_centres(points, len(costs) + 1)[1]
         costs.append(left / total + (len(costs) + 1) * MIN_EXPLAINED)
@@ -461,7 +464,7 @@ def estimate_n_clusters(points: Float32s) -> int:
 
 
 def list_spans(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:
-    """Return the activities of a segment table; also primitives whose cluster no activity has."""
+    """Return the activities of a segment table, and primitives of clusters without activities."""
     active, coarse = columns["kind"] != "transition", columns["level"] == "activity"
     rows = active & (coarse | ~np.isin(clusters, clusters[active & coarse]))
     return columns["start_s"][rows], columns["stop_s"][rows], clusters[rows]
@@ -470,10 +473,10 @@ def list_spans(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:
 def keep_numbers(
     old: Mapping[Any, Spans], new: Mapping[Any, Spans], *, following: int
 ) -> dict[int, int]:
-    """Return the number of each new cluster: that of the old one with which it shares most seconds.
+    """Give each new cluster the number of the old cluster with which it overlaps longest.
 
-    Each number goes to one cluster. The others are numbered from ``following`` on. Keys of old and
-    new are recordings.
+    Each number is given to one cluster. The others are numbered from ``following`` on. Keys of
+    ``old`` and ``new`` are recordings.
 
     Examples
     --------

@@ -1,17 +1,18 @@
-"""A segment in 32 numbers: what its poses go through, and how much they move besides.
+"""Compute embeddings: describe a whole segment by a unit vector of 32 numbers.
 
-The course of each number of a pose is brought to one length. Four numbers describe it: its mean,
-two slow cosines (the first terms of a discrete cosine transform), and the root mean square of what
-these leave. From these 68 numbers a fixed mean is subtracted, and fixed axes are kept. In them
-copies of a segment (faster, slower, larger, smaller, mirrored, noisy) differ little, and different
-segments much. The result is a unit vector, and the distance of two the chord between them.
+The curve of each number of a pose is resampled to a fixed length and described by four numbers: its
+mean, two slow cosines (the first terms of a discrete cosine transform), and the root mean square of
+the residual. A fixed mean is subtracted from the 68 numbers, and they are projected on fixed axes.
+In these axes, variants of a segment (faster, slower, larger, smaller, mirrored, noisy) differ
+little, and different segments differ much. The result is normalised to length 1. Embeddings are
+compared by Euclidean distance.
 
-Mean and axes are in ``axes.npz``. They were fitted to 1600 spans of 0.7 to 4 s, drawn alike from
-HDM05, UTKinect, CMU's subject 86 and single takes without regard to labels, and six copies of each:
-up to 2^0.5 faster or slower, 2^0.4 larger or smaller, cut by up to 10 % at either end, with uneven
-time, a fifth mirrored, shifted by 0.05 and shaken by 0.025 leg lengths. The axes are those of a
-linear discriminant analysis: spans vary most along them where the copies of one vary by one. Half
-of the mean variance of copies is added to that of each axis.
+Mean and axes are stored in ``axes.npz``. They were fitted to 1600 spans of 0.7 to 4 s, drawn in
+equal parts from HDM05, UTKinect, CMU's subject 86 and single takes without regard to labels, and to
+six variants of each: up to 2^0.5 faster or slower, 2^0.4 larger or smaller, cut by up to 10 % at
+each end, with uneven time, a fifth mirrored, with a shift of 0.05 and noise of 0.025 leg lengths.
+The axes are those of a linear discriminant analysis: the variance of spans is largest relative to
+that of variants. Half of the mean variance of variants is added to that of each axis.
 """
 
 from __future__ import annotations
@@ -31,22 +32,26 @@ DIMS = 32
 POSE_DIMS = 17
 """Numbers in a pose."""
 
-_TERMS = 3  # of the cosine transform, told one by one
-_FINEST = 32  # terms; what varies faster is noise
-_LENGTH = 64  # samples to which a course is brought
-_BESIDE = 1.5  # weight of what the first terms leave
-# Orthonormal, and over the root of the length: values do not depend on it.
-_COSINES = np.cos(np.pi / _LENGTH * np.arange(_FINEST)[:, None] * (np.arange(_LENGTH) + 0.5))
-_COSINES *= np.sqrt(np.where(np.arange(_FINEST) == 0, 1.0, 2.0))[:, None] / _LENGTH
+_N_TERMS = 3
+"""Number of terms of the cosine transform that are used directly."""
+_MAX_TERMS = 32
+"""Number of terms in total; faster variation is noise."""
+_LENGTH = 64
+"""Number of samples to which a curve is resampled."""
+_RESIDUAL_WEIGHT = 1.5
+"""Weight of the root mean square of the further terms."""
+# Orthonormal, and divided by the root of the length, so that values do not depend on it.
+_COSINES = np.cos(np.pi / _LENGTH * np.arange(_MAX_TERMS)[:, None] * (np.arange(_LENGTH) + 0.5))
+_COSINES *= np.sqrt(np.where(np.arange(_MAX_TERMS) == 0, 1.0, 2.0))[:, None] / _LENGTH
 
 
 def embedding(poses: ArrayLike) -> NDArray[np.float32]:
-    """Return a unit vector (32,) for a whole segment.
+    """Compute the embedding of a whole segment: a unit vector (32,).
 
     Parameters
     ----------
     poses : (n, 17) array
-        Of the canonical body, as `kineme.features.canonical.matching_poses` gives them.
+        Poses of the canonical body, as returned by `kineme.features.canonical.matching_poses`.
 
     Returns
     -------
@@ -55,7 +60,7 @@ def embedding(poses: ArrayLike) -> NDArray[np.float32]:
     Raises
     ------
     ParameterError
-        Not poses, none, or not finite.
+        The array is empty, not finite, or does not hold poses.
 
     Examples
     --------
@@ -71,21 +76,21 @@ def embedding(poses: ArrayLike) -> NDArray[np.float32]:
             f"poses have {POSE_DIMS} numbers each, not {array.shape[1]}: matching_poses(motion) "
             "gives them"
         )
-    return embed_course(array, *load_axes())
+    return embed_curve(array, *load_axes())
 
 
-def embed_course(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
-    """Return the unit vector of where a course lies from the mean, along the axes."""
-    values = (describe_course(poses) - mean) @ axes
+def embed_curve(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
+    """Return the unit vector of the direction of a curve from the mean, along the axes."""
+    values = (describe_curve(poses) - mean) @ axes
     return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)
 
 
-def describe_course(features: Floats) -> Floats:
-    """Mean, two slow cosines and what they leave (4 * dims,), of any features (n, dims)."""
-    at_length = interpolate_frames(features, np.linspace(0, len(features) - 1, _LENGTH))
-    terms = _COSINES @ at_length
-    beside = np.sqrt((terms[_TERMS:] ** 2).sum(axis=0))
-    numbers: Floats = np.concatenate([*terms[:_TERMS], _BESIDE * beside])
+def describe_curve(features: Floats) -> Floats:
+    """Return mean, two slow cosines and residual (4 * dims,) of any features (n, dims)."""
+    resampled = interpolate_frames(features, np.linspace(0, len(features) - 1, _LENGTH))
+    terms = _COSINES @ resampled
+    residual = np.sqrt((terms[_N_TERMS:] ** 2).sum(axis=0))
+    numbers: Floats = np.concatenate([*terms[:_N_TERMS], _RESIDUAL_WEIGHT * residual])
     return numbers
 
 

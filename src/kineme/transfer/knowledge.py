@@ -1,26 +1,26 @@
-"""Labelled primitives of any recordings, ready to be searched.
+"""Knowledge base: labelled primitives of any recordings, for label transfer.
 
-A primitive is its label, where it comes from, and its features, fifteen times a
-second (see `kineme.features.canonical.matching`): those of a body that is the
-same for all. People, skeletons and frame rates may therefore differ.
+A primitive consists of its label, its source, and its matching features, fifteen
+per second (see `kineme.features.canonical.matching`). These are features of a
+canonical body, so people, skeletons and frame rates may differ.
 
-It is kept as one ``.npz``, a zip of plain numpy arrays, no pickle:
+A knowledge base is stored as one ``.npz``, a zip of plain numpy arrays without pickle:
 
 ============ ================ ==================================================
 ``head``     text             JSON: ``schema`` (``kineme.knowledge/2``), ``kineme``
                               (version that wrote it), ``fps``, ``offsets_s`` and
                               ``unit`` of the features
 ``features`` float32 (n, 40)  frames of all primitives end to end, unit vectors
-``lengths``  int64            frames of each primitive; the others go with it
+``lengths``  int64            frames of each primitive; one entry per primitive, as below
 ``labels``   text             its name
 ``sources``  text             file name of the recording
-``digests``  text             SHA-256 of the file, with the person of several, or empty
+``digests``  text             SHA-256 of the file, with the person if there are several
 ``start_s``  float64          where it starts in the recording, seconds
 ``stop_s``   float64          where it stops
 ============ ================ ==================================================
 
-Any program with numpy reads it. A reader ignores arrays it does not know; a
-change that old readers would misunderstand gets the next number.
+Readers ignore unknown arrays. A change that old readers would misunderstand gets a
+new schema number.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1.
 """
@@ -69,7 +69,7 @@ TYPES = {"features": np.float32, "lengths": np.int64}
 def _write(
     arrays: dict[str, NDArray[Any]], settings: dict[str, Any], path: str | PathLike[str]
 ) -> None:
-    """Leave a knowledge base's arrays at ``path``; ``settings`` are those of its features."""
+    """Write the arrays of a knowledge base to ``path``, with the settings of its features."""
     if Path(path).suffix.lower() != ".npz":
         raise WriteError(path, "a knowledge base is a .npz file: name it so")
     head = json.dumps({"schema": SCHEMA, "kineme": __version__, **settings})
@@ -78,22 +78,22 @@ def _write(
 
 
 def _read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArray[Any]]:
-    """Return the arrays of the knowledge base at ``path``; ReadError for other settings."""
+    """Read the arrays of the knowledge base at ``path``; raise ReadError for other settings."""
     if not Path(path).exists():
         raise ReadError(path, "cannot be read: there is no such file")
     content = load(path)
     try:
-        found = read_arrays(content)
-        head = decode_json(str(found["head"]), path)
+        stored = read_arrays(content)
+        head = decode_json(str(stored["head"]), path)
     except KeyError as error:
         raise ReadError(path, "is not a knowledge base: it has no head") from error
     except (ReadError, ValueError) as error:
         reason = f": {error.reason}" if isinstance(error, ReadError) else ""
         raise ReadError(path, f"is not a knowledge base, or is damaged{reason}") from error
     _check_head(head, settings, path)
-    if missing := [name for name in KINDS if name not in found]:
+    if missing := [name for name in KINDS if name not in stored]:
         raise ReadError(path, f"is not a knowledge base, or is damaged: it has no {missing[0]!r}")
-    arrays = {name: found[name] for name in KINDS}
+    arrays = {name: stored[name] for name in KINDS}
     for name, kind in KINDS.items():
         if arrays[name].dtype.kind != kind:
             raise ReadError(path, f"is damaged: {name} holds {arrays[name].dtype}")
@@ -112,7 +112,7 @@ def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) 
 
 
 def holds_knowledge(path: Path) -> bool:
-    """Return whether a file is a knowledge base, as far as the directory of its archive tells."""
+    """Return whether a file is a knowledge base, judged by the file names in its archive."""
     if path.suffix.lower() != ".npz":
         return False
     try:
@@ -128,24 +128,24 @@ SETTINGS = {"fps": FPS, "offsets_s": list(OFFSETS_S), "unit": "directions"}
 
 @dataclass(frozen=True, eq=False)
 class KnowledgeBase:
-    """Labelled primitives; primitive p is the next ``lengths[p]`` samples of ``features``.
+    """Labelled primitives, whose samples are stored one after another in ``features``.
 
-    Usually made by `from_recording`, `merged` or `load`.
+    It is usually created by `from_recording`, `merged` or `load`.
 
     Parameters
     ----------
     features : (samples, 40) array of float32
-        As `transfer_features` gives them.
+        As returned by `transfer_features`.
     lengths : (primitives,) array of int
-        Samples of each primitive.
+        Number of samples of each primitive.
     labels : (primitives,) array of str
-        Name of each.
+        Label of each.
     sources : (primitives,) array of str
-        File name of the recording that each comes from.
+        File name of the recording of each.
     digests : (primitives,) array of str
-        SHA-256 of that file, empty where there is none.
+        SHA-256 of this file, or empty.
     start_s, stop_s : (primitives,) array of float
-        Where in the recording, seconds.
+        Start and stop in the recording, seconds.
 
     Raises
     ------
@@ -191,17 +191,17 @@ class KnowledgeBase:
     def from_recording(
         cls, motion: Motion, segments: Segmentation, *, effectors: Names | None = None
     ) -> Self:
-        """Return the labelled primitives of a recording.
+        """Create a knowledge base of the labelled primitives of a recording.
 
         Parameters
         ----------
         motion : Motion
         segments : Segmentation
-            Of this recording. A primitive without a label takes that of its activity;
-            where there are no primitives, labelled activities are taken for such.
-            Transitions are left out.
+            Segments of this recording. A primitive without a label takes that of its
+            activity. Without primitives, labelled activities are used. Transitions are
+            left out.
         effectors : joints, optional
-            To take for head, hands and feet where names do not tell.
+            Joints to use as head, hands and feet if their names are not recognised.
 
         Returns
         -------
@@ -212,7 +212,7 @@ class KnowledgeBase:
         EndEffectorError
             Head, hands or feet were not found.
         ParameterError
-            The segments are of a recording of another length, or none is labelled.
+            The segments belong to a recording of another length, or none is labelled.
         """
         check_motion(motion, "from_recording")
         check_type(segments, Segmentation, "from_recording", "kineme.segment(motion) gives one")
@@ -239,12 +239,12 @@ class KnowledgeBase:
 
     @classmethod
     def merged(cls, *bases: KnowledgeBase) -> Self:
-        """Return all primitives of all; of a recording that several hold, those of the last.
+        """Merge knowledge bases; of a recording in several of them, the last one is used.
 
         Raises
         ------
         ParameterError
-            None is given.
+            No knowledge base is given.
         """
         if not bases:
             raise ParameterError("nothing to merge: give at least one knowledge base")
@@ -262,42 +262,42 @@ class KnowledgeBase:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """Return the knowledge base in a file that `save` wrote.
+        """Load a knowledge base from a file written by `save`.
 
         Raises
         ------
         ReadError
-            Missing, damaged, no knowledge base, or of another version.
+            The file is missing, damaged, not a knowledge base, or of another version.
         """
         with translate_read_errors(path):
             return cls(**_read(path, SETTINGS))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all of it to one ``.npz`` file, or leave what is there as it was.
+        """Write the knowledge base to one ``.npz`` file; on failure an existing file is kept.
 
         Raises
         ------
         WriteError
-            Another suffix, or the file cannot be written.
+            The suffix is not ``.npz``, or the file cannot be written.
         """
         _write({"features": self.features, **self.columns()}, SETTINGS, path)
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Return what is known of each primitive, by name, without the features."""
+        """Return the columns with one entry per primitive, by name."""
         names = ("lengths", "labels", "sources", "digests", "start_s", "stop_s")
         return {name: getattr(self, name) for name in names}
 
     def select(self, mask: NDArray[np.bool_]) -> Self:
-        """Return the primitives where the mask is true."""
+        """Return the primitives for which the mask is True."""
         columns = {name: column[mask] for name, column in self.columns().items()}
         return replace(self, features=self.features[np.repeat(mask, self.lengths)], **columns)
 
     def counts(self) -> dict[str, int]:
-        """Return how many primitives bear each label."""
+        """Return the number of primitives of each label."""
         return dict(sorted(Counter(self.labels.tolist()).items()))
 
     def primitives(self) -> Primitives:
-        """Return the primitives to search; those that touch under one label are one run."""
+        """Return the primitives for matching; adjacent ones with the same label form a run."""
         follows = self.start_s[1:] == self.stop_s[:-1]
         for column in (self.labels, self.sources, self.digests):
             follows &= column[1:] == column[:-1]
@@ -313,7 +313,7 @@ class KnowledgeBase:
 
 
 def _select_labelled(segments: Segmentation) -> SegmentTable:
-    """Return the rows to learn from, with their labels."""
+    """Return the labelled rows of a segmentation: primitives, or else activities."""
     rows = segments.primitives
     if len(rows):
         inherited = segments.activities.label[rows.activity]
@@ -329,7 +329,7 @@ def _select_labelled(segments: Segmentation) -> SegmentTable:
 def find_working_frames(
     rows: SegmentTable, fps: float, n_features: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """First frame and end of each row in the features; at least one frame each."""
+    """Return the first frame and the end of each row in the features; at least one frame each."""
     starts = np.minimum(np.rint(rows.start_frame * (FPS / fps)).astype(np.int64), n_features - 1)
     stops = np.minimum(np.rint(rows.stop_frame * (FPS / fps)).astype(np.int64), n_features)
     return starts, np.maximum(stops, starts + 1)

@@ -1,14 +1,12 @@
-"""The labels of a knowledge base for the primitives of a recording.
+"""Label the primitives of a recording by a knowledge base.
 
-Every unlabelled primitive takes the label of its cheapest valid match (see
-`kineme.transfer.matching`), and stays without one where none is cheap
-enough. Its confidence is the margin: the share by which the next label costs more,
-from 0 (both cost the same) to 1.
+Every unlabelled primitive takes the label of its cheapest match (see
+`kineme.transfer.matching`), if that is cheap enough. Its confidence is the margin: 1 - cost / cost
+of the next label, from 0 (equal costs) to 1.
 
-A recording that is too short has no activities, so there is nothing to name. Its features are
-searched for each labelled primitive (see `kineme.transfer.subsequences.search`); of matches that
-overlap, the nearest stays. Matches of one label that follow each other are the primitives of one
-activity.
+A recording that is too short has no activities to label. Its features are searched for each
+labelled primitive (see `kineme.transfer.subsequences.search`); of overlapping matches the nearest
+is kept. Consecutive matches with the same label become the primitives of one activity.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; threshold, margin and
 spreading through clusters are our own.
@@ -35,12 +33,14 @@ from kineme.transfer.matching import Primitives, compute_label_costs, number_mov
 from kineme.transfer.subsequences import THRESHOLD, search
 
 Row = tuple[int, int, str]
+"""Start, stop and label."""
 
-_FOLLOWS_S = 0.3  # matches of one label this near to each other are of one activity
+_MAX_GAP_S = 0.3
+"""Largest gap between two matches of one activity, s."""
 
 
-class Found(NamedTuple):
-    """Where, in samples, a labelled primitive was found, and its distance."""
+class LabelMatch(NamedTuple):
+    """A match of a labelled primitive: span in samples, label, and distance."""
 
     start: int
     stop: int
@@ -50,16 +50,17 @@ class Found(NamedTuple):
 
 def find_by_search(
     features: NDArray[np.floating], knowledge: KnowledgeBase, threshold: float
-) -> list[Found]:
-    """Matches of labelled primitives that do not overlap, in time order."""
+) -> list[LabelMatch]:
+    """Find matches of labelled primitives that do not overlap, in time order."""
     borders = np.concatenate([[0], np.cumsum(knowledge.lengths)])
-    matches: list[Found] = []
+    matches: list[LabelMatch] = []
     for label, start, stop in zip(knowledge.labels, borders[:-1], borders[1:], strict=True):
         found = search(knowledge.features[start:stop], features, threshold=threshold)
         spans = zip(*(column.tolist() for column in found), strict=True)
-        matches += [Found(a, b, str(label), distance) for a, b, distance in spans]
+        matches += [LabelMatch(a, b, str(label), distance) for a, b, distance in spans]
     occupied = np.zeros(len(features), np.bool_)
     kept = []
+    # Nearest first, so that the nearest of overlapping matches is kept.
     for match in sorted(matches, key=lambda match: match.distance):
         if not occupied[match.start : match.stop].any():
             occupied[match.start : match.stop] = True
@@ -67,16 +68,17 @@ def find_by_search(
     return sorted(kept)
 
 
-def segment_as_found(segmentation: Segmentation, found: list[Found]) -> Segmentation:
-    """Return the recording cut into what was found: labelled activities and primitives."""
+def segment_by_matches(segmentation: Segmentation, matches: list[LabelMatch]) -> Segmentation:
+    """Replace the segments of a recording by matches: labelled activities and primitives."""
     frames_per_sample = segmentation.fps / FPS
     primitives: list[Row] = []
-    for match in found:
+    for match in matches:
         start = round(match.start * frames_per_sample)
         stop = min(round(match.stop * frames_per_sample), segmentation.n_frames)
         if primitives and primitives[-1][2] == match.label:
             last = primitives[-1]
-            if start - last[1] <= _FOLLOWS_S * segmentation.fps:
+            # Close a small gap to the previous match of the same label.
+            if start - last[1] <= _MAX_GAP_S * segmentation.fps:
                 primitives[-1] = (last[0], start, last[2])
         primitives.append((start, stop, match.label))
     activities: list[Row] = []
@@ -104,24 +106,24 @@ def segment_as_found(segmentation: Segmentation, found: list[Found]) -> Segmenta
 
 
 def _fill_between(rows: list[Row], n_frames: int) -> list[Row]:
-    """Return the rows, and what lies between them without a label."""
-    tiled: list[Row] = []
-    at = 0
+    """Fill the spans between rows with rows without a label."""
+    filled: list[Row] = []
+    last_stop = 0
     for start, stop, label in [*rows, (n_frames, n_frames, "")]:
-        if start > at:
-            tiled.append((at, start, ""))
+        if start > last_stop:
+            filled.append((last_stop, start, ""))
         if stop > start:
-            tiled.append((start, stop, label))
-        at = stop
-    return tiled
+            filled.append((start, stop, label))
+        last_stop = stop
+    return filled
 
 
-REACH = 2.0
-"""Thresholds up to which a match with the next label is looked for."""
+SEARCH_FACTOR = 2.0
+"""Factor of the threshold up to which costs are searched, to measure the margin."""
 SIMILAR = 0.6
-"""Cost up to which the repetitions of one person are the same movement."""
-LARGEST = 1e6
-"""Threshold above which nothing more is found; no cost comes near it."""
+"""Largest cost at which repetitions of one person are the same movement."""
+MAX_THRESHOLD = 1e6
+"""Largest threshold, far above all costs."""
 
 
 def transfer_labels(
@@ -132,27 +134,27 @@ def transfer_labels(
     threshold: float = THRESHOLD,
     spread: bool = False,
 ) -> Segmentation:
-    """Return the same segments, with labels from the knowledge base and the margin as confidence.
+    """Label segments by a knowledge base, with the margin as confidence.
 
-    A recording without activities, as one that is too short to repeat anything, is searched for
-    every known primitive, and cut into what is found. Labels that are there already stay. An
-    activity is called as most of its frames are. ``provenance["transfer"]`` holds the threshold
-    and, for each primitive, the cost of its match (null: no label came from one).
+    Existing labels are kept. An activity takes the label of most of its frames. A recording
+    without activities, because it is too short to repeat anything, is searched for every labelled
+    primitive and divided into the matches. ``provenance["transfer"]`` holds the threshold and the
+    cost of the match of each primitive (null if it got no label).
 
     Parameters
     ----------
     segmentation : Segmentation
-        Its primitives are labelled, or its activities where it has none;
-        transitions are not.
+        Its primitives are labelled, or its activities if it has no primitives.
+        Transitions are not labelled.
     features : (samples, 40) array
-        Of the same recording, fifteen samples a second, as `transfer_features` gives them.
+        Features of the same recording, fifteen per second, as returned by `transfer_features`.
     knowledge : KnowledgeBase
     threshold : float
-        Largest cost of a match: 0 is equal, 1.41 has nothing in common. Lower: fewer
-        labels, more of them right.
+        Largest cost of a match: 0 is equal, 1.41 has nothing in common. A lower threshold
+        gives fewer labels, but more of them are right.
     spread : bool
-        Whether a cluster takes the label that most of its members got, its confidence for
-        the others being the share of them that did.
+        Whether all members of a cluster take the label that most of them got. The
+        confidence of the others is the share of members with this label.
 
     Returns
     -------
@@ -161,7 +163,7 @@ def transfer_labels(
     Raises
     ------
     ParameterError
-        Features of another recording, or a threshold that is not above 0.
+        The features belong to another recording, or the threshold is not above 0.
 
     Examples
     --------
@@ -181,7 +183,7 @@ def transfer_labels(
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     check_flag(spread, "spread")
-    threshold = min(float(threshold), LARGEST)
+    threshold = min(float(threshold), MAX_THRESHOLD)
     features = _check_features(features, segmentation)
     table = segmentation.table
     if not ((table.kind != "transition") | (table.label != "")).any():
@@ -193,16 +195,17 @@ def transfer_labels(
     unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
     if len(unnamed) and len(knowledge):
         unknown = _list_primitives(rows.select(unnamed), features, segmentation.fps)
-        found, names = _list_costs(unknown, knowledge, REACH * threshold)
-        named = _choose_cheapest(found, names, threshold)
-        other = _find_other_movements(named[0], named[2], number_movements(unknown, SIMILAR))
-        named[0][other], named[1][other], named[2][other] = "", np.nan, np.nan
-        labels[unnamed], margins[unnamed], costs[unnamed] = named
+        label_costs, names = _compute_costs(unknown, knowledge, SEARCH_FACTOR * threshold)
+        # Label, margin and cost of each.
+        best = _choose_cheapest(label_costs, names, threshold)
+        other = _find_other_movements(best[0], best[2], number_movements(unknown, SIMILAR))
+        best[0][other], best[1][other], best[2][other] = "", np.nan, np.nan
+        labels[unnamed], margins[unnamed], costs[unnamed] = best
     if spread:
         _spread_in_clusters(labels, margins, rows.cluster, unnamed)
-    of_level = table.level == level
+    is_level = table.level == level
     all_labels, all_margins = table.label.astype(object), table.confidence.copy()
-    all_labels[of_level], all_margins[of_level] = labels, margins
+    all_labels[is_level], all_margins[is_level] = labels, margins
     if level == "primitive":
         activities = table.level == "activity"
         all_labels[activities] = _label_activities(segmentation, labels)
@@ -212,14 +215,14 @@ def transfer_labels(
 
 
 def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segmentation:
-    """Return the same segments, each called as most of its frames are in ``labels``.
+    """Label each segment as most of its frames are labelled in ``labels``.
 
     Parameters
     ----------
     segmentation : Segmentation
     labels : Segmentation
-        Of the same recording, from a person. Its activities count; a segment stays
-        without a label where most frames have none.
+        Labels of the same recording by a person. Its activities are used. A segment gets no
+        label if most of its frames have none.
 
     Returns
     -------
@@ -228,7 +231,7 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
     Raises
     ------
     ParameterError
-        The two are of recordings of different length.
+        The recordings have different lengths.
 
     Examples
     --------
@@ -260,19 +263,19 @@ def _search_labels(
     *,
     spread: bool,
 ) -> Segmentation:
-    """Known primitives, found in a recording without activities; the same segments without any."""
-    found = find_by_search(features, knowledge, threshold)
-    result = segment_as_found(segmentation, found) if found else segmentation
-    labels = np.array([match.label for match in found], np.str_)
-    costs = np.array([match.distance for match in found])
+    """Search labelled primitives in a recording without activities, and divide it into matches."""
+    matches = find_by_search(features, knowledge, threshold)
+    result = segment_by_matches(segmentation, matches) if matches else segmentation
+    labels = np.array([match.label for match in matches], np.str_)
+    costs = np.array([match.distance for match in matches])
     provenance = _make_provenance(segmentation, labels, costs, threshold, spread=spread)
     return replace(result, provenance=provenance, hierarchy=None)
 
 
-def _list_costs(
+def _compute_costs(
     unknown: Primitives, knowledge: KnowledgeBase, radius: float
 ) -> tuple[Floats, NDArray[np.str_]]:
-    """Costs (primitives, names), and the names; without a match the radius."""
+    """Return costs (primitives, names) of at most the radius, and the names."""
     names, codes = np.unique(knowledge.labels, return_inverse=True)
     costs = compute_label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
     return np.minimum(costs, radius), names
@@ -281,13 +284,13 @@ def _list_costs(
 def _choose_cheapest(
     costs: Floats, names: NDArray[np.str_], threshold: float
 ) -> tuple[NDArray[Any], Floats, Floats]:
-    """Label, margin and cost of each row; empty and nan where nothing is within the threshold."""
+    """Return label, margin and cost of each row; empty and nan if none is within the threshold."""
     best = costs.argmin(axis=1)
     cost = costs[np.arange(len(costs)), best]
     others = costs.copy()
     others[np.arange(len(costs)), best] = np.inf
-    # With one label alone the radius stands for the next: matches that cost more were not searched.
-    following = np.minimum(others.min(axis=1), REACH * threshold)
+    # Matches beyond the search radius are unknown, so the next label costs at most this much.
+    following = np.minimum(others.min(axis=1), SEARCH_FACTOR * threshold)
     margin = 1 - cost / np.maximum(following, 1e-12)
     valid = cost <= threshold
     return (
@@ -300,10 +303,10 @@ def _choose_cheapest(
 def _find_other_movements(
     labels: NDArray[Any], costs: Floats, movements: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
-    """Which rows are another movement than the cheapest match of their label in the recording.
+    """Mark rows that are a different movement than the cheapest match of their label.
 
-    Another movement keeps the label only where its match costs no more than one repetition of a
-    person costs by another.
+    A different movement keeps the label if its cost is not larger than that between repetitions of
+    one person.
     """
     other = np.zeros(len(labels), np.bool_)
     for label in set(labels.tolist()) - {""}:
@@ -316,7 +319,7 @@ def _find_other_movements(
 def _spread_in_clusters(
     labels: NDArray[Any], margins: Floats, clusters: NDArray[np.int64], unnamed: NDArray[np.intp]
 ) -> None:
-    """Give every cluster's members the label that most of them have; a person's label stays."""
+    """Give members of a cluster the label of most of them; labels by people are kept."""
     for cluster in set(clusters[unnamed].tolist()) - {-1}:
         named = Counter(label for label in labels[clusters == cluster] if label)
         if not named:
@@ -328,7 +331,7 @@ def _spread_in_clusters(
 
 
 def _label_activities(segmentation: Segmentation, labels: NDArray[Any]) -> list[str]:
-    """Return the label of each activity: its own, else that of more than half of its frames."""
+    """Return the label of each activity: its own, or that of more than half of its frames."""
     primitives = segmentation.primitives
     names = []
     for row in segmentation.activities:
@@ -337,8 +340,8 @@ def _label_activities(segmentation: Segmentation, labels: NDArray[Any]) -> list[
         for p in inside:
             frames[labels[p]] += int(primitives.stop_frame[p] - primitives.start_frame[p])
         name, most = frames.most_common(1)[0] if frames else ("", 0)
-        wide = most > (row.stop_frame - row.start_frame) / 2
-        names.append(row.label or (name if wide and row.kind == "activity" else ""))
+        is_majority = most > (row.stop_frame - row.start_frame) / 2
+        names.append(row.label or (name if is_majority and row.kind == "activity" else ""))
     return names
 
 
@@ -354,7 +357,7 @@ def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
 
 
 def _list_primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
-    """Return the rows with their frames; those of a cluster that touch are a run."""
+    """Return the rows as primitives; adjacent ones of a cluster form a run."""
     starts, stops = find_working_frames(rows, fps, len(features))
     follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
         rows.cluster[1:] == rows.cluster[:-1]
@@ -365,15 +368,15 @@ def _list_primitives(rows: SegmentTable, features: Floats, fps: float) -> Primit
 
 def _make_provenance(
     segmentation: Segmentation,
-    given: NDArray[Any],
+    labels: NDArray[Any],
     costs: Floats,
     threshold: float,
     *,
     spread: bool,
 ) -> dict[str, Any]:
-    counts = Counter(label for label in given if label)
+    counts = Counter(label for label in labels if label)
     named = ", ".join(f"{label} {count}" for label, count in sorted(counts.items())) or "none"
-    note = f"{counts.total()} of {len(given)} unlabelled primitives labelled: {named}"
+    note = f"{counts.total()} of {len(labels)} unlabelled primitives labelled: {named}"
     return {
         **segmentation.provenance,
         "transfer": {

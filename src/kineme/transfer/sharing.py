@@ -1,4 +1,4 @@
-"""One number for one movement, over several recordings: `kineme.transfer.clusters` on tables."""
+"""Renumber the clusters of segmentations, so that equal numbers are equal movements."""
 
 from __future__ import annotations
 
@@ -47,24 +47,24 @@ def share_clusters(
     threshold: float = THRESHOLD,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """Return the same segments; equal cluster numbers are equal movements in all recordings.
+    """Renumber clusters, so that equal numbers are equal movements in all recordings.
 
-    Clusters of motions are joined if a search finds them in each other. Those of the first
-    recording keep their numbers, others are numbered on.
+    Clusters of motions are merged if a search finds them in each other. Clusters of the first
+    recording keep their numbers; others get new ones.
 
-    Of signals, the samples of all recordings are clustered together. Each activity takes the
-    nearest of these clusters, repetitions that of their activity.
+    For signals, the samples of all recordings are clustered together. Each activity takes the
+    nearest of these clusters, and repetitions that of their activity.
 
     Parameters
     ----------
     recordings : sequence of Motion or of Signals
-        Signals of the same channels.
+        Signals must have the same channels.
     segmentations : sequence of Segmentation
-        One for each; labels are neither used nor changed.
+        One for each recording; labels are neither used nor changed.
     threshold : float
-        Of motions, largest mean distance at which clusters are joined.
+        For motions: largest mean distance at which clusters are merged.
     n_clusters : int, optional
-        Of signals, how many clusters to tell apart; estimated by default.
+        For signals: number of clusters; estimated by default.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def share_clusters(
     EndEffectorError
         Head, hands or feet were not found.
     ParameterError
-        Other segmentations than the recordings', signals of other channels, or both
+        The segmentations do not belong to the recordings, channels differ, or there are both
         motions and signals.
 
     Examples
@@ -107,42 +107,42 @@ def share_clusters(
 def assign_to_labels(
     signals: Signals, labels: Ints, others: Signals, spans: Sequence[tuple[int, int]]
 ) -> Ints:
-    """Return the label of each span of other signals: that whose samples are nearest on average.
+    """Label each span of other signals by the label whose samples are nearest on average.
 
     Parameters
     ----------
     signals : Signals
-        In which the labels are known.
+        Labelled signals.
     labels : (frames,) array of int
-        One for each of its frames.
+        Label of each of their frames.
     others : Signals
-        Of the same channels.
+        Signals with the same channels.
     spans : sequence of (int, int)
         Frames [start, stop) of the others.
 
     Raises
     ------
     ParameterError
-        Signals of other channels.
+        The channels differ.
     """
     if signals.names != others.names:
         raise ParameterError(
             f"signals have the channels {', '.join(others.names)}, not {', '.join(signals.names)}"
         )
     known, new = compute_channel_samples(signals).rows, compute_channel_samples(others).rows
-    # deviations of both are measured by those of the known ones
+    # Both are scaled by the labelled signals.
     to_features = fit_units(known)
     points, unknown = to_features(known), to_features(new)
     frames = np.rint(known[:, 0] * signals.fps).astype(np.intp)
-    here = labels[np.minimum(frames, len(labels) - 1)]
-    there = np.unique(here)
-    centres = np.array([points[here == label].mean(axis=0) for label in there])
+    sample_labels = labels[np.minimum(frames, len(labels) - 1)]
+    distinct = np.unique(sample_labels)
+    centres = np.array([points[sample_labels == label].mean(axis=0) for label in distinct])
     means = [
         unknown[find_samples_in(new[:, 0], np.array([span]) / others.fps)].mean(axis=0)
         for span in spans
     ]
-    apart = ((np.array(means)[:, None] - centres) ** 2).sum(axis=2)
-    return np.asarray(there[apart.argmin(axis=1)], np.int64)
+    distances = ((np.array(means)[:, None] - centres) ** 2).sum(axis=2)
+    return np.asarray(distinct[distances.argmin(axis=1)], np.int64)
 
 
 def _share_by_search(
@@ -176,12 +176,12 @@ def _share_by_search(
     if not result:
         return result
     first = segmentations[0].table
-    lasting = keep_numbers(
+    kept_numbers = keep_numbers(
         {0: list_spans(first.columns(), first.cluster)},
         {i: list_spans(r.table.columns(), r.table.cluster) for i, r in enumerate(result)},
         following=int(first.cluster.max()) + 1,
     )
-    return [renumber_clusters(each, lasting) for each in result]
+    return [renumber_clusters(each, kept_numbers) for each in result]
 
 
 def share_by_samples(
@@ -190,7 +190,7 @@ def share_by_samples(
     *,
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
-    """Return what `share_clusters` does for signals, from their samples."""
+    """Share clusters of signals, from their samples; see `share_clusters`."""
     for one in samples:
         if one.names != samples[0].names:
             raise ParameterError(
@@ -198,6 +198,7 @@ def share_by_samples(
                 f"{', '.join(samples[0].names):.80} and of {', '.join(one.names):.80}"
             )
     rows = [one.rows for one in samples]
+    # Sums depend on the order of recordings: sort them by content.
     order = sorted(range(len(rows)), key=lambda i: sha256(rows[i].tobytes()).digest())
     activities = [segmentations[i].activities for i in order]
     assigned = assign_to_centres(

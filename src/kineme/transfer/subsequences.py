@@ -1,16 +1,16 @@
-"""Where a recording is like an example: subsequence search by warping.
+"""Search for an example in a recording: subsequence search by warping.
 
 A match is a warping of the whole example onto successive samples of the recording, at half to twice
-its speed. From one pair of samples to the next both go on by one, or one of them by two. Its cost
-is the mean over the samples of the example of the distance to the one, or the mean of the two, of
-the recording that it is laid on. Every place is looked at; nothing is thinned out.
+its speed. Each step advances both by one sample, or one of them by two. The cost of a match is the
+mean distance of the samples of the example to the matched samples of the recording (to the mean of
+two if a sample matches two). The search is exhaustive.
 
-The distance of a match is its cost in proportion to how far the smaller of both movements goes,
+The distance of a match is its cost relative to the size of the smaller movement,
 
-    distance = cost / √(2 · the smaller variance),
+    distance = cost / √(2 · smaller variance),
 
-so that one threshold serves small movements and large ones: 0 is equal, and from 1 on the two are
-as far from each other as any two samples of one of them.
+so that one threshold is valid for small and large movements. A distance of 0 means equal. At 1, two
+movements differ as much as random samples of one of them.
 
 The steps are those of Müller, Information Retrieval for Music and Motion (2007), section 4.4.
 """
@@ -29,15 +29,15 @@ from kineme.errors import ParameterError
 from kineme.transfer._kernels import choose_apart, warp_columns
 
 THRESHOLD = 0.85
-"""Distance up to which two movements are one, whoever makes them."""
+"""Distance up to which two movements of any people are the same."""
 STILL = 0.05
-"""Least variance of a movement of unit vectors: of who stands, noise is most of it."""
+"""Smallest variance of unit vectors that counts as movement; less is mostly noise."""
 BLOCK = 4096
-"""Samples compared at a time."""
+"""Number of samples that are compared at a time."""
 
 
 class Matches(NamedTuple):
-    """Spans [start, stop) of a recording in samples, apart from each other, the best first.
+    """Matches that do not overlap: spans [start, stop) of a recording in samples, best first.
 
     Examples
     --------
@@ -55,7 +55,7 @@ class Matches(NamedTuple):
 
 
 class Searched:
-    """A recording in which examples are searched.
+    """A recording prepared for searching examples in it.
 
     Parameters
     ----------
@@ -67,16 +67,16 @@ class Searched:
         self._features = _check_features(recording, "recording")
 
     def distances(self, example: ArrayLike, *, most: float) -> tuple[Float32s, NDArray[np.int32]]:
-        """``distances[j]``, ``starts[j]``: of the match that ends with sample j.
+        """Return distance and start of the best match that ends with each sample.
 
-        A distance above ``most`` is inf.
+        Distances above ``most`` are inf.
         """
         short = _check_features(example, "example")
         costs, starts = warp(short, self._features)
         variance = float(short.var(axis=0, dtype=np.float64).sum())
-        # The smaller movement goes no farther than the example: what is dearer is no match.
-        dearest = most * np.sqrt(2 * max(variance, STILL))
-        ends = np.flatnonzero(costs <= dearest)
+        # The smaller variance is at most that of the example, which bounds the cost.
+        max_cost = most * np.sqrt(2 * max(variance, STILL))
+        ends = np.flatnonzero(costs <= max_cost)
         smaller = np.maximum(np.minimum(self._variances(starts[ends], ends), variance), STILL)
         found = (costs[ends] / np.sqrt(2 * smaller)).astype(np.float32)
         distances = np.full(len(costs), np.inf, np.float32)
@@ -85,7 +85,7 @@ class Searched:
 
     @cached_property
     def _sums(self) -> Floats:
-        """Sums of all samples before each, around their mean, and of their squares."""
+        """Return cumulative sums of centred samples, and of their squared lengths."""
         n, dims = self._features.shape
         sums = np.zeros((n + 1, dims + 1))
         np.subtract(self._features, self._features.mean(axis=0), out=sums[1:, :dims])
@@ -93,8 +93,9 @@ class Searched:
         return np.cumsum(sums, axis=0, out=sums)
 
     def _variances(self, starts: NDArray[np.integer], lasts: Ints) -> Floats:
-        """Of the samples from each start to each last one, summed over their numbers."""
+        """Return the variances of spans of samples, summed over dimensions."""
         stops = lasts + 1
+        # Mean of squares less squared mean.
         means = (self._sums[stops] - self._sums[starts]) / (stops - starts)[:, None]
         variances: Floats = means[:, -1] - np.einsum("ij,ij->i", means[:, :-1], means[:, :-1])
         return variances
@@ -107,18 +108,18 @@ def search(
     threshold: float = THRESHOLD,
     top: int | None = None,
 ) -> Matches:
-    """Return the matches of an example in a recording that do not overlap, the best first.
+    """Find the matches of an example in a recording that do not overlap, best first.
 
     Parameters
     ----------
     example : (m, dims) array
         Matching features.
     recording : (n, dims) array
-        In the same features, at the same rate.
+        The same kind of features, at the same rate.
     threshold : float
         Largest distance of a match.
     top : int, optional
-        Matches wanted at most; all by default.
+        Largest number of matches; by default all.
 
     Returns
     -------
@@ -127,7 +128,7 @@ def search(
     Raises
     ------
     ParameterError
-        Arrays of other shapes, an empty example, or a threshold or number that is not above 0.
+        Arrays have other shapes, the example is empty, or threshold or number are not above 0.
 
     Examples
     --------
@@ -153,7 +154,7 @@ def search(
 
 
 def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
-    """``costs[j]``, ``starts[j]``: of the cheapest match that ends with sample j; inf without."""
+    """Return cost and start of the cheapest match that ends with each sample; inf without one."""
     short, long = _check_features(example, "example"), _check_features(recording, "recording")
     if short.shape[1] != long.shape[1] or len(short) == 0:
         raise ParameterError(
@@ -168,9 +169,10 @@ def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np
     for first in range(0, n, BLOCK):
         part, span = long[first : first + BLOCK], slice(first, first + BLOCK)
         products = part @ twice
-        found = costs[span], starts[span]
+        # Views, which the kernel fills.
+        results = costs[span], starts[span]
         warp_columns(
-            products, _sum_squares(part), example_squares, first, sums, begins, rows, *found
+            products, _sum_squares(part), example_squares, first, sums, begins, rows, *results
         )
     return costs, starts
 

@@ -1,4 +1,4 @@
-"""Slow, literal versions of the formulas: the oracle of every fast path."""
+"""Slow, literal versions of kernels and formulas, to test the fast ones against."""
 
 from naive.baselines import *  # noqa: F403
 from naive.evaluation import *  # noqa: F403

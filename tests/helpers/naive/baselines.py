@@ -1,4 +1,4 @@
-"""What the methods of others do, as their programs and papers say it."""
+"""Naive versions of other methods, as in their programs and papers."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import numpy as np
 # --- ACA and HACA (Zhou, De la Torre, Hodgins 2013): the programs' loops, entry by entry ---
 
 
-def dtak(kernel, a_weights, b_weights):
-    """Dynamic time alignment kernel of two segments, from the kernel between their frames."""
+def compute_dtak(kernel, a_weights, b_weights):
+    """Return the dynamic time alignment kernel of two segments, from that of their frames."""
     n, m = kernel.shape
     table = np.empty((n, m))
     for i in range(n):
@@ -25,8 +25,8 @@ def dtak(kernel, a_weights, b_weights):
     return table[-1, -1] / (sum(a_weights) + sum(b_weights))
 
 
-def propagated_kernel(kernel, longest):
-    """Entry (a, b), a < b: the best square of width 1 to longest that has it as a corner."""
+def propagate_kernel(kernel, longest):
+    """Set entry (a, b), a < b, to the best square of width 1 to longest with it as a corner."""
     n = len(kernel)
     out = np.eye(n)
     for w in range(1, longest + 1):
@@ -39,24 +39,24 @@ def propagated_kernel(kernel, longest):
     return out
 
 
-def covers(n, shortest, longest):
-    """Every way to cut n frames into lengths of shortest to longest."""
+def list_covers(n, shortest, longest):
+    """Return all ways to cut n frames into lengths of shortest to longest."""
     if n == 0:
         return [[]]
     ways = []
     for last in range(shortest, min(longest, n) + 1):
-        ways += [[*way, last] for way in covers(n - last, shortest, longest)]
+        ways += [[*way, last] for way in list_covers(n - last, shortest, longest)]
     return ways
 
 
-def cover_cost(costs, lengths):
-    """Total cost of consecutive windows of these lengths."""
+def compute_cover_cost(costs, lengths):
+    """Return the total cost of consecutive windows of these lengths."""
     stops = np.cumsum(lengths)
     return sum(costs[stop - 1, length - 1] for stop, length in zip(stops, lengths, strict=True))
 
 
-def first_segmentation(labels, shortest, longest):
-    """Segment lengths as the program's ``mergeDP`` finds them, its slip included."""
+def find_first_segmentation(labels, shortest, longest):
+    """Return segment lengths as the program's ``mergeDP`` finds them, including its bug."""
     n = len(labels)
     best, length_at = [0.0] + [None] * n, [0] * (n + 1)
     for v in range(1, n + 1):
@@ -77,8 +77,8 @@ def first_segmentation(labels, shortest, longest):
 # --- PCA and probabilistic PCA segmentation (Barbič et al. 2004), one model at a time ---
 
 
-def pca_cut(features, first, lag):
-    """First frame whose projection error rises by more than mean + 3 deviations, or None."""
+def find_pca_cut(features, first, lag):
+    """Return the first frame whose projection error rises by mean + 3 deviations, or None."""
 
     def spectrum(count):
         part = features[:count]
@@ -99,8 +99,8 @@ def pca_cut(features, first, lag):
     return None
 
 
-def ppca_distances(features, ahead, growth):
-    """H by number of frames modelled."""
+def compute_ppca_distances(features, ahead, growth):
+    """Return H by number of modelled frames."""
     found = {}
     for count in range(ahead, len(features) - ahead + 1, growth):
         part, following = features[:count], features[count : count + ahead]
@@ -116,9 +116,9 @@ def ppca_distances(features, ahead, growth):
     return found
 
 
-def ppca_cut(features, ahead, growth):
-    """First peak of H a tenth of its range above the lowest H before it, or None."""
-    found = ppca_distances(features, ahead, growth)
+def find_ppca_cut(features, ahead, growth):
+    """Return the first peak of H a tenth of its range above the lowest H before it, or None."""
+    found = compute_ppca_distances(features, ahead, growth)
     counts, values = list(found), list(found.values())
     for i in range(1, len(values) - 1):
         peak = values[i] > values[i - 1] and values[i] >= values[i + 1]

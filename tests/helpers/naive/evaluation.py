@@ -1,12 +1,12 @@
-"""Scores, one pair of labels and one frame at a time."""
+"""Naive versions of scores, one pair of labels and one frame at a time."""
 
 from __future__ import annotations
 
 import numpy as np
 
 
-def one_to_one(wanted, given):
-    """The best share of frames over every assignment of found labels to classes."""
+def one_to_one_accuracy(wanted, given):
+    """Return the best share of right frames over all assignments of found labels to classes."""
     from itertools import permutations
 
     classes, names = sorted(set(wanted)), sorted(set(given))
@@ -24,8 +24,8 @@ def one_to_one(wanted, given):
     return best / len(wanted)
 
 
-def warped_cost(cost, step):
-    """Dynamic time warping by its recursion."""
+def find_cheapest_cost(cost, step):
+    """Return the cost of dynamic time warping by its recursion."""
     total = np.full((cost.shape[0] + 1, cost.shape[1] + 1), np.inf)
     total[0, 0] = 0
     for i in range(cost.shape[0]):
@@ -36,8 +36,8 @@ def warped_cost(cost, step):
     return total[-1, -1]
 
 
-def cloud_distance(points, i, j, *, half):
-    """Kovar and Gleicher's distance by trying every turn in steps of 0.1 degrees."""
+def compute_cloud_distance(points, i, j, *, half):
+    """Return Kovar and Gleicher's distance by trying all turns in steps of 0.1 degrees."""
     a, b = (points[f - half : f + half + 1].reshape(-1, 3) for f in (i, j))
     best = np.inf
     for angle in np.arange(0, 2 * np.pi, np.radians(0.1)):

@@ -1,4 +1,4 @@
-"""What is near what, and the warpings between them."""
+"""Naive versions of neighbour search and warping."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 # A graph is a dict of stored pairs {(i, j): distance}; a path is a list of pairs.
 
 
-def neighbors(features, others=None, *, radius, k=None, max_lag=None):
+def find_neighbors(features, others=None, *, radius, k=None, max_lag=None):
     others = features if others is None else others
     pairs = {}
     for i, x in enumerate(features):
@@ -16,10 +16,10 @@ def neighbors(features, others=None, *, radius, k=None, max_lag=None):
             distance = np.sqrt(sum((a - b) ** 2 for a, b in zip(x, y, strict=True)))
             if distance <= radius and (max_lag is None or abs(j - i) <= max_lag):
                 pairs[i, j] = np.float32(distance)
-    return pairs if k is None else nearest(pairs, k)
+    return pairs if k is None else select_nearest(pairs, k)
 
 
-def nearest(pairs, k):
+def select_nearest(pairs, k):
     kept = {}
     for row in {i for i, _ in pairs}:
         found = sorted((distance, j) for (i, j), distance in pairs.items() if i == row)
@@ -27,8 +27,8 @@ def nearest(pairs, k):
     return kept
 
 
-def components(pairs, steps):
-    """The first pair, in order of rows and columns, that each pair is connected with."""
+def label_components(pairs, steps):
+    """Return the first pair, in order of rows and columns, that is connected with each pair."""
     edges = {pair: set() for pair in pairs}
     for t, j in pairs:
         for a, b in steps:
@@ -46,14 +46,14 @@ def components(pairs, steps):
     return firsts
 
 
-def cheapest_paths(pairs, rows, columns, *, steps, skip_penalty, zero_cost, separation=None):
-    """Paths and costs of every component of a box, by relaxing edges until nothing changes."""
+def find_paths_in_box(pairs, rows, columns, *, steps, skip_penalty, zero_cost, separation=None):
+    """Return paths and costs of all components of a box, by relaxing edges until convergence."""
     inside = {
         (t, j): float(distance) or zero_cost
         for (t, j), distance in pairs.items()
         if rows[0] <= t < rows[1] and columns[0] <= j < columns[1]
     }
-    firsts = components(inside, steps)
+    firsts = label_components(inside, steps)
     found = []
     for first in set(firsts.values()):
         nodes = sorted(pair for pair in inside if firsts[pair] == first)
@@ -86,16 +86,16 @@ def cheapest_paths(pairs, rows, columns, *, steps, skip_penalty, zero_cost, sepa
 # --- matching: every warping of an example onto a recording, one by one ------------------------
 
 
-def warpings(distances):
-    """For each sample the least mean distance of a warping of the example that ends there.
+def find_warpings(distances):
+    """Return the least mean distance of a warping of the example that ends at each sample.
 
-    ``distances`` (samples, m) of a recording from the example. A warping goes on by one and one,
-    or by two of one and one of the other; two samples on one of the example count half each.
+    ``distances`` (samples, m) are those of a recording from the example. A warping advances both by
+    one, or one of them by two. Two samples that match one of the example count half each.
     """
     n, m = distances.shape
 
     def cheapest(j, i):
-        """Sum and beginning of the cheapest warping of the first i + 1 samples that ends at j."""
+        """Return sum and start of the cheapest warping of samples up to i that ends at j."""
         if i == 0:
             return distances[j, 0], j
         found = []
@@ -114,8 +114,8 @@ def warpings(distances):
     return [total / m for total, _ in ends], [begin for _, begin in ends]
 
 
-def least_squares(windows, wanted, finer):
-    """The least of the squared distances of each window from what is wanted."""
+def find_least_squares(windows, wanted, finer):
+    """Return the least squared distance of each window to the wanted ones."""
     return [
         min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)
         for window in windows

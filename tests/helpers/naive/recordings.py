@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 # --- formats: positions straight from the text of a file, one joint and frame at a time -------
 
 
-def amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
+def read_amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
     """Number and values of each frame, whose bones come in this order; None if they do not."""
     words, rows = text.split(), []
     try:
@@ -36,7 +36,7 @@ def amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
     return rows
 
 
-def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
+def compute_amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
     """Where each bone starts and ends, in metres, by bone: [start, tip]; CMU's dialect only."""
     unit = 0.0254 / float(asf.split("length")[1].split()[0])
     bones = {}
@@ -78,7 +78,7 @@ def amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, F
     return results
 
 
-def bvh_positions(text: str, frames: Sequence[int]) -> list[list[Floats]]:
+def compute_bvh_positions(text: str, frames: Sequence[int]) -> list[list[Floats]]:
     """Where each joint and end site is, in file units and order; tidy files only."""
     hierarchy, motion = text.split("MOTION")
     rows = [line.split() for line in motion.strip().splitlines()[2:]]
@@ -119,7 +119,7 @@ def bvh_positions(text: str, frames: Sequence[int]) -> list[list[Floats]]:
 
 
 def pose_features(motion: Motion, joints: Sequence[int]) -> Floats:
-    """Features of a motion whose root is its pelvis and has the body's left at +x."""
+    """Compute features of a motion whose root is the pelvis, with the body's left at +x."""
     rows = []
     for pose, quaternions in zip(motion.positions, motion.rotations, strict=True):
         to_left = Rotation.from_quat(quaternions[0], scalar_first=True).apply([1.0, 0.0, 0.0])
@@ -150,7 +150,7 @@ def stack(features: Floats, offsets: Sequence[int]) -> Floats:
 
 
 def bundle(features, *, neighbors, variance):
-    """Features bundled frame by frame; each median by a general minimiser."""
+    """Bundle features frame by frame, with a general minimiser for each median."""
     center = features.mean(axis=0)
     _, stretch, axes = np.linalg.svd(features - center, full_matrices=False)
     count = 1
@@ -176,7 +176,7 @@ def bundle(features, *, neighbors, variance):
 
 
 def smooth_directions(points):
-    """Five-point derivatives, averaged with binomial weights over the frames there are."""
+    """Average five-point derivatives with binomial weights over existing frames."""
     n = len(points)
 
     def point(t):
@@ -197,15 +197,15 @@ def smooth_directions(points):
     return np.array(directions)
 
 
-def mirrored_pose(pose):
-    """One frame's 15 numbers with left and right exchanged."""
+def mirror_pose(pose):
+    """Exchange left and right in the 15 numbers of one frame."""
     left_ankle, right_ankle, head, left_wrist, right_wrist = np.reshape(pose, (5, 3)).tolist()
     exchanged = [right_ankle, left_ankle, head, right_wrist, left_wrist]
     return [number for x, y, z in exchanged for number in (-x, y, z)]
 
 
-def merged_cuts(main, mirrored, gap):
-    """The main cuts and the mirrored ones far enough from the main ones before and after."""
+def merge_cuts(main, mirrored, gap):
+    """Return the main cuts, and mirrored cuts that are far from the main ones before and after."""
     added = []
     for cut in mirrored:
         before = [m for m in main if m <= cut]

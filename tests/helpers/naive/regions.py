@@ -1,12 +1,12 @@
-"""Region growing: the rules as written, frames counted from 1 inside."""
+"""Naive versions of region growing: the rules as published, with frames counted from 1 inside."""
 
 from __future__ import annotations
 
 import numpy as np
 
 
-def growing_squares(pairs, n, *, min_gap, min_count, min_distance):
-    """Forward and backward cuts (0-based) of square regions, each count taken anew."""
+def find_square_cuts(pairs, n, *, min_gap, min_count, min_distance):
+    """Return forward and backward cuts (0-based) of square regions, recomputing each count."""
 
     def count(a, b):
         return sum(a <= t + 1 <= b and a <= j + 1 <= b for t, j in pairs)
@@ -24,7 +24,7 @@ def growing_squares(pairs, n, *, min_gap, min_count, min_distance):
                 z = 0
         else:
             z = 0
-    forward = peaks(c, min_count, min_distance)
+    forward = find_peaks(c, min_count, min_distance)
 
     c = {}
     ef = last = n
@@ -41,12 +41,12 @@ def growing_squares(pairs, n, *, min_gap, min_count, min_distance):
                     last = ef = i
         else:
             z = 0
-    backward = [min(peak + min_gap, n) for peak in peaks(c, min_count, min_distance)]
+    backward = [min(peak + min_gap, n) for peak in find_peaks(c, min_count, min_distance)]
     return [cut - 1 for cut in forward], [cut - 1 for cut in backward]
 
 
-def peaks(c, min_height, min_distance):
-    """Keys of ``c`` at peaks: a rise before, and a fall at the next change after."""
+def find_peaks(c, min_height, min_distance):
+    """Return the keys of ``c`` at peaks: a rise before, and a fall at the next change."""
     found = []
     for i in sorted(c):
         if i - 1 in c and c[i] > c[i - 1] and c[i] > min_height:
@@ -62,7 +62,7 @@ def peaks(c, min_height, min_distance):
     return sorted(kept)
 
 
-def scanned_lines(pairs, n, *, min_gap, min_count):
+def find_scan_line_cuts(pairs, n, *, min_gap, min_count):
     """Forward and backward cuts (0-based) of regions scanned line by line."""
     forward, backward = [], []
     s, blob, z = 1, 0, 0
@@ -92,8 +92,8 @@ def scanned_lines(pairs, n, *, min_gap, min_count):
     return [cut - 1 for cut in forward], sorted(cut - 1 for cut in backward)
 
 
-def inner_neighbors(pairs, borders):
-    """For each frame the neighbours in its own block."""
+def count_inner_neighbors(pairs, borders):
+    """Count the neighbours of each frame in its own block."""
     block_of = [b for b in range(len(borders) - 1) for _ in range(borders[b], borders[b + 1])]
     counts = [0] * len(block_of)
     for i, j in pairs:
@@ -101,8 +101,8 @@ def inner_neighbors(pairs, borders):
     return counts
 
 
-def symmetric_paths(paths, share):
-    """Which paths have another, or themselves, that matches their frames the other way round."""
+def mark_coherent_paths(paths, share):
+    """Mark paths that a path matches with rows and columns exchanged."""
     return [
         any(
             sum(t in {j for _, j in q} for t, _ in p) >= share * len(p)
@@ -113,8 +113,8 @@ def symmetric_paths(paths, share):
     ]
 
 
-def chosen_cuts(paths, activity, *, min_length):
-    """Starts of paths at a distance from the activity's ends and from starts of longer ones."""
+def choose_cuts(paths, activity, *, min_length):
+    """Return starts of paths that are far from the activity's ends and starts of longer paths."""
     first, last = activity
     kept = []
     for path in sorted(paths, key=len, reverse=True):
@@ -125,8 +125,8 @@ def chosen_cuts(paths, activity, *, min_length):
     return sorted(kept)
 
 
-def linked_segments(paths, borders, g, *, coverage, interpolate):
-    """Segments that paths through segment g cover enough of, and the share covered."""
+def find_linked_segments(paths, borders, g, *, coverage, interpolate):
+    """Return segments that paths link to segment g, and the covered share."""
 
     def overlap(a, b, c, d):
         return len(set(range(a, b + 1)) & set(range(c, d + 1))) / (b - a + 1)
@@ -152,8 +152,8 @@ def linked_segments(paths, borders, g, *, coverage, interpolate):
     return links
 
 
-def clusters(links, connection):
-    """Labels by first appearance: segments that links lead between, both ways if strong."""
+def cluster_segments(links, connection):
+    """Label segments that are connected by links (in both directions if strong)."""
     n = len(links)
     reached = np.eye(n, dtype=bool)
     for g, targets in enumerate(links):

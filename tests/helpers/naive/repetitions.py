@@ -1,4 +1,4 @@
-"""What the method for bodies and sensors finds: its sums and best choices, all of them tried."""
+"""Naive versions of the kernels of the ``kineme`` method: literal sums and exhaustive search."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-# --- segments, and how often each repeats itself; bands are written out as full matrices -------
+# --- segments and repetitions; bands are full matrices ----------------------------------------
 
 
-def division_cost(similarity, borders, penalty):
-    """What a division costs: per segment its length, less its mean similarity, plus the penalty."""
+def compute_division_cost(similarity, borders, penalty):
+    """Return the cost of a division: length less mean similarity plus penalty, per segment."""
     return sum(
         stop - start - similarity[start:stop, start:stop].sum() / (stop - start) + penalty
         for start, stop in pairwise(borders)
     )
 
 
-def divisions(n, longest):
-    """All borders of n samples in segments of such lengths."""
+def list_divisions(n, longest):
+    """Return the borders of all divisions of n samples into segments of at most ``longest``."""
     return [
         [0, *inner, n]
         for count in range(n)
@@ -27,8 +27,8 @@ def divisions(n, longest):
     ]
 
 
-def dips(row, least):
-    """(depth, column) of each dip of a row without equal values, deepest first.
+def find_dips(row, least):
+    """Return (depth, column) of each dip of a row without equal values, deepest first.
 
     A dip is a column lower than those beside it. It is as deep as one must
     climb to reach a lower column, the lowest as deep as the row is high.
@@ -46,8 +46,8 @@ def dips(row, least):
     return sorted(found, reverse=True)
 
 
-def share_by_times(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):
-    """What evenness leaves, less what chance would explain, by period or number."""
+def score_durations(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):
+    """Return evenness times the share that is not explained by chance, by period or number."""
     durations = np.diff(visits) / fps
     if len(visits) < 3 or durations.max() > longest:
         return 0.0
@@ -57,15 +57,15 @@ def share_by_times(visits, fps, longest, chance_period, uneven, chance_count, ch
     return even * (1 - max(fast, min(few, 1)))
 
 
-def matched_lengths(gains, full):
-    """The largest sum of a warping path through the gains, and the paths that have it.
+def match_columns(gains, full):
+    """Return the largest sum of a warping path through the gains, and the paths that have it.
 
     Of each such path, its length, and how much of it counts, by gains as shares of ``full``.
     Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1) weigh 3.
     """
 
     def ends(i, j, total, counted):
-        """(sum, length, counted) of every path that goes on from here, wherever it ends."""
+        """Yield (sum, length, counted) of every continuation of a path."""
         yield total, j + 1, counted
         for down, right in ((1, 1), (1, 2), (2, 1)):
             a, b = i + down, j + right
@@ -79,14 +79,14 @@ def matched_lengths(gains, full):
     return best, {(length, counted) for total, length, counted in found if total == best}
 
 
-def poses_at(poses, path, lengths):
-    """The pose of the last frame at which the path is no longer than each of these lengths."""
+def look_up_poses(poses, path, lengths):
+    """Return the pose of the last frame at which the path is at most each of these lengths."""
     last = [max((f for f in range(len(poses)) if path[f] <= x), default=0) for x in lengths]
     return np.array([poses[f] for f in last])
 
 
-def unexplained(parts, centering):
-    """One minus the squared correlation, if positive, of each part with the mean of all others."""
+def measure_unexplained(parts, centering):
+    """Return 1 - squared positive correlation of each part with the mean of all others."""
     rows = [(part - centering * part.mean(axis=0)).ravel() for part in parts]
     found = []
     for k, row in enumerate(rows):
@@ -95,8 +95,8 @@ def unexplained(parts, centering):
     return found
 
 
-def explained(poses, path, visits, repetitions):
-    """The share of each repetition's frames that the mean of the others explains, at its size."""
+def explain_variance(poses, path, visits, repetitions):
+    """Return the share of frames that the scaled mean of the other repetitions explains."""
     repetitions = [part - part.mean(axis=0) for part in repetitions]
     count, places = len(repetitions), len(repetitions[0])
     left = 0.0
@@ -111,8 +111,8 @@ def explained(poses, path, visits, repetitions):
     return 1 - left / (visits[-1] - visits[0])
 
 
-def left_of(repetitions):
-    """What the mean of the others, at its best size, leaves of repetitions, summed."""
+def _measure_residual(repetitions):
+    """Return the residual of repetitions from the scaled mean of the others, summed."""
     rows = [part.ravel() for part in repetitions]
     left = 0.0
     for k, row in enumerate(rows):
@@ -122,17 +122,20 @@ def left_of(repetitions):
     return left
 
 
-def best_parting(repetitions):
-    """The least share that means of the first and of the last leave of what one mean leaves."""
+def find_best_parting(repetitions):
+    """Return the least residual of two means (first, last) relative to that of one mean."""
     cuts = range(2, len(repetitions) - 1)
     rough = 0.02 * np.square(repetitions).sum()
-    one = left_of(repetitions) + rough
-    two = [left_of(repetitions[:cut]) + left_of(repetitions[cut:]) + rough for cut in cuts]
+    one = _measure_residual(repetitions) + rough
+    two = [
+        _measure_residual(repetitions[:cut]) + _measure_residual(repetitions[cut:]) + rough
+        for cut in cuts
+    ]
     return min([1.0, *(each / one for each in two)])
 
 
-def similarities(movements):
-    """One minus the least squared distance of two movements, rolled, over their variances."""
+def measure_similarities(movements):
+    """Return 1 - least squared distance over all circular shifts / sum of variances."""
     spreads = [((each - each.mean(axis=0)) ** 2).sum() for each in movements]
     return [
         [
@@ -143,8 +146,8 @@ def similarities(movements):
     ]
 
 
-def spread(view, start, stop):
-    """Half the distances of each two samples of a span, by its length."""
+def measure_spread(view, start, stop):
+    """Return half of the summed distances of samples of a span, divided by its length."""
     inside = view[start:stop]
     return sum(np.linalg.norm(a - b) for a in inside for b in inside) / (2 * len(inside))
 
@@ -152,13 +155,13 @@ def spread(view, start, stop):
 def follow_end(poses, path, lengths, mean, near, full):
     gains = [
         [near - ((pose - place) ** 2).sum() for place in mean]
-        for pose in poses_at(poses, path, lengths)
+        for pose in look_up_poses(poses, path, lengths)
     ]
-    return matched_lengths(gains, near - full)
+    return match_columns(gains, near - full)
 
 
-def similarity_band(features, unit, width):
-    """One minus the distance of each sample to itself and those after it, in units."""
+def compute_similarity_band(features, unit, width):
+    """Return 1 - distance of each sample to itself and to those after it, in units."""
     n = len(features)
     found = np.zeros((n, width))
     for i in range(n):
@@ -167,8 +170,8 @@ def similarity_band(features, unit, width):
     return found
 
 
-def mean_distances(features, segments, unit):
-    """The mean distance of the samples of each two segments, in units."""
+def compute_mean_distances(features, segments, unit):
+    """Return the mean distances between samples of two segments, in units."""
     return [
         [
             np.mean([[np.linalg.norm(features[a] - features[b]) for b in h] for a in g]) / unit
@@ -178,21 +181,21 @@ def mean_distances(features, segments, unit):
     ]
 
 
-def smoothed(rows, smoothing):
-    """Means of the rows so near, and by how much these change per frame."""
+def smooth_rows(rows, smoothing):
+    """Return moving averages of the rows, and their mean change per frame."""
     n = len(rows)
     around = [(max(f - smoothing, 0), min(f + smoothing, n - 1)) for f in range(n)]
     poses = np.array([rows[a : b + 1].mean(axis=0) for a, b in around])
     return poses, [np.linalg.norm(poses[b] - poses[a]) / max(b - a, 1) for a, b in around]
 
 
-def division(poses, path, visits, places, near, followed_for, centering, scattered):
-    """Ends before the first visit and after the last, what counts, is unexplained."""
+def measure_division(poses, path, visits, places, near, followed_for, centering, scattered):
+    """Return lengths of both ends, how much of them counts, and the unexplained share."""
     end, at = path[-1], np.array([path[visit] for visit in visits])
     lengths = np.diff(at)
     length = sorted(lengths)[len(lengths) // 2]
     inner = [
-        poses_at(poses, path, a + (b - a) * ((np.arange(places) + 0.5) / places))
+        look_up_poses(poses, path, a + (b - a) * ((np.arange(places) + 0.5) / places))
         for a, b in pairwise(at)
     ]
     steps = (np.arange(int(places * followed_for)) + 0.5) / places
@@ -205,15 +208,15 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
         (at[-1] + steps * length, mean),
     ):
         inside = reached[(reached >= 0) & (reached <= end)]
-        found = poses_at(poses, path, inside)
+        found = look_up_poses(poses, path, inside)
         gains = near - ((found[:, None] - expected) ** 2).sum(axis=2) if len(found) else []
-        ends.append(np.divide(_longest(gains, near - full), places))
+        ends.append(np.divide(_match_columns_by_rows(gains, near - full), places))
     (before, counted_before), (after, counted_after) = ends
     outside = max(at[0] - before * length, 0) + max(end - at[-1] - after * length, 0)
     if len(inner) == 1:
         ahead = at[-1] + (end - length) * steps[:places]
-        inner.append(poses_at(poses, path, [a if a < end else a - end for a in ahead]))
-    shares = np.array(unexplained(inner, centering)[: len(lengths)])
+        inner.append(look_up_poses(poses, path, [a if a < end else a - end for a in ahead]))
+    shares = np.array(measure_unexplained(inner, centering)[: len(lengths)])
     between = max(end - outside - lengths.sum(), 0)
     weights = np.maximum(lengths / end, 1 / (len(lengths) + before + after))
     total = weights @ shares + (shares.mean() * between + outside) / end
@@ -224,8 +227,8 @@ def division(poses, path, visits, places, near, followed_for, centering, scatter
 WARPING = ((1, 1), (1, 2), (2, 1))
 
 
-def _longest(gains, full):
-    """The length of the best warping path, and what counts of it, as `matched_lengths` by rows."""
+def _match_columns_by_rows(gains, full):
+    """Return the length of the best warping path and how much counts, row by row."""
     best, found, paths = 0.0, (0, 0.0), {(-1, -1): (0.0, 0.0)}
     for i in range(len(gains)):
         for j in range(len(gains[i])):
@@ -243,16 +246,16 @@ def _longest(gains, full):
 # --- ends: stretches beside a mean repetition --------------------------------------------------
 
 
-def evenly_in_time(rows, start, length, places):
+def sample_evenly(rows, start, length, places):
     at = start + length * ((np.arange(places) + 0.5) / places) - 0.5
     return np.array([np.interp(at, np.arange(len(rows)), column) for column in rows.T]).T
 
 
-def best_length(rows, stop, shortest, longest, mean):
-    """How long the stretch up to a frame is that is nearest to the mean."""
+def find_best_length(rows, stop, shortest, longest, mean):
+    """Return the length of the span before a frame that is nearest to the mean."""
     return min(
         range(shortest, longest + 1),
-        key=lambda n: ((evenly_in_time(rows, stop - n, n, len(mean)) - mean) ** 2).sum(),
+        key=lambda n: ((sample_evenly(rows, stop - n, n, len(mean)) - mean) ** 2).sum(),
     )
 
 
@@ -261,18 +264,18 @@ def best_length(rows, stop, shortest, longest, mean):
 PATH_STEPS = ((1, 1, 1.0), (1, 2, 1.5), (2, 1, 1.5))
 
 
-def pair_score(samples, costs, i, j, scale, worst):
+def score_pair(samples, costs, i, j, scale, worst):
     square = float(((samples[i] - samples[j]) ** 2).sum())
     return max(1 - square / scale**2 - (costs[i] + costs[j]) / 2, worst)
 
 
-def local_path_scores(samples, costs, begins, gap, width, scale, worst):
-    """The score of the best path from each first pair, where there is one above 0."""
+def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
+    """Return the score of the best path from each first pair, if above 0."""
     n = len(samples)
     at, best = {}, {}
     for i in range(n):
         for j in range(i + gap, min(i + width + 1, n)):
-            score = pair_score(samples, costs, i, j, scale, worst)
+            score = score_pair(samples, costs, i, j, scale, worst)
             options = [(score, (i, j))]
             for a, b, weight in PATH_STEPS:
                 crosses = begins[i - a + 1 : i + 1].any() or begins[j - b + 1 : j + 1].any()
@@ -286,14 +289,14 @@ def local_path_scores(samples, costs, begins, gap, width, scale, worst):
     return best
 
 
-def followed_score(samples, costs, ends, scale, worst):
-    """The score of the best path from the first of two pairs to the second."""
+def trace_path_score(samples, costs, ends, scale, worst):
+    """Return the score of the best path from the first of two pairs to the second."""
     i0, j0, i1, j1 = ends
-    scores = {(i0, j0): pair_score(samples, costs, i0, j0, scale, worst)}
+    scores = {(i0, j0): score_pair(samples, costs, i0, j0, scale, worst)}
     for i in range(i0, i1 + 1):
         for j in range(j0, j1 + 1):
             options = [
-                scores[i - a, j - b] + weight * pair_score(samples, costs, i, j, scale, worst)
+                scores[i - a, j - b] + weight * score_pair(samples, costs, i, j, scale, worst)
                 for a, b, weight in PATH_STEPS
                 if (i - a, j - b) in scores
             ]
@@ -302,8 +305,8 @@ def followed_score(samples, costs, ends, scale, worst):
     return scores[i1, j1]
 
 
-def recurrences_of(start, stop, paths, free, cover):
-    """Where a stretch recurs by paths (first sample, partners, sums): spans, gains, what of it."""
+def find_recurrences(start, stop, paths, free, cover):
+    """Return recurrences of a span by paths (first sample, partners, sums): spans, gains, parts."""
     found = []
     for first, partners, sums in paths:
         low, high = max(start, first), min(stop, first + len(sums))
@@ -328,8 +331,8 @@ def recurrences_of(start, stop, paths, free, cover):
     return kept
 
 
-def cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
-    """Cost and clusters of the cheapest grouping: all clusters compared before each union."""
+def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
+    """Return cost and clusters of the cheapest grouping; compare all pairs before each merge."""
     clusters = [[g] for g in range(len(lengths))]
 
     def total(a, b):

@@ -1,4 +1,4 @@
-"""Borders to the frame: they move towards where a segment ends, and nothing else changes."""
+"""Refined borders: they move towards the end of a segment, and nothing else changes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SECOND = round(SENSORS.averaging * FPS)
 
 
 def quiet_and_loud(seed: int, ends: list[int]) -> np.ndarray:
-    """Four channels that are quiet, then loud, in turn up to each end."""
+    """Make four channels that alternate between quiet and loud, up to each end."""
     rng = np.random.default_rng(seed)
     lengths = np.diff([0, *ends])
     deviations = np.repeat(np.where(np.arange(len(ends)) % 2, 1.0, 0.1), lengths)
@@ -53,7 +53,7 @@ def test_no_segment_comes_or_goes(seed, lengths) -> None:
 
 @pytest.mark.parametrize("off", [-6, 0, 6])
 def test_what_neither_side_explains_is_a_transition(off: int) -> None:
-    """Half a second from one pose to another; a border where only one of them begins is none."""
+    """A change of pose over half a second is a transition; a border at a single change is not."""
     fps = round(KINEME.working_fps)
     noise = 0.05 * np.random.default_rng(0).standard_normal((12 * fps, 4))
     at = np.arange(12 * fps)

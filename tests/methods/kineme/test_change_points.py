@@ -1,4 +1,4 @@
-"""Borders against their naive twins, and clusters numbered by first appearance."""
+"""Change points against their naive version, and clusters numbered by appearance."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ seconds = settings(max_examples=60)
 
 @st.composite
 def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
-    """Symmetric, from 0 to 1, each sample similar to itself."""
+    """Draw a symmetric similarity matrix from 0 to 1 with ones on the diagonal."""
     n = draw(st.integers(1, max_bins))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     similarity = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))
@@ -30,11 +30,13 @@ def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
 @seconds
 def test_no_division_is_cheaper(similarity, width, penalty) -> None:
     width = min(width, len(similarity) - 1)
-    divisions = naive.divisions(len(similarity), width + 1)
+    divisions = naive.list_divisions(len(similarity), width + 1)
     found = kernels.find_change_points(one_sided(similarity, width), penalty).tolist()
     assert found in divisions
-    costs = [naive.division_cost(similarity, borders, penalty) for borders in divisions]
-    assert naive.division_cost(similarity, found, penalty) == pytest.approx(min(costs), abs=1e-4)
+    costs = [naive.compute_division_cost(similarity, borders, penalty) for borders in divisions]
+    assert naive.compute_division_cost(similarity, found, penalty) == pytest.approx(
+        min(costs), abs=1e-4
+    )
 
 
 @given(st.lists(st.integers(-1, 4), max_size=20))

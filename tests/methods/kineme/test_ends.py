@@ -1,4 +1,4 @@
-"""Where the first repetition begins and the last one ends."""
+"""The start of the first repetition, and the end of the last one."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.ends import Ends, fit_ends
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
-from loops import swing
+from loops import make_swings
 
 PERIOD = 36
 AWAY = np.repeat([[0.0, 0.0, 0.0, 0.0, 2.0, 2.0]], 60, axis=0)
@@ -21,7 +21,7 @@ AWAY = np.repeat([[0.0, 0.0, 0.0, 0.0, 2.0, 2.0]], 60, axis=0)
 def ends(
     rows: np.ndarray, start: int, stop: int, cuts: list[int], *others: tuple[int, int, int]
 ) -> Ends:
-    """Of an activity with these cuts, and of others without any: start, stop and label."""
+    """Fit the ends of an activity with these cuts, and of others without cuts."""
     starts, stops, labels = zip((start, stop, 0), *others, strict=True)
     every = [np.array(cuts, np.int64), *(np.empty(0, np.int64) for _ in others)]
     spans = (np.array(part, np.int64) for part in (starts, stops, labels))
@@ -29,8 +29,8 @@ def ends(
 
 
 def shaken(seed: int) -> np.ndarray:
-    """Eight swings between two rests elsewhere, no two alike."""
-    rows = np.concatenate([AWAY, swing(8, period=PERIOD / 30), AWAY])
+    """Make eight different swings between two rests in other poses."""
+    rows = np.concatenate([AWAY, make_swings(8, period=PERIOD / 30), AWAY])
     return rows + np.random.default_rng(seed).normal(0, 0.02, rows.shape)
 
 
@@ -43,10 +43,10 @@ def test_stretches_are_compared_as_by_the_naive_versions(seed: int) -> None:
     lengths, places = np.diff(cuts), 7
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, places)
     for found, start, length in zip(inner, cuts, lengths):
-        expected = naive.evenly_in_time(rows, start, length, places)
+        expected = naive.sample_evenly(rows, start, length, places)
         np.testing.assert_allclose(found, expected, atol=1e-5)
     mean = inner.mean(axis=0)
-    assert kernels.find_best_length(rows, cuts[0], 4, 20, mean) == naive.best_length(
+    assert kernels.find_best_length(rows, cuts[0], 4, 20, mean) == naive.find_best_length(
         rows, cuts[0], 4, 20, mean
     )
 
@@ -57,7 +57,7 @@ STOP = 60 + PERIOD * 8
 
 @pytest.mark.parametrize("late", [-12, -6, 0, 6, 12])
 def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) -> None:
-    """Wherever the borders of the activity were put."""
+    """The ends do not depend on the borders of the activity."""
     for found in (
         ends(shaken(1), 60 + late, STOP - late, CUTS),
         ends(shaken(2), 60 + late, STOP + late, CUTS),
@@ -67,8 +67,8 @@ def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) 
 
 
 def test_a_part_of_a_repetition_stays_in_the_activity_and_is_no_repetition() -> None:
-    """Twelve frames more of the same movement at either end."""
-    more = swing(10, period=PERIOD / 30)[PERIOD - 12 : -PERIOD + 12]
+    """The movement continues for twelve frames beyond both ends."""
+    more = make_swings(10, period=PERIOD / 30)[PERIOD - 12 : -PERIOD + 12]
     rows = np.concatenate([AWAY, more, AWAY])
     rows += np.random.default_rng(4).normal(0, 0.02, rows.shape)
     found = ends(rows, 60, 60 + len(more), [cut + 12 for cut in CUTS])
@@ -109,8 +109,8 @@ def test_repetitions_lie_in_their_activity_whatever_is_cut(start, length, places
 
 
 def test_what_is_part_of_no_repetition_is_a_transition_of_the_primitive_level() -> None:
-    more = swing(9, period=PERIOD / 30)[PERIOD // 3 :]
-    turn = swing(8, period=1, axis=2)
+    more = make_swings(9, period=PERIOD / 30)[PERIOD // 3 :]
+    turn = make_swings(8, period=1, axis=2)
     columns = analyze(np.concatenate([turn, more, turn]), KINEME).columns()
     primitive = columns["level"] == "primitive"
     lengths = (columns["stop_frame"] - columns["start_frame"])[primitive]

@@ -1,4 +1,4 @@
-"""Occurrences: what recurs is found wherever it is, and nothing else is."""
+"""Occurrences: spans that recur are found at any place, and no others."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 import naive
-from gestures import stacked, wandering, with_gestures
+from gestures import insert_gestures, make_wandering, stack_features
 from kineme.methods.kineme import _event_kernels as kernels
 from kineme.methods.kineme.events import Occurrences, find_occurrences, split_path
 from kineme.methods.kineme.pipeline import analyze
@@ -21,7 +21,7 @@ seconds = settings(max_examples=40)
 
 @st.composite
 def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Samples, what they cost, and where a stretch begins."""
+    """Draw samples, their costs, and starts of free spans."""
     n = draw(st.integers(2, 24))
     rng = np.random.default_rng(draw(st.integers(0, 99)))
     samples = rng.integers(0, 3, (n, 2)) / 2 + rng.normal(0, 1e-3, (n, 2))
@@ -41,7 +41,7 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
-    best = naive.local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
+    best = naive.find_local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
     assert found == pytest.approx({first: s for first, s in best.items() if s >= least})
 
 
@@ -55,7 +55,7 @@ def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
         partners, sums, other_partners, other_sums = kernels.trace_path(
             columns, costs, each, 0.8, -2.0
         )
-        expected = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        expected = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)
         assert expected >= score - 1e-9
@@ -89,7 +89,7 @@ def test_a_long_path_is_followed(walk, leg) -> None:
         assert len(forth) == len(sums) == each[2] - each[0] + 1
         assert len(back) == len(back_sums) == each[3] - each[1] + 1
         assert sums[-1] == pytest.approx(back_sums[-1])
-        best = naive.followed_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        best = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
         assert score - 1e-9 <= sums[-1] <= best + 1e-9
 
 
@@ -125,7 +125,7 @@ def test_recurrences_and_the_best_set_are_those_of_the_naive_version(seed) -> No
             total, count = kernels.count_recurrences(
                 start, stop, starts, ptr, *flat, row_ptr, row_paths, free, cover, spans, gains
             )
-            expected = naive.recurrences_of(start, stop, paths, free, cover)
+            expected = naive.find_recurrences(start, stop, paths, free, cover)
             of = [(begin, end, *part) for begin, end, _, part in expected]
             assert [tuple(span) for span in spans[:count].tolist()] == of
             assert total == pytest.approx(sum(gain for _, _, gain, _ in expected))
@@ -147,7 +147,7 @@ def found_in(rows: np.ndarray, free: np.ndarray | None = None) -> Occurrences:
 
 def test_a_gesture_made_now_and_then_is_one_cluster() -> None:
     places = [100, 310, 555, 790]
-    found = found_in(with_gestures(1, places))
+    found = found_in(insert_gestures(1, places))
     assert found.clusters.tolist() == [0, 0, 0, 0]
     assert np.abs(found.starts - places).max() <= 6
     assert np.abs(found.stops - places - 40).max() <= 6
@@ -156,7 +156,7 @@ def test_a_gesture_made_now_and_then_is_one_cluster() -> None:
 
 @pytest.mark.parametrize(("places", "sure"), [([100, 310], 2), ([100, 310, 555], 1)])
 def test_two_must_be_more_alike_than_three(places: list[int], sure: float) -> None:
-    rows = with_gestures(1, places)
+    rows = insert_gestures(1, places)
     everywhere = np.ones(len(rows), np.bool_)
 
     def found(min_recurrence: float) -> int:
@@ -169,7 +169,7 @@ def test_two_must_be_more_alike_than_three(places: list[int], sure: float) -> No
 
 
 def test_what_is_not_free_is_not_looked_at() -> None:
-    rows = with_gestures(2, [100, 310, 555])
+    rows = insert_gestures(2, [100, 310, 555])
     free = np.ones(len(rows), np.bool_)
     free[300:360] = False
     found = found_in(rows, free)
@@ -180,12 +180,12 @@ def test_what_is_not_free_is_not_looked_at() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_movement_that_never_comes_back_has_no_occurrences(seed) -> None:
-    assert len(found_in(wandering(np.random.default_rng(seed), 900))) == 0
+    assert len(found_in(make_wandering(np.random.default_rng(seed), 900))) == 0
 
 
 def test_gestures_are_primitives_where_nothing_is_counted() -> None:
     places = [100, 310, 555, 790]
-    found = analyze(stacked(with_gestures(1, places)), KINEME)
+    found = analyze(stack_features(insert_gestures(1, places)), KINEME)
     occurring = found.segments.clusters > found.segments.labels.max()
     assert np.abs(found.primitives[:-1][occurring] - places).max() <= 6
     assert len(set(found.segments.clusters[occurring].tolist())) == 1
@@ -198,7 +198,7 @@ def test_gestures_are_primitives_where_nothing_is_counted() -> None:
 def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:
     angle = 2 * np.pi * np.arange(600) / 45
     rows = 0.3 * np.column_stack([np.sin(k * angle + k) for k in (1, 2, 1, 3, 1, 2)])
-    found = analyze(stacked(rows), KINEME)
+    found = analyze(stack_features(rows), KINEME)
     assert np.abs(np.diff(found.primitives)[found.segments.clusters == 0] - 45).max() <= 4
     assert found.segments.clusters.max() == 0
     assert found.segments.not_periodic.size == 0
@@ -206,7 +206,9 @@ def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:
 
 
 def test_a_note_says_what_is_not_periodic() -> None:
-    found = analyze(np.tile(stacked(wandering(np.random.default_rng(0), 90)), (6, 1)), KINEME)
+    found = analyze(
+        np.tile(stack_features(make_wandering(np.random.default_rng(0), 90)), (6, 1)), KINEME
+    )
     loose = replace(found, segments=replace(found.segments, not_periodic=np.array([0])))
     notes = loose.doubts(loose.columns(), 30.0)
     assert "not periodic: 0.00 to 18.00 s; their primitives are what recurs anywhere" in notes
@@ -223,6 +225,6 @@ def test_standing_still_does_not_recur() -> None:
 
 
 def test_backwards_is_another_movement() -> None:
-    rows = with_gestures(3, [100, 400])
+    rows = insert_gestures(3, [100, 400])
     rows[400:440] = rows[400:440][::-1]
     assert len(found_in(rows)) == 0

@@ -1,4 +1,4 @@
-"""Recordings segmented by the `kineme` method: truth is met; size and frame rate change no cut."""
+"""The `kineme` method on recordings: results match the truth; size and frame rate do not matter."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_the_bundled_recording_is_found_as_it_was_made() -> None:
 
 
 def test_real_recordings_are_found_as_people_annotated_them(data_dir: Path) -> None:
-    """Five trials of subject 86. The paper's other nine are not at hand."""
+    """Return the five available trials of subject 86, of fourteen in the paper."""
     names = ["86_01", "86_09", "86_10", "86_11", "86_14"]
     scores = []
     for trial in load_trials(find_folder(data_dir), names):

@@ -1,4 +1,4 @@
-"""Time and memory grow with the length of a recording, and what is short stays as it is."""
+"""Time and memory are linear in the length of a recording; short recordings do not change."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gestures import with_gestures
+from gestures import insert_gestures
 from kineme.methods.kineme import events
 from kineme.methods.kineme.events import Occurrences
 from kineme.methods.kineme.preset import KINEME
@@ -20,22 +20,22 @@ MEASURE = """
 import re, sys, time
 from pathlib import Path
 import numpy as np
-from gestures import stacked, with_gestures
+from gestures import stack_features, insert_gestures
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
-from loops import swing
+from loops import make_swings
 
 def peak():  # rusage has that of the process that started this one, too
     return int(re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
 
 parts = []
 for seed in range(6):
-    walk = swing(6 + seed, period=1 + seed / 10, axis=seed % 4)
-    parts += [walk, with_gestures(seed, [100, 310, 555, 790])]
+    walk = make_swings(6 + seed, period=1 + seed / 10, axis=seed % 4)
+    parts += [walk, insert_gestures(seed, [100, 310, 555, 790])]
 PRESET = KINEME.replace(part=300.0)  # parts are done alone, so that two and four are compared
 frames = round(60 * 20 * PRESET.working_fps)
 rows = np.tile(np.resize(np.concatenate(parts), (frames, 6)), 2)
-rows = stacked(rows + np.random.default_rng(0).normal(0, 0.01, rows.shape))
+rows = stack_features(rows + np.random.default_rng(0).normal(0, 0.01, rows.shape))
 analyze(rows[: round(15 * PRESET.working_fps)], PRESET)
 before = peak()
 for share in (2, 1):
@@ -65,7 +65,7 @@ def found_in(rows: np.ndarray, leg: float) -> Occurrences:
 
 
 def test_paths_that_fit_into_a_leg_are_found_as_without_one() -> None:
-    rows = np.vstack([with_gestures(1, [100, 310, 555, 790])] * 2)
+    rows = np.vstack([insert_gestures(1, [100, 310, 555, 790])] * 2)
     whole, in_legs = found_in(rows, 3600), found_in(rows, 60)
     assert len(whole) > 2
     for name in ("starts", "stops", "clusters", "similarity"):
@@ -73,7 +73,7 @@ def test_paths_that_fit_into_a_leg_are_found_as_without_one() -> None:
 
 
 def test_paths_that_are_longer_than_a_leg_are_found_as_without_one() -> None:
-    rows = np.vstack([with_gestures(1, [100, 310, 555, 790])] * 4)
+    rows = np.vstack([insert_gestures(1, [100, 310, 555, 790])] * 4)
     rows += np.random.default_rng(0).normal(0, 0.01, rows.shape)
     whole, in_legs = found_in(rows, 3600), found_in(rows, 5)
     assert in_legs.clusters.tolist() == whole.clusters.tolist()

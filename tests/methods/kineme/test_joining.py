@@ -1,4 +1,4 @@
-"""Neighbours that are one set are joined, whatever their posture; others are not."""
+"""Neighbours that are one set are merged at any posture; others are not."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HALF = 6 * PERIOD
 
 
 def swings(channel: int, count: int = 6) -> np.ndarray:
-    """Swings of one of four channels, each with a small one of another."""
+    """Make swings of one of four channels, each with a small one of another."""
     angle = 2 * np.pi * np.arange(count * PERIOD) / PERIOD
     rows = np.zeros((len(angle), 4))
     rows[:, channel], rows[:, channel - 1] = np.sin(angle), 0.3 * np.sin(2 * angle)
@@ -22,7 +22,7 @@ def swings(channel: int, count: int = 6) -> np.ndarray:
 
 
 def joined(left: np.ndarray, right: np.ndarray) -> Sets:
-    """Two halves of a recording, as clusters of their own."""
+    """Return two halves of a recording as separate clusters."""
     rows = np.concatenate([left, right])
     rows = rows + np.random.default_rng(0).normal(0, 0.02, rows.shape)
     rows, ends = np.ascontiguousarray(rows, np.float32), np.array([0, len(left), len(rows)])

@@ -1,4 +1,4 @@
-"""From features to counted actions: what is known is found, and what changes nothing."""
+"""The whole method: known actions are found, and some changes do not matter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import resolve_preset
-from loops import swing
+from loops import make_swings
 
 few = settings(max_examples=8)
 
@@ -43,7 +43,7 @@ def assert_same(found: KinemeFound, expected: KinemeFound) -> None:
 
 
 def repetitions_of(found: KinemeFound) -> list[int]:
-    """How many repetitions each activity has; transitions left out."""
+    """Return the number of repetitions of each activity, without transitions."""
     return found.segments.counts[found.segments.labels >= 0].tolist()
 
 
@@ -51,7 +51,7 @@ def repetitions_of(found: KinemeFound) -> list[int]:
 
 
 Sequence = list[tuple[int, float, int]]
-"""Which of three movements, its period, how often."""
+"""Movement (one of three), period, and count."""
 
 
 @st.composite
@@ -70,7 +70,7 @@ def sequences(draw: st.DrawFn) -> Sequence:
 
 
 def assert_found(sequence: Sequence) -> None:
-    parts = [swing(times, period=period, axis=2 * axis) for axis, period, times in sequence]
+    parts = [make_swings(times, period=period, axis=2 * axis) for axis, period, times in sequence]
     found = analyze(np.concatenate(parts), KINEME)
     order = list(dict.fromkeys(axis for axis, _, _ in sequence))
     assert found.segments.labels.tolist() == [order.index(axis) for axis, _, _ in sequence]
@@ -95,19 +95,22 @@ def test_actions_their_borders_and_counts_are_found(sequence) -> None:
     ],
 )
 def test_a_change_that_comes_twice_is_no_action_of_its_own(sequence) -> None:
-    """Though the second in which one becomes the other looks alike both times."""
+    """Although the second between both looks the same each time."""
     assert_found(sequence)
 
 
 def test_an_action_that_returns_after_minutes_is_known_again() -> None:
-    walk, turn = swing(12, period=1), [swing(50, period=2, axis=2), swing(12, period=1, axis=4)]
+    walk, turn = (
+        make_swings(12, period=1),
+        [make_swings(50, period=2, axis=2), make_swings(12, period=1, axis=4)],
+    )
     found = analyze(np.concatenate([walk, *turn, walk, turn[1]]), KINEME)
     assert found.segments.labels[found.segments.labels >= 0].tolist() == [0, 1, 2, 0, 2]
     assert repetitions_of(found) == [12, 50, 12, 12, 12]
 
 
 def test_long_recordings_are_found_as_their_parts_and_known_again() -> None:
-    walk, turn = swing(12, period=1), swing(9, period=1.3, axis=2)
+    walk, turn = make_swings(12, period=1), make_swings(9, period=1.3, axis=2)
     both = np.concatenate([walk, turn])
     found = analyze(np.tile(both, (4, 1)), KINEME.replace(part=len(both) / KINEME.working_fps))
     assert found.segments.labels.tolist() == [0, 1] * 4
@@ -253,7 +256,7 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
 @given(constants(), st.integers(1, 400))
 @settings(max_examples=60)
 def test_segments_tile_whatever_the_constants(overrides, frames) -> None:
-    rows = np.concatenate([swing(5, period=1), swing(6, period=1.2, axis=2)])[:frames]
+    rows = np.concatenate([make_swings(5, period=1), make_swings(6, period=1.2, axis=2)])[:frames]
     found = analyze(rows, resolve_preset("kineme", **overrides))
     assert_whole(found, len(rows))
 

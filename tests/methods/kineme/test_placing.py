@@ -1,4 +1,4 @@
-"""Occurrences in their place: nothing is cut, periodic activities keep their repetitions."""
+"""Inserting occurrences: none is cut, and periodic activities keep their repetitions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LABELS = np.array([0, -1, 1, 0])
 
 
 def segments() -> Segments:
-    """An activity of two repetitions, a transition, an activity of one, and the first again."""
+    """Make an activity of two repetitions, a transition, one repetition, and the first again."""
     return Segments(
         BORDERS,
         LABELS,
@@ -78,7 +78,7 @@ def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
 
 
 def alone() -> Segments:
-    """An activity of one repetition, which is 30 long, one that repeats, and one of what recurs."""
+    """Make activities: one repetition of 30 frames, one that repeats, and one with occurrences."""
     return Segments(
         np.array([0, 30, 100, 300]),
         np.array([0, 1, 2]),
@@ -116,6 +116,6 @@ def test_shares_are_those_of_actions() -> None:
 
 def test_occurrences_within_some_segments_recur_there() -> None:
     found = occurring((140, 180), (220, 260), (310, 350))
-    kept = found.within(BORDERS, FREE)
+    kept = found.select_within(BORDERS, FREE)
     assert kept.starts.tolist() == [140, 220]
-    assert not len(occurring((140, 180), (310, 350)).within(BORDERS, FREE))
+    assert not len(occurring((140, 180), (310, 350)).select_within(BORDERS, FREE))

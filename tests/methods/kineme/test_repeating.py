@@ -1,4 +1,4 @@
-"""Whether a segment repeats: the kernels' naive twins, and what is saved by what."""
+"""Segments that repeat: kernels against naive versions, and savings."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import kineme
 import naive
-from gestures import stacked, wandering
+from gestures import make_wandering, stack_features
 from kineme.datasets import random_recording
 from kineme.methods.kineme import _repeating_kernels as kernels
 from kineme.methods.kineme.found import KinemeFound
@@ -21,7 +21,7 @@ FPS = round(KINEME.working_fps)
 
 
 def similar(seed: int, count: int, noise: float) -> np.ndarray:
-    """Repetitions of one movement, each of a size of its own, (count, places, dims)."""
+    """Draw repetitions of one movement with different sizes, (count, places, dims)."""
     rng = np.random.default_rng(seed)
     shape = rng.normal(size=(6, 3)).cumsum(axis=0)
     sizes = rng.uniform(0.6, 1.4, (count, 1, 1))
@@ -54,7 +54,7 @@ def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> N
     poses = rng.normal(size=(visits[-1] + 3, 3)).cumsum(axis=0)
     path = np.append(0, np.cumsum(rng.uniform(0.1, 2, len(poses))))
     found = kernels.explain_variance(poses, path, visits, centered(repetitions))
-    expected = naive.explained(poses, path, visits.tolist(), list(repetitions))
+    expected = naive.explain_variance(poses, path, visits.tolist(), list(repetitions))
     assert found == pytest.approx(expected, abs=1e-9)
     assert -1e-12 <= found <= 1
 
@@ -64,7 +64,7 @@ def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> N
 def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> None:
     repetitions = centered(similar(seed, count, noise))
     found = kernels.find_best_parting(repetitions)
-    assert found == pytest.approx(naive.best_parting(list(repetitions)), abs=1e-9)
+    assert found == pytest.approx(naive.find_best_parting(list(repetitions)), abs=1e-9)
     assert 0 <= found <= 1
     if count < 4:  # two of each are the fewest
         assert found == 1
@@ -75,7 +75,7 @@ def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> No
 def test_similarities_are_those_of_the_naive_version(seed: int, count: int) -> None:
     movements = np.random.default_rng(seed).normal(size=(count, 6, 3)).cumsum(axis=1)
     found = kernels.measure_similarities(movements)
-    np.testing.assert_allclose(found, naive.similarities(list(movements)), atol=1e-9)
+    np.testing.assert_allclose(found, naive.measure_similarities(list(movements)), atol=1e-9)
     shifted = np.stack([movements[0], np.roll(movements[0], 2, axis=0)])
     np.testing.assert_allclose(kernels.measure_similarities(shifted), 1, atol=1e-9)  # at any phase
 
@@ -86,7 +86,9 @@ def test_the_spread_is_that_of_the_naive_version(seed, n, start, length) -> None
     view = np.random.default_rng(seed).normal(size=(n, 3)).astype(np.float32)
     start = min(start, n - 1)
     found = kernels.measure_spread(view, start, start + length, 32)
-    assert found == pytest.approx(naive.spread(view, start, start + length), rel=1e-5, abs=1e-6)
+    assert found == pytest.approx(
+        naive.measure_spread(view, start, start + length), rel=1e-5, abs=1e-6
+    )
 
 
 def test_few_samples_tell_the_spread_of_many() -> None:
@@ -99,7 +101,7 @@ def test_few_samples_tell_the_spread_of_many() -> None:
 
 
 def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) -> np.ndarray:
-    """Slow ones, slower and less deep from one to the next; joints shake."""
+    """Make slow squats that become slower and less deep, with noise."""
     rng = np.random.default_rng(seed)
     drift = np.linspace(0, 1, count)
     parts = []
@@ -120,8 +122,8 @@ def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) ->
     st.sampled_from([(8.0, 1.7, 0.5, 4.0, 14.0), (30.0, 0.5, 2.0, 2.0, 1e9)]),
 )
 def test_what_times_allow_is_that_of_the_naive_version(visits, limits) -> None:
-    found = kernels.share_by_times(visits, 30.0, *limits)
-    assert found == pytest.approx(naive.share_by_times(visits, 30.0, *limits), abs=1e-12)
+    found = kernels.score_durations(visits, 30.0, *limits)
+    assert found == pytest.approx(naive.score_durations(visits, 30.0, *limits), abs=1e-12)
 
 
 def standing(seconds: float, seed: int = 0) -> np.ndarray:
@@ -129,18 +131,20 @@ def standing(seconds: float, seed: int = 0) -> np.ndarray:
 
 
 def share_saved(rows: np.ndarray) -> float:
-    """Of what the poses spread, as a view of which each dimension is one of a pose."""
+    """Return the saved share of the spread of poses, which are also the view."""
     view = np.ascontiguousarray(rows[:: round(FPS / KINEME.rate)], np.float32)
     repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME)
-    saved = repeating.saved(view, 2.0, 0, len(view))
-    assert saved == repeating.saved(view, 2.0, 0, len(view))  # what was asked once is known
-    assert 2 * saved == pytest.approx(repeating.saved(view, 1.0, 0, len(view)))
+    saved = repeating.measure_saving(view, 2.0, 0, len(view))
+    assert saved == repeating.measure_saving(
+        view, 2.0, 0, len(view)
+    )  # what was asked once is known
+    assert 2 * saved == pytest.approx(repeating.measure_saving(view, 1.0, 0, len(view)))
     return 2.0 * saved / max(kernels.measure_spread(view, 0, len(view), 10_000), 1e-12)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_slow_repetitions_save_most_of_what_they_spread(seed: int) -> None:
-    """Though pace and depth drift."""
+    """Drift of pace and depth does not matter."""
     assert share_saved(squats(10, seed=seed)) > 0.5
 
 
@@ -151,7 +155,7 @@ def test_more_repetitions_save_a_larger_share(seed: int) -> None:
 
 
 def test_two_repetitions_save_nothing() -> None:
-    """But what is as good as none: up and down are alike where they are slow."""
+    """Hardly anything is saved: slow movements up and down look alike."""
     assert share_saved(squats(2)) < 0.05
     assert share_saved(squats(2, period=3.0)) < 0.05
 
@@ -159,7 +163,7 @@ def test_two_repetitions_save_nothing() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_who_stands_or_never_does_the_same_saves_nothing(seed: int) -> None:
     assert share_saved(standing(30, seed)) == 0
-    assert share_saved(wandering(np.random.default_rng(seed), 30 * FPS)) < 0.1
+    assert share_saved(make_wandering(np.random.default_rng(seed), 30 * FPS)) < 0.1
     assert share_saved(np.zeros((20 * FPS, 6))) == 0
 
 
@@ -170,7 +174,7 @@ def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> Non
     rows = np.concatenate([one, other]).astype(np.float32)
     view = np.ascontiguousarray(rows[::6])
     repeating, (border, end) = Repeating(rows, KINEME), (len(one) / FPS, len(rows) / FPS)
-    found = repeating.division(0, len(view))
+    found = repeating.find_division(0, len(view))
     if found is not None:
         start, stop = found.start / KINEME.rate, found.stop / KINEME.rate
         assert 0 <= start < stop <= end + 1 / KINEME.rate
@@ -183,7 +187,7 @@ def test_four_slow_repetitions_save_some(seed: int) -> None:
 
 
 def parting_of_channels(*sizes: np.ndarray) -> float:
-    """Of repetitions of one shape whose channels have these sizes, repetition by repetition."""
+    """Score repetitions of one shape with these sizes (repetitions, channels)."""
     angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     repetitions = np.array([np.outer(np.sin(angle), size) for size in sizes])
     return float(kernels.find_best_parting(measure_channel_energies(repetitions)))
@@ -205,7 +209,7 @@ def test_what_is_too_short_or_too_long_saves_nothing() -> None:
 
 
 def found_in(*parts: np.ndarray) -> KinemeFound:
-    return KINEME.analyze(stacked(np.concatenate(parts)))
+    return KINEME.analyze(stack_features(np.concatenate(parts)))
 
 
 @pytest.mark.parametrize("seed", range(4))

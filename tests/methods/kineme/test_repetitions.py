@@ -1,4 +1,4 @@
-"""How often a movement repeats itself: loops of known number, and the kernels' naive twins."""
+"""Repetition counts: loops of known number, and kernels against naive versions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.kineme.repetitions import Candidate, find_repetitions, shift_to_rest
-from loops import nod, swing
+from loops import make_nods, make_swings
 
 seconds = settings(max_examples=60)
 
@@ -38,7 +38,7 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
     depths, columns = kernels.find_dips(rows, np.array([least, 0.5], np.float32))
     for found, where, values, limit in zip(depths, columns, rows, (least, 0.5), strict=True):
         pairs = [(d, c) for d, c in zip(found.tolist(), where.tolist(), strict=True) if d > 0]
-        expected = naive.dips(values.tolist(), limit)
+        expected = naive.find_dips(values.tolist(), limit)
         assert [d for d, _ in pairs] == [d for d, _ in expected]
         assert sorted(pairs) == sorted(expected)
 
@@ -48,7 +48,7 @@ def count(rows: np.ndarray) -> np.ndarray:
     return find_repetitions(rows.astype(np.float32), 0, frames, KINEME)
 
 
-movements = pytest.mark.parametrize("movement", [swing, nod])
+movements = pytest.mark.parametrize("movement", [make_swings, make_nods])
 
 
 @movements
@@ -104,11 +104,13 @@ def test_where_nobody_rests_repetitions_begin_where_their_poses_tell() -> None:
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
 @settings(max_examples=60)
 def test_people_are_not_clocks(times: int, seed: int) -> None:
-    """Pace and size differ by up to a sixth from one repetition to the next, and joints shake."""
+    """Make repetitions whose pace and size differ by up to a sixth, with noise."""
     rng = np.random.default_rng(seed)
     rows = np.concatenate(
         [
-            swing(1, period=1.2 * rng.uniform(0.92, 1.08), height=0.3 * rng.uniform(0.92, 1.08))
+            make_swings(
+                1, period=1.2 * rng.uniform(0.92, 1.08), height=0.3 * rng.uniform(0.92, 1.08)
+            )
             for _ in range(times)
         ]
     )
@@ -142,7 +144,7 @@ def test_a_repetition_cut_short_at_an_end_still_counts(movement, missing: float)
 
 
 def test_what_comes_before_the_repetitions_joins_the_first() -> None:
-    rows = np.concatenate([swing(1, period=2, axis=2), swing(6, period=1)])
+    rows = np.concatenate([make_swings(1, period=2, axis=2), make_swings(6, period=1)])
     found = count(rows)
     assert len(found) == 5
     assert found[0] > 60
@@ -150,12 +152,12 @@ def test_what_comes_before_the_repetitions_joins_the_first() -> None:
 
 @pytest.mark.parametrize("heights", [(0.3, 0.15, 0.3, 0.15), (0.15, 0.15, 0.3, 0.15, 0.3, 0.3)])
 def test_deep_and_shallow_ones_are_as_many(heights: tuple[float, ...]) -> None:
-    rows = np.concatenate([nod(1, period=1.5, rest=0.3, height=height) for height in heights])
+    rows = np.concatenate([make_nods(1, period=1.5, rest=0.3, height=height) for height in heights])
     assert len(count(rows)) + 1 == len(heights)
 
 
 def test_left_and_right_are_halves_of_one_repetition() -> None:
-    both = np.concatenate([nod(1, period=0.8, axis=axis) for axis in (0, 2)])
+    both = np.concatenate([make_nods(1, period=0.8, axis=axis) for axis in (0, 2)])
     for times in range(2, 7):
         assert len(count(np.tile(both, (times, 1)))) + 1 == times
 
@@ -169,7 +171,7 @@ def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
 
 @pytest.mark.parametrize("times", [2, 3, 5, 10, 40])
 def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
-    """Any two of a movement have 0.5 in common, any two of chance 0.3."""
+    """Repetitions of a movement correlate by 0.5, random ones by 0.3."""
     rng = np.random.default_rng(times)
     for common, is_chance in ((0.5, False), (0.3, True)):
         shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))
@@ -188,7 +190,7 @@ def gains(draw: st.DrawFn) -> np.ndarray:
 @given(gains())
 @seconds
 def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
-    best, ends = naive.matched_lengths(gained.tolist(), 4.0)
+    best, ends = naive.match_columns(gained.tolist(), 4.0)
     found = kernels.match_columns(gained, 4.0)
     assert found in ends if best > 0 else found == (0, 0)
 
@@ -200,12 +202,12 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
     poses = rng.normal(0, 1, (12, 3))
     path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
     lengths = rng.uniform(0, path[-1] + 0.1, 5)
-    expected = naive.poses_at(poses, path, lengths)
+    expected = naive.look_up_poses(poses, path, lengths)
     np.testing.assert_array_equal(kernels.look_up_poses(poses, path, lengths), expected)
     parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
     for centering in (0.0, 0.4, 1.0):
         found = kernels.measure_unexplained(parts, centering)
-        np.testing.assert_allclose(found, naive.unexplained(parts, centering), atol=1e-12)
+        np.testing.assert_allclose(found, naive.measure_unexplained(parts, centering), atol=1e-12)
     best, ends = naive.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
     length, counted = kernels.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
     known = min(ends, key=lambda end: abs(end[0] - length) + abs(end[1] - counted))
@@ -217,7 +219,7 @@ def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
         strict=True,
     ):
         places = a + (b - a) * (np.arange(4) + 0.5) / 4
-        np.testing.assert_array_equal(part, naive.poses_at(poses, path, places))
+        np.testing.assert_array_equal(part, naive.look_up_poses(poses, path, places))
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(2, 5), st.integers(1, 3))
@@ -226,10 +228,12 @@ def test_divisions_are_those_of_the_naive_version(seed: int, count: int, smooth:
     rng = np.random.default_rng(seed)
     rows = np.sin(np.arange(40)[:, None] / (2, 3, 5)) + rng.normal(0, 0.3, (40, 3))
     poses, speeds = kernels.smooth_rows(rows.astype(np.float32), smooth)
-    for found, expected in zip((poses, speeds), naive.smoothed(rows.astype(np.float32), smooth)):
+    for found, expected in zip((poses, speeds), naive.smooth_rows(rows.astype(np.float32), smooth)):
         np.testing.assert_allclose(found, expected, atol=1e-5)
     path = np.append(0, np.cumsum(speeds))
     visits = np.sort(rng.choice(np.arange(2, 39, 6), count, replace=False))
     options = 6, 1.0, 1.5, 0.4, 0.2
     found = kernels.measure_division(poses, path, visits, *options)
-    np.testing.assert_allclose(found, naive.division(poses, path, visits, *options), atol=1e-9)
+    np.testing.assert_allclose(
+        found, naive.measure_division(poses, path, visits, *options), atol=1e-9
+    )

@@ -1,4 +1,4 @@
-"""Sensors: what is posture and energy, a tree of segments, and the level that fits."""
+"""Sensors: posture and energy, the tree of segments, and the choice of the level."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from kineme.features.channels import compute_channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.preset import SENSORS
-from kineme.methods.kineme.tree import MOVED, choose_part_ends
+from kineme.methods.kineme.tree import MAX_SHIFT, choose_part_ends
 from kineme.methods.kineme.views import compute_views, measure_mutual_information, reduce_shared
 
 FPS = 50.0
 
 
 def worn(seed: int = 0) -> tuple[np.ndarray, list[int]]:
-    """Standing, walking, standing, running, lying, walking: six channels, and where each ends."""
+    """Make standing, walking, standing, running, lying, walking: six channels, and all ends."""
     rng = np.random.default_rng(seed)
     parts = []
     for posture, pace, strength in (
@@ -57,7 +57,9 @@ def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
     width = min(width, len(features))
     found = np.empty((len(features), width), np.float32)
     kernels.compute_similarity_band(features, unit, 0, len(features), found)
-    np.testing.assert_allclose(found, naive.similarity_band(features, unit, width), atol=1e-5)
+    np.testing.assert_allclose(
+        found, naive.compute_similarity_band(features, unit, width), atol=1e-5
+    )
 
 
 @given(samples(), st.data())
@@ -67,7 +69,7 @@ def test_distances_of_segments_are_those_of_the_naive_version(features, data) ->
     borders = np.array([0, *sorted(cuts), len(features)])
     sums = tree.sum_between_segments(features, borders, 2.0)
     segments = [range(a, b) for a, b in pairwise(borders.tolist())]
-    expected = np.array(naive.mean_distances(features, segments, 2.0))
+    expected = np.array(naive.compute_mean_distances(features, segments, 2.0))
     lengths = np.diff(borders)
     np.testing.assert_allclose(sums, expected * np.outer(lengths, lengths), atol=1e-4)
 
@@ -81,7 +83,7 @@ def test_the_cheapest_grouping_is_that_of_the_naive_version(
     lengths = 1.0 + np.arange(n) % 3
     means = np.linalg.norm(features[:, None] - features, axis=2) + 0.1
     sums = np.ascontiguousarray(means * np.outer(lengths, lengths))
-    cost, groups = naive.cheapest_grouping(sums, lengths, most, run, cluster, share)
+    cost, groups = naive.find_cheapest_grouping(sums, lengths, most, run, cluster, share)
     labels = np.empty(n, np.int64)
     assert kernels.find_cheapest_grouping(
         sums.copy(), lengths.copy(), most, run, cluster, share, labels
@@ -163,7 +165,7 @@ def test_steps_are_counted() -> None:
 
 
 def test_up_and_down_are_one_repetition_though_the_sensor_shakes_alike() -> None:
-    """It is held otherwise on the way up and on the way down."""
+    """The sensor has another orientation on the way up than on the way down."""
     for times in range(4, 9):
         phase = 2 * np.pi * np.arange(int(times * 3 * FPS)) / (3 * FPS)
         shaken = np.column_stack([np.sin(2 * phase), np.cos(2 * phase), np.sin(4 * phase + 1)])
@@ -190,7 +192,7 @@ def test_parts_are_whole_and_none_is_too_long(n: int, longest: int, side: int, s
     rows = np.random.default_rng(seed).normal(size=(n, 2))
     lengths = np.diff(choose_part_ends(rows, longest, side))
     assert lengths.sum() == n
-    assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MOVED))
+    assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MAX_SHIFT))
 
 
 def test_parts_meet_where_the_recording_changes() -> None:
@@ -263,7 +265,7 @@ def test_what_samples_differ_by_does_not_hang_on_what_else_a_file_has() -> None:
     minute = np.repeat(rng.normal(size=(6, 4)), 50, axis=0) + rng.normal(0, 0.1, (300, 4))
     others = [k + minute for k in range(20)]
     alone, joined = (
-        tree.compute_median_distance(np.float32(features), SENSORS.near)
+        tree.compute_median_distance(np.float32(features), SENSORS.comparison_width)
         for features in (minute, np.concatenate(others))
     )
     assert joined < 1.5 * alone
@@ -279,7 +281,7 @@ def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
         compute_views(channels, SENSORS, joints=each).views for each in (True, False)
     )
     for told, plain in zip(joints, sensors, strict=True):
-        unit = tree.compute_median_distance(plain, SENSORS.near)
+        unit = tree.compute_median_distance(plain, SENSORS.comparison_width)
         assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
         assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
         assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit

@@ -13,7 +13,7 @@ PERIOD, HALF = 40, 2000
 
 
 def two_states(period: float, half: int) -> np.ndarray:
-    """A sine, then one with a second harmonic, with some noise."""
+    """Make a sine, then one with a second harmonic, with some noise."""
     phase = np.arange(half) * 2 * np.pi / period
     both = np.concatenate([np.sin(phase), np.sin(phase) + np.sin(2 * phase)])
     return both + 0.05 * np.random.default_rng(0).standard_normal(2 * half)

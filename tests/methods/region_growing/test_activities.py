@@ -1,4 +1,4 @@
-"""Growing regions against their naive twins, and what they find in plain cases."""
+"""Growing regions against naive versions, and simple cases."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ COUNTS = st.integers(0, 30)
 
 
 def blocks(*lengths: int, gap: int = 20):
-    """Square blocks of mutual neighbours, so many frames between them, no near diagonal."""
+    """Make square blocks of mutual neighbours with gaps between them, without the diagonal."""
     pairs, start = {}, 0
     for length in lengths:
         frames = range(start, start + length)
@@ -39,7 +39,7 @@ def blocks(*lengths: int, gap: int = 20):
 def test_squares_are_those_of_the_naive_version(graph, min_gap, min_count, min_distance) -> None:
     options = {"min_gap": min_gap, "min_count": min_count, "min_distance": min_distance}
     cuts = find_square_cuts(graph, **options)
-    expected = naive.growing_squares(as_pairs(graph), len(graph), **options)
+    expected = naive.find_square_cuts(as_pairs(graph), len(graph), **options)
     assert (cuts.forward.tolist(), sorted(set(cuts.backward.tolist()))) == (
         expected[0],
         sorted(set(expected[1])),
@@ -50,7 +50,7 @@ def test_squares_are_those_of_the_naive_version(graph, min_gap, min_count, min_d
 @seconds
 def test_scan_lines_are_those_of_the_naive_version(graph, min_gap, min_count) -> None:
     cuts = find_scan_line_cuts(graph, min_gap=min_gap, min_count=min_count)
-    expected = naive.scanned_lines(
+    expected = naive.find_scan_line_cuts(
         as_pairs(graph), len(graph), min_gap=min_gap, min_count=min_count
     )
     assert (cuts.forward.tolist(), cuts.backward.tolist()) == expected
@@ -60,7 +60,7 @@ def test_scan_lines_are_those_of_the_naive_version(graph, min_gap, min_count) ->
 @seconds
 def test_peaks_are_those_of_the_naive_version(heights, min_height, min_distance) -> None:
     found = _find_peaks(np.array(heights, np.int64), min_height, min_distance)
-    assert found.tolist() == naive.peaks(dict(enumerate(heights)), min_height, min_distance)
+    assert found.tolist() == naive.find_peaks(dict(enumerate(heights)), min_height, min_distance)
 
 
 @given(sparse_graphs(), st.booleans())
@@ -84,7 +84,7 @@ def test_inner_neighbors_are_those_of_the_naive_version(graph, data) -> None:
     counts = _kernels.count_inner_neighbors(
         graph.indptr, graph.indices, np.array(borders, np.int64)
     )
-    assert counts.tolist() == naive.inner_neighbors(as_pairs(graph), borders)
+    assert counts.tolist() == naive.count_inner_neighbors(as_pairs(graph), borders)
 
 
 @pytest.mark.parametrize("form", ["squares", "scan_lines"])

@@ -1,4 +1,4 @@
-"""Laws of the whole chain from features to clusters, and where they must hold exactly."""
+"""Invariances of the whole chain from features to clusters."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_threads_and_repetition_change_nothing(preset, set_threads) -> None:
 
 @st.composite
 def constants(draw: st.DrawFn) -> RegionGrowingPreset:
-    """A preset with constants changed in every direction it allows."""
+    """Draw a preset with changed constants."""
     seconds = st.sampled_from([0.0, 0.01, 1 / 30, 0.2, 1.0, 50.0])
     some = st.sampled_from([0.01, 1 / 30, 0.2, 50.0])
     few_frames = st.integers(1, 20)

@@ -1,4 +1,4 @@
-"""Links between segments and the clusters they make."""
+"""Links between segments, and clusters."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from graphs import as_lists, flat, sparse_graphs, staircases
+from graphs import as_lists, flatten_paths, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.clustering import cluster_segments
 from kineme.methods.region_growing.neighbors import neighbor_graph
@@ -25,9 +25,11 @@ def test_links_are_those_of_the_naive_version(paths, data, coverage, interpolate
     borders = sorted(data.draw(st.sets(st.integers(0, 25), min_size=2)))
     g = data.draw(st.integers(0, len(borders) - 2))
     linked, shares = _kernels.find_linked_segments(
-        *flat(paths), np.array(borders, np.int64), g, coverage, interpolate
+        *flatten_paths(paths), np.array(borders, np.int64), g, coverage, interpolate
     )
-    expected = naive.linked_segments(paths, borders, g, coverage=coverage, interpolate=interpolate)
+    expected = naive.find_linked_segments(
+        paths, borders, g, coverage=coverage, interpolate=interpolate
+    )
     assert linked.tolist() == [h for h, _ in expected]
     np.testing.assert_allclose(shares, [share for _, share in expected])
 
@@ -57,14 +59,14 @@ def test_clusters_are_those_of_the_naive_rules(
         links.append(
             dict(
                 sorted(
-                    naive.linked_segments(
+                    naive.find_linked_segments(
                         as_lists(paths), borders, g, coverage=coverage, interpolate=interpolate
                     ),
                     key=lambda link: link[1],
                 )
             )
         )
-    labels = naive.clusters(links, connection)
+    labels = naive.cluster_segments(links, connection)
     assert found.labels.tolist() == labels
     scores = [0.0] * len(labels)
     for g, targets in enumerate(links):

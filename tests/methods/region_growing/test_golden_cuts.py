@@ -44,7 +44,7 @@ def test_2014_finds_the_activities_of_the_authors_program(
 
 
 def test_2014_is_near_the_reading_of_its_lost_functions(data_dir: Path) -> None:
-    """With the values of that run; both are readings of the paper, so equality is not asked."""
+    """With the constants of that run; both interpret the paper, so results need not be equal."""
     for level in ("primitives", "clusters"):
         found = [compare(data_dir, "voegele2014 as run", trial)[level] for trial in TRIALS]
         differing = sum(len(agreement.differences) for agreement in found)

@@ -1,4 +1,4 @@
-"""Mirrored cuts: left and right steps become primitives of their own."""
+"""Mirrored cuts: left and right steps become separate primitives."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def longest(found: RegionsFound) -> str:
 @given(frames, frames, st.sampled_from([0.5, 7.5, 30.0]))
 def test_merging_equals_the_naive_version(main, mirrored, gap) -> None:
     found = merge_cuts(np.array(main, np.int64), np.array(mirrored, np.int64), gap)
-    assert found.tolist() == naive.merged_cuts(main, mirrored, gap)
+    assert found.tolist() == naive.merge_cuts(main, mirrored, gap)
 
 
 @presets

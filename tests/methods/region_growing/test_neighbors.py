@@ -1,4 +1,4 @@
-"""The neighbour graph: exact against its naive twin, its laws, and what it refuses."""
+"""The neighbour graph: equality with the naive version, invariances, and errors."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def spread(points: np.ndarray) -> float:
 def test_equal_to_the_naive_version(points, share, k, max_lag) -> None:
     radius = share * spread(points)
     graph = neighbor_graph(points, radius=radius, k=k, max_lag=max_lag)
-    assert as_pairs(graph) == naive.neighbors(points, radius=radius, k=k, max_lag=max_lag)
+    assert as_pairs(graph) == naive.find_neighbors(points, radius=radius, k=k, max_lag=max_lag)
 
 
 @given(features(), st.data(), SHARES, COUNTS, COUNTS)
@@ -42,7 +42,9 @@ def test_equal_to_the_naive_version_between_two_sets(points, data, share, k, max
     others = points[:: data.draw(st.sampled_from([1, -1, 3]))] + shift
     radius = share * spread(points)
     graph = neighbor_graph(points, others, radius=radius, k=k, max_lag=max_lag)
-    assert as_pairs(graph) == naive.neighbors(points, others, radius=radius, k=k, max_lag=max_lag)
+    assert as_pairs(graph) == naive.find_neighbors(
+        points, others, radius=radius, k=k, max_lag=max_lag
+    )
     assert graph.n_columns == len(others)
 
 
@@ -94,7 +96,7 @@ def test_rows_come_nearest_first_and_ties_by_frame(points, share, k) -> None:
 @given(sparse_graphs(), st.integers(1, 20))
 @seconds
 def test_nearest_is_the_naive_version(graph: NeighborGraph, k: int) -> None:
-    assert as_pairs(graph.nearest(k)) == naive.nearest(as_pairs(graph), k)
+    assert as_pairs(graph.nearest(k)) == naive.select_nearest(as_pairs(graph), k)
 
 
 @pytest.mark.parametrize("unit", [1e-45, 1e-38, 1e-12, 1.0, 1e37])

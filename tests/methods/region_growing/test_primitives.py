@@ -1,4 +1,4 @@
-"""Primitive cuts: soft symmetry, slope, the rule between close cuts."""
+"""Primitive cuts: symmetry, slope, and the choice between close cuts."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from graphs import as_lists, flat, sparse_graphs, staircases
+from graphs import as_lists, flatten_paths, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import neighbor_graph
-from kineme.methods.region_growing.primitives import _choose, find_primitive_cuts
+from kineme.methods.region_growing.primitives import _choose_cuts, find_primitive_cuts
 from kineme.methods.region_growing.warping import BASIC_STEPS, WarpingPaths, warping_paths
 
 seconds = settings(max_examples=60)
@@ -21,8 +21,8 @@ CONSTANTS = {"steps": BASIC_STEPS, "skip_penalty": 0.0, "zero_cost": 1e-6, "sepa
 @given(st.lists(staircases(), max_size=5), st.sampled_from([0.1, 0.5, 1.0]))
 @seconds
 def test_symmetry_is_that_of_the_naive_version(paths, share) -> None:
-    coherent = _kernels.mark_coherent_paths(*flat(paths), share)
-    assert coherent.tolist() == naive.symmetric_paths(paths, share)
+    coherent = _kernels.mark_coherent_paths(*flatten_paths(paths), share)
+    assert coherent.tolist() == naive.mark_coherent_paths(paths, share)
 
 
 @given(
@@ -47,23 +47,23 @@ def test_cuts_are_those_of_the_naive_rules(graph, data, symmetry, max_slope, min
     )
     box = (first, last + 1)
     paths = as_lists(warping_paths(graph, box, box, min_nodes=2, **CONSTANTS))
-    symmetric = naive.symmetric_paths(paths, symmetry)
+    symmetric = naive.mark_coherent_paths(paths, symmetry)
     valid = [
         path
         for path, holds in zip(paths, symmetric, strict=True)
         if holds and 1 / max_slope <= slope(path) <= max_slope
     ]
     assert as_lists(found.paths) == valid
-    assert found.cuts.tolist() == naive.chosen_cuts(valid, (first, last), min_length=min_length)
+    assert found.cuts.tolist() == naive.choose_cuts(valid, (first, last), min_length=min_length)
     assert [valid[source][0][1] for source in found.sources] == found.cuts.tolist()
 
 
 @given(st.lists(staircases(), max_size=6), st.sampled_from([0, 1, 2.5, 4]))
 @seconds
 def test_of_two_close_cuts_the_one_with_the_longer_path_stays(paths, min_length) -> None:
-    ptr, rows, columns = flat(paths)
-    found = _choose(WarpingPaths(ptr, rows, columns, np.zeros(len(paths))), 2, 8, min_length)
-    kept = naive.chosen_cuts(paths, (2 - min_length, 8 + min_length), min_length=min_length)
+    ptr, rows, columns = flatten_paths(paths)
+    found = _choose_cuts(WarpingPaths(ptr, rows, columns, np.zeros(len(paths))), 2, 8, min_length)
+    kept = naive.choose_cuts(paths, (2 - min_length, 8 + min_length), min_length=min_length)
     assert found.cuts.tolist() == kept
 
 

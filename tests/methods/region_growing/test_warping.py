@@ -1,4 +1,4 @@
-"""Components and cheapest warping paths against their naive twins."""
+"""Components and cheapest warping paths against naive versions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ STEPS = st.sampled_from(
 
 @st.composite
 def boxes(draw: st.DrawFn, n: int) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Spans of rows and columns, now and then the whole."""
+    """Draw spans of rows and columns, sometimes all."""
     rows, columns = (
         sorted(draw(st.tuples(st.integers(0, n), st.integers(0, n)) | st.just((0, n))))
         for _ in range(2)
@@ -41,7 +41,7 @@ def boxes(draw: st.DrawFn, n: int) -> tuple[tuple[int, int], tuple[int, int]]:
 @seconds
 def test_components_are_those_of_the_naive_version(graph, steps) -> None:
     pairs = sorted(as_pairs(graph))
-    firsts = naive.components(pairs, steps)
+    firsts = naive.label_components(pairs, steps)
     labels = label_components(graph, steps=steps)
     assert [pairs[label] for label in labels] == [firsts[pair] for pair in pairs]
 
@@ -53,7 +53,7 @@ def test_paths_are_those_of_the_naive_version(graph, steps, penalty, data) -> No
     separation = data.draw(st.none() | st.integers(0, 6))
     options = {"steps": steps, "skip_penalty": penalty, "zero_cost": 1e-4, "separation": separation}
     paths = warping_paths(graph, rows, columns, min_nodes=1, **options)
-    expected = naive.cheapest_paths(as_pairs(graph), rows, columns, **options)
+    expected = naive.find_paths_in_box(as_pairs(graph), rows, columns, **options)
     assert sorted(as_lists(paths)) == sorted(path for _, path in expected)
     np.testing.assert_allclose(sorted(paths.costs), sorted(cost for cost, _ in expected))
 
@@ -65,7 +65,7 @@ def test_among_equally_cheap_paths_one_is_found(graph, steps, penalty, data) -> 
     options = {"steps": steps, "skip_penalty": penalty, "zero_cost": 1e-4}
     pairs = as_pairs(graph)
     paths = warping_paths(graph, rows, columns, min_nodes=1, **options)
-    expected = naive.cheapest_paths(pairs, rows, columns, **options)
+    expected = naive.find_paths_in_box(pairs, rows, columns, **options)
     np.testing.assert_allclose(sorted(paths.costs), sorted(cost for cost, _ in expected))
     for path, cost in zip(as_lists(paths), paths.costs, strict=True):
         moves = [(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(path)]

@@ -57,7 +57,7 @@ def levels_of_two_movements() -> tuple[Segments, Segments]:
 def test_propagation_matches_its_naive_twin(seed, n, longest):
     kernel = random_kernel(seed, n)
     np.testing.assert_array_equal(
-        propagate(kernel, longest), naive.propagated_kernel(kernel, longest)
+        propagate(kernel, longest), naive.propagate_kernel(kernel, longest)
     )
 
 
@@ -71,7 +71,9 @@ def test_window_alignments_are_the_dtak_of_every_window(seed, n, longest, data):
     for v in range(n):
         for length in range(1, min(longest, v + 1) + 1):
             window = slice(v - length + 1, v + 1)
-            expected = naive.dtak(kernel[window, start:stop], weights[window], weights[start:stop])
+            expected = naive.compute_dtak(
+                kernel[window, start:stop], weights[window], weights[start:stop]
+            )
             assert found[v, length - 1] == pytest.approx(expected, rel=1e-12)
 
 
@@ -79,19 +81,19 @@ def test_window_alignments_are_the_dtak_of_every_window(seed, n, longest, data):
 def test_cheapest_lengths_are_the_cheapest_cover(seed, n, shortest, more):
     longest = shortest + more
     costs = np.random.default_rng(seed).random((n, longest))
-    ways = naive.covers(n, shortest, longest)
+    ways = naive.list_covers(n, shortest, longest)
     found = cheapest_lengths(costs, shortest, False).tolist()
     if not ways:
         assert found == []
     else:
-        assert found == min(ways, key=lambda way: naive.cover_cost(costs, way))
+        assert found == min(ways, key=lambda way: naive.compute_cover_cost(costs, way))
 
 
 @given(SEEDS, st.integers(1, 3), st.integers(1, 4))
 def test_first_segmentation_repeats_the_programs_slip(seed, shortest, more):
     labels = np.random.default_rng(seed).integers(0, 3, 24)
     state = majority_segments(labels, 3, shortest, shortest + more)
-    expected = naive.first_segmentation(labels, shortest, shortest + more)
+    expected = naive.find_first_segmentation(labels, shortest, shortest + more)
     assert np.diff(state.borders).tolist() == expected
 
 

@@ -64,7 +64,7 @@ def test_pca_cuts_match_the_naive_twin(seed):
     features = changing(seed)
     starts = [0, *cut("pca", features, 10.0).cuts.tolist()]
     for start, stop in pairwise([*starts, None]):
-        expected = naive.pca_cut(features[start:], first=20, lag=5)
+        expected = naive.find_pca_cut(features[start:], first=20, lag=5)
         assert (expected is None) == (stop is None)
         assert expected is None or start + expected == stop
 
@@ -75,7 +75,7 @@ def test_ppca_cuts_match_the_naive_twin(seed):
     features = changing(seed)
     starts = [0, *cut("ppca", features, 10.0).cuts.tolist()]
     for start, stop in pairwise([*starts, None]):
-        expected = naive.ppca_cut(features[start:], ahead=12, growth=1)
+        expected = naive.find_ppca_cut(features[start:], ahead=12, growth=1)
         assert (expected is None) == (stop is None)
         assert expected is None or start + expected == stop
 

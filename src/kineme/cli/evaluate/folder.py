@@ -24,7 +24,7 @@ from kineme.evaluation.folder import (
 from kineme.evaluation.score import (
     explain_disagreement,
     format_score,
-    score_rows,
+    make_score_rows,
     scores,
     write_result,
 )
@@ -118,7 +118,7 @@ def _show(result: FolderScores) -> None:
         f"{sum(not one.error for one in evaluated)} of {len(evaluated)}"
         for evaluated in result.methods.values()
     ]
-    groups = [*score_rows(columns), ("recordings", [("recordings scored", counted)])]
+    groups = [*make_score_rows(columns), ("recordings", [("recordings scored", counted)])]
     title = f"over all recordings, one mapping for each {result.mapping}"
     show_table(title, list(columns), groups, note=explain_disagreement(columns))
 

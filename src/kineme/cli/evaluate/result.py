@@ -8,8 +8,8 @@ from typing import Any
 from kineme.cli.tables import show_scores
 from kineme.errors import ReadError
 from kineme.evaluation.inputs import (
-    is_annotations,
-    make_comparison,
+    choose_comparison_rate,
+    is_annotation_file,
     read_result,
     read_trial,
     read_truth,
@@ -25,10 +25,10 @@ def score_file(
     *,
     quiet: bool,
 ) -> list[dict[str, Any]]:
-    """Return the scores of a result as records; print them unless quiet."""
+    """Return the scores of a result as records; printed unless quiet."""
     result = read_result(path, fps=fps)
-    n_frames, rate = make_comparison(result)
-    if is_annotations(labels):
+    n_frames, rate = choose_comparison_rate(result)
+    if is_annotation_file(labels):
         recording_path = (result.provenance.get("input") or {}).get("path") or ""
         truth = read_trial(labels, trials[0] if trials else Path(recording_path).stem, fps=rate)
         if truth.frames != n_frames:

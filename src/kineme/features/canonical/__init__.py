@@ -1,4 +1,4 @@
-"""Features of a body that is the same for all: in them, movements of different people match."""
+"""Features of a canonical body, in which movements of different people match."""
 
 from kineme.features.canonical.body import mirror_poses
 from kineme.features.canonical.matching import (

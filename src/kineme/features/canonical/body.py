@@ -1,12 +1,12 @@
-"""Poses of any person as those of one canonical body of fixed size and shape.
+"""Map poses of any person to a canonical body of fixed size and shape.
 
-The canonical body has the directions of the person's limbs and lengths of its own: what is left
-is how somebody moves, whoever it is. Its ankles, head and wrists are told in its own frame: from
-the middle of the hips, y up, turned about the vertical so that left is +x. With them goes what
-these do not tell: how high the pelvis is above the lower foot, and how fast it rises.
+The canonical body has the limb directions of the person and fixed bone lengths, so poses depend on
+the movement and not on the person. A pose holds ankles, head and wrists in the body's own frame:
+relative to the middle of the hips, y up, turned about the vertical so that left is +x. It also
+holds the height of the pelvis above the lower foot, and its vertical speed.
 
-Lengths are in leg lengths. Heading and forward speed are left out: in them, people differ more
-than movements.
+Lengths are in leg lengths. Heading and forward speed are left out, as they differ more between
+people than between movements.
 """
 
 from __future__ import annotations
@@ -22,28 +22,33 @@ from kineme.features.mirroring import EXCHANGED, FLIP
 Joints = Mapping[str, Floats]
 
 HIP, SHOULDER = 0.11, 0.22
-"""From the middle of the body to either side."""
+"""Distances from the middle of the body to a hip and to a shoulder, in leg lengths."""
 TRUNK, NECK = 0.6, 0.32
-"""From the hips to the shoulders, and from there to the head."""
+"""Distances from the hips to the shoulders, and from there to the head, in leg lengths."""
 LEG, ARM = (0.5, 0.5), (0.34, 0.33)
-"""Thigh and shin, upper arm and forearm."""
+"""Lengths of thigh and shin, upper arm and forearm, in leg lengths."""
 RISE = 0.5
-"""Seconds; the vertical speed counts as what the pelvis would rise in so long."""
+"""Seconds; the vertical speed is given as the rise of the pelvis in this time."""
 DIMS = 17
 """Numbers in a pose."""
 
-_STRAIGHT = 0.98  # of the frames show a limb shorter than it is when straight
-_FLAT = 0.1  # of the line through the hips and shoulders; where less lies flat, it has no heading
+_STRAIGHT = 0.98
+"""Quantile of the length of a limb that counts as straight."""
+_FLAT = 0.1
+"""Share of the line through hips and shoulders that must be horizontal to give a heading."""
 
 
 def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
-    """Poses (frames, 17): x, y, z of ankles, head and wrists, left before right; height; rise.
+    """Compute canonical poses (frames, 17).
+
+    They hold x, y, z of ankles, head and wrists, left before right, then height and rise.
 
     Parameters
     ----------
     joints : mapping of str to (frames, 3) array
         Metres, y up, by the names of `kineme.features.canonical.joints.JOINTS`. Without knee or
-        elbow a limb is as long as it reaches; without shoulders they are as the hips.
+        elbow, a limb is as long as its largest reach. Without shoulders, these are parallel to
+        the hips.
     fps : float
         Frames per second.
 
@@ -54,14 +59,14 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
     hips = _normalize(joints["left_hip"] - joints["right_hip"])
     shoulders, sides = hips, dict(joints)
-    # Without shoulders the chest is put on the line from pelvis to head, at the canonical share.
+    # Without shoulders, the chest is on the line from pelvis to head, at the canonical share.
     chest = pelvis + TRUNK / (TRUNK + NECK) * (joints["head"] - pelvis)
     if {"left_shoulder", "right_shoulder"} <= joints.keys():
         shoulders = _normalize(joints["left_shoulder"] - joints["right_shoulder"])
         chest = (joints["left_shoulder"] + joints["right_shoulder"]) / 2
     else:
         sides |= {"left_shoulder": chest, "right_shoulder": chest}
-    # All points are relative to the middle of the hips.
+    # From here on, points are relative to the middle of the hips.
     trunk = TRUNK * _normalize(chest - pelvis)
     legs = [
         sign * HIP * hips
@@ -78,7 +83,7 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     ends = np.stack([*legs, trunk + NECK * _normalize(joints["head"] - chest), *arms], axis=1)
     ground = np.minimum(joints["left_ankle"][:, 1], joints["right_ankle"][:, 1])
     leg = _measure_legs(joints)
-    # The gradient needs two frames; a single one does not rise.
+    # The gradient needs two frames.
     rise = RISE * fps * np.gradient(pelvis[:, 1]) if len(pelvis) > 1 else np.zeros(1)
     vertical = np.stack([pelvis[:, 1] - ground, rise], axis=1) / leg
     # The mean direction of hips and shoulders is the body's left.
@@ -90,7 +95,7 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
 
 
 def mirror_poses(poses: Floats) -> Floats:
-    """Poses (frames, 17) of the body in a mirror: left and right exchanged.
+    """Mirror poses (frames, 17): exchange left and right.
 
     Examples
     --------
@@ -101,7 +106,7 @@ def mirror_poses(poses: Floats) -> Floats:
     >>> bool((mirror_poses(mirror_poses(poses)) == poses).all())
     True
     """
-    # The first 15 numbers are five points; height and rise look the same in a mirror.
+    # The first 15 numbers are five points; height and rise do not change.
     ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
     return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
 
@@ -112,21 +117,21 @@ _SIDES = (("left", 1.0), ("right", -1.0))
 def _compute_limb(
     joints: Joints, names: tuple[str, str, str], bones: tuple[float, float]
 ) -> Floats:
-    """From the top of a limb of the canonical body to its end, (frames, 3)."""
+    """Return the vector from the top of a canonical limb to its end, (frames, 3)."""
     top, end = joints[names[0]], joints[names[2]]
     if names[1] in joints:
         middle = joints[names[1]]
         return bones[0] * _normalize(middle - top) + bones[1] * _normalize(end - middle)
-    # Without a middle joint, bending shows only in how far the end is from the top.
+    # Without a middle joint, the distance of end and top shows how far the limb is bent.
     reach = np.linalg.norm(end - top, axis=1, keepdims=True)
-    # A high quantile instead of the maximum, which may be a tracking error.
+    # A high quantile is robust to tracking errors, unlike the maximum.
     bent = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
     straight: Floats = sum(bones) * bent * _normalize(end - top)
     return straight
 
 
 def _measure_legs(joints: Joints) -> float:
-    """Metres, the mean of both legs."""
+    """Return the mean length of both legs in metres."""
     lengths = []
     for side, _ in _SIDES:
         hip, ankle = joints[f"{side}_hip"], joints[f"{side}_ankle"]
@@ -141,6 +146,7 @@ def _measure_legs(joints: Joints) -> float:
 
 
 _TINY = 1e-9
+"""Smallest divisor."""
 
 
 def _normalize(vectors: Floats) -> Floats:

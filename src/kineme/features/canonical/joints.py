@@ -1,10 +1,10 @@
 """Find hips, knees, ankles, shoulders, elbows, wrists and head of any body.
 
-Ankles, wrists and head are found as everywhere (see `kineme.features.effectors`). The joints
-between come from the skeleton, where it has limbs. A leg goes from the pelvis to an ankle, an arm
-from where the arms part to a wrist. In each, the longest and most equal pair of bones begins at hip
-and knee, or at shoulder and elbow. Markers and keypoints, which hang on nothing, are found by their
-usual names (see `kineme.recordings.joint_names`).
+Ankles, wrists and head are found as in `kineme.features.effectors`. The other joints are found by
+the bones of the skeleton. A leg runs from the pelvis to an ankle, an arm from the joint where the
+arms branch to a wrist. The pair of bones in it that is longest and most equal begins at hip and
+knee, or at shoulder and elbow. Markers and keypoints, which have no bones, are found by their usual
+names (see `kineme.recordings.joint_names`).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ JOINTS = (
     *("right_shoulder", "right_elbow", "right_wrist", "head"),
 )
 LIMBS = (("hip", "knee", "ankle"), ("shoulder", "elbow", "wrist"))
-"""Top, middle and end of a leg and of an arm."""
+"""Top, middle and end joint of a leg and of an arm."""
 _NAMED = (
     ("*_hip", "*_hip_centre", "*_thigh"),
     ("*_knee", "*_shank"),
@@ -40,15 +40,15 @@ _NAMED = (
 
 
 def match_canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
-    """Return for each of `JOINTS` the points of the motion whose middle it is.
+    """Return the points of the motion whose mean is each of `JOINTS`.
 
-    Knees, elbows and shoulders that were not found are not there.
+    Knees, elbows and shoulders that were not found are left out.
 
     Parameters
     ----------
     motion : Motion
     effectors : joints, optional
-        To take for head, hands and feet where names do not tell.
+        Joints to use as head, hands and feet if their names are not recognised.
 
     Returns
     -------
@@ -80,9 +80,9 @@ def find_limbs(
     ----------
     skeleton : Skeleton
     ends : mapping of str to int
-        The ankles and wrists; those that are not there are looked for by name.
+        Ankles and wrists; missing ones are searched by name.
     single : bool
-        Return one point for each joint, and none that is the middle of several.
+        Return only joints that are a single point, not the mean of several.
     """
     named = find_joints(skeleton.names, _NAMED, single=single)
     found: dict[str, Points] = {}
@@ -91,39 +91,39 @@ def find_limbs(
             ends.get(joint, named.get(joint, (-1,))[0]) for joint in (f"left_{end}", f"right_{end}")
         ]
         chains = [skeleton.ancestry(tip) for tip in tips]
-        # Equal joints from the root on: the limbs part below the last of these.
+        # The limbs branch at the last joint that both chains share.
         shared = sum(1 for a, b in zip(*chains, strict=False) if a == b)
         for side, tip, chain in zip(SIDES, tips, chains, strict=True):
-            places = (*_find_top_and_middle(skeleton, chain[shared:]), tip)
-            for part, place in zip((top, middle, end), places, strict=True):
+            indices = (*_find_top_and_middle(skeleton, chain[shared:]), tip)
+            for part, index in zip((top, middle, end), indices, strict=True):
                 joint = f"{side}_{part}"
-                points = (place,) if place >= 0 else named.get(joint)
+                points = (index,) if index >= 0 else named.get(joint)
                 if points:
                     found[joint] = points
     return found
 
 
 def _find_top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:
-    """Return where the two long bones of a chain begin, -1 where it has no such joint.
+    """Return the joints at which the two long bones of a chain begin; -1 for missing ones.
 
-    They are the longest pair, and the most equal one. Where the limbs part, left and right are one:
-    that joint is none of them.
+    They are the pair of bones that is longest and most equal. ``chain`` begins below the joint at
+    which the limbs branch.
     """
-    # Length of the chain from where the limbs part down to each joint.
+    # Length of the chain from the branch down to each joint.
     below = np.cumsum(np.linalg.norm(skeleton.offsets[chain], axis=1))
     inner = [
         place
         for place, joint in enumerate(chain[:-1])
-        # Joints with a bone of some length above and below, unless they only turn a bone.
+        # Joints between two bones of some length, except joints that only twist a bone.
         if 0 < below[place] < below[place + 1] and not has_word(skeleton.names[joint], TWIST)
     ]
     if len(inner) < 2:
         return (chain[inner[0]] if inner else -1), -1
 
-    def unlikely(pair: tuple[int, int]) -> float:
+    def compute_penalty(pair: tuple[int, int]) -> float:
         upper, lower = below[pair[1]] - below[pair[0]], below[-1] - below[pair[1]]
-        # Both terms are logarithms, so the choice does not depend on the unit of length.
+        # Logarithms, so that the choice does not depend on the unit of length.
         return float(abs(np.log(upper / lower)) - np.log(upper + lower))
 
-    top, middle = min(combinations(inner, 2), key=unlikely)
+    top, middle = min(combinations(inner, 2), key=compute_penalty)
     return chain[top], chain[middle]

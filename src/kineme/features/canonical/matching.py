@@ -1,14 +1,15 @@
-"""Features in which the movements of different people match: directions on a sphere.
+"""Matching features, in which the movements of different people are similar: unit vectors.
 
-Poses of the canonical body (see `kineme.features.canonical.body`) are taken at 30 Hz, each stacked
-with those 0.1 and 0.2 s before and after it. A fixed mean is subtracted. What is left is projected
-on fixed main axes of many people's movements, divided by a shrunk deviation of each, and made a
-unit vector. So it counts how a pose departs from the mean one, not how far. The distance of two is
-the chord between them: 0 is equal, 1.41 has nothing in common, 2 is opposite.
+Poses of the canonical body (see `kineme.features.canonical.body`) are computed at 30 Hz, and each
+is stacked with those 0.1 and 0.2 s before and after it. A fixed mean is subtracted. The rest is
+projected on fixed principal axes, each divided by its shrunk deviation, and normalised to length 1.
+So a feature describes the direction in which a pose differs from the mean, but not the amount. The
+distance of two features is 0 if they are equal, 1.41 if they have nothing in common, and 2 if they
+are opposite.
 
-Mean and axes are in ``basis.npz``. They were fitted to poses of HDM05, UTKinect, CMU's subject 86
-and single takes, each corpus with the same weight: the eigenvectors of the mean covariance, each
-divided by the root of its variance plus 0.3 of the largest one.
+Mean and axes are stored in ``basis.npz``. They were fitted to poses of HDM05, UTKinect, CMU's
+subject 86 and single takes, each corpus with the same weight. The axes are the eigenvectors of the
+mean covariance, each divided by the root of its variance plus 0.3 of the largest variance.
 """
 
 from __future__ import annotations
@@ -30,27 +31,28 @@ from kineme.recordings.operations import resample
 MATCHING_FPS = 15.0
 """Features per second."""
 OFFSETS_S = (-0.2, -0.1, 0.0, 0.1, 0.2)
-"""Seconds between a frame and those it is stacked with."""
+"""Time offsets of the stacked frames, s."""
 DIMS = 40
 """Numbers in a feature."""
 POSE_FPS = 30.0
-"""Poses per second, of which every second one becomes a feature."""
+"""Poses per second; every second pose becomes a feature."""
 
-_SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0  # of positions, over 0.17 s
+_SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0
+"""Weights of the smoothing of positions, over 0.17 s."""
 
 
 def matching_features(
     motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
 ) -> NDArray[np.float32]:
-    """Unit vectors (n, 40), 15 a second; zero where the body is not seen.
+    """Compute matching features: unit vectors (n, 40), 15 per second; zeros in gaps.
 
     Parameters
     ----------
     motion : Motion
     effectors : joints, optional
-        To take for head, hands and feet where names do not tell.
+        Joints to use as head, hands and feet if their names are not recognised.
     mirrored : bool
-        Of the motion in a mirror, left and right exchanged.
+        Exchange left and right first.
 
     Returns
     -------
@@ -74,13 +76,13 @@ def matching_features(
 
 
 def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
-    """Poses of the canonical body (n, 17), 15 a second: what a whole segment is described by.
+    """Compute poses of the canonical body (n, 17), 15 per second, for embeddings of segments.
 
     Parameters
     ----------
     motion : Motion
     effectors : joints, optional
-        To take for head, hands and feet where names do not tell.
+        Joints to use as head, hands and feet if their names are not recognised.
 
     Returns
     -------
@@ -90,7 +92,7 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     Raises
     ------
     EndEffectorError, MotionError
-        As `matching_features`.
+        As for `matching_features`.
 
     Examples
     --------
@@ -100,26 +102,26 @@ def matching_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
     >>> matching_poses(motion).shape
     (725, 17)
     """
-    # Every second one: 30 Hz to 15 Hz.
+    # Every second pose: 30 Hz to 15 Hz.
     return compute_poses(resample(motion, POSE_FPS), effectors=effectors)[::2]
 
 
 def compute_features_and_poses(
     motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
 ) -> tuple[NDArray[np.float32], Floats]:
-    """Return what `matching_features` and `matching_poses` give, of one look at the body."""
+    """Return the results of both `matching_features` and `matching_poses`, in one pass."""
     at_rate = resample(motion, POSE_FPS)
     poses = compute_poses(at_rate, effectors=effectors)
     stacked = stack_poses(mirror_poses(poses) if mirrored else poses)
     features = compute_directions(stacked, *load_basis())
     for start, stop in at_rate.gaps:
-        # Gaps are in frames at 30 Hz: half as many, rounded up to the first kept frame inside.
+        # Convert gaps from 30 Hz to 15 Hz, rounded up to the first kept frame inside.
         features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
     return features, poses[::2]
 
 
 def compute_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
-    """Poses of the canonical body (frames, 17) at the rate of the motion, which is smoothed."""
+    """Compute poses of the canonical body (frames, 17) from smoothed positions."""
     joints = {
         joint: _smooth(motion.positions[:, list(points)].mean(axis=1))
         for joint, points in match_canonical_joints(motion, effectors=effectors).items()
@@ -128,20 +130,20 @@ def compute_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
 
 
 def stack_poses(poses: Floats) -> Floats:
-    """(n, 85): every second one of poses at 30 Hz, stacked with its neighbours."""
-    # Stacked at 30 Hz, where neighbours are 3 and 6 frames away, and thinned afterwards.
+    """Stack poses at 30 Hz with their neighbours and return every second one, (n, 85)."""
+    # Neighbours are 3 and 6 frames away, so stack first and thin out afterwards.
     return stack(poses, round_offsets(OFFSETS_S, POSE_FPS))[::2]
 
 
 def compute_directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
-    """Unit vectors (frames, 40): where stacked poses lie from the mean, along the axes."""
+    """Return unit vectors (frames, 40): directions of stacked poses from the mean, in the axes."""
     return _normalize((stacked - mean) @ axes)
 
 
 def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Matching features (n, 40) of the body in a mirror, estimated from those of the body.
+    """Estimate the matching features (n, 40) of the mirrored motion from those of the motion.
 
-    The axes hold nearly, not exactly, what a mirror shows of them: the median error is about 0.1.
+    The axes are not exactly closed under mirroring: the median error is about 0.1.
 
     Examples
     --------
@@ -153,25 +155,25 @@ def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     >>> bool(np.median(errors) < 0.15)
     True
     """
-    return _normalize(features @ _mirror())
+    return _normalize(features @ _make_mirror_matrix())
 
 
 @cache
-def _mirror() -> Floats:
-    """(40, 40): by least squares, what features along the axes become in a mirror."""
+def _make_mirror_matrix() -> Floats:
+    """Return the (40, 40) matrix that mirrors features, by least squares."""
     _, axes = load_basis()
-    # Numbers in one pose: the rows of the axes are those of five stacked poses.
+    # Numbers in one pose: the rows of the axes belong to five stacked poses.
     poses = len(axes) // len(OFFSETS_S)
-    # The mirror of a pose is linear: its matrix, once on the diagonal for each stacked pose.
+    # Mirroring is linear: a block-diagonal matrix with one block for each stacked pose.
     exchange = np.kron(np.eye(len(OFFSETS_S)), mirror_poses(np.eye(poses)))
-    # From features back to poses (pseudoinverse), mirrored, and to features again.
+    # Features to poses (pseudoinverse), mirror, poses to features.
     matrix: Floats = np.linalg.pinv(axes) @ exchange @ axes
     return matrix
 
 
 @cache
 def load_basis() -> tuple[Floats, Floats]:
-    """Return the mean (85,) and the axes (85, 40), each over its shrunk deviation."""
+    """Return the mean (85,) and the axes (85, 40), each divided by its shrunk deviation."""
     with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
@@ -182,8 +184,7 @@ def _normalize(values: NDArray[np.floating]) -> NDArray[np.float32]:
 
 
 def _smooth(positions: Floats) -> Floats:
-    """Return a weighted mean over five frames; at the ends the outermost frame is repeated."""
-    # Two frames more at either end, as the five weights need.
+    """Return a weighted mean over five frames; the first and last frame are repeated."""
     longer = np.concatenate([positions[:1]] * 2 + [positions] + [positions[-1:]] * 2)
     smoothed = np.zeros_like(positions)
     for k, weight in enumerate(_SMOOTHING):

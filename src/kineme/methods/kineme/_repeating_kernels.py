@@ -1,6 +1,6 @@
-"""Compiled loops of the description of a segment by one repetition, and similarity of movements.
+"""Compiled loops that test whether segments repeat, and measure the similarity of movements.
 
-Naive twins are in ``tests/helpers/naive``.
+Naive versions of the kernels are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from numba import njit
 from kineme._util.parallel import OPTIONS
 
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
-LEAST = 2
-"""Repetitions of a movement, at least."""
+MIN_COUNT = 2
+"""Smallest number of repetitions of a movement."""
 ROUGH = 0.02
-"""Share of their variance that repetitions of one movement differ by in any case."""
+"""Smallest unexplained share of the variance of repetitions that is significant."""
 
 
 @njit("void(float64[:, :, ::1])", **OPTIONS)
@@ -31,19 +31,19 @@ def center_repetitions(repetitions):
 
 
 @njit("float64(int64[::1], float64, float64, float64, float64, float64, float64)", **OPTIONS)
-def share_by_times(
+def score_durations(
     visits, fps, max_repetition, chance_period, uneven, chance_count, chance_duration
 ):
-    """Return the share that a division saves at most, by number and durations of repetitions."""
+    """Return an upper bound of the share that a division saves, from its durations; 0 to 1."""
     count = len(visits)
-    # Two visits enclose one repetition, which nothing else can explain.
+    # Two visits enclose one repetition, which no other can explain.
     if count < 3:
         return 0.0
     durations = np.diff(visits) / fps
     if durations.max() > max_repetition:
         return 0.0
     fast = min(chance_period / durations.mean(), 1.0) ** 2
-    # Logarithms, since twice as long and half as long are equally uneven.
+    # Logarithms, so that twice as long and half as long are equally uneven.
     even = 1 - min(np.log(durations).std() / uneven, 1.0) ** 2
     chance = min(chance_count, chance_duration / durations.mean())
     return even * (1 - max(fast, min(chance / count, 1.0)))
@@ -51,10 +51,10 @@ def share_by_times(
 
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)
 def explain_variance(poses, path, visits, centered):
-    """Return share of the variance of repetitions that the mean of the others explains, in time.
+    """Return the share of the variance of repetitions that the mean of the others explains.
 
-    The variance is about the mean of each repetition. The mean of the others is scaled by the
-    factor that fits best. ``centered`` are the repetitions, each with a mean of 0.
+    The mean of the others is scaled by the factor that fits best, and compared frame by frame.
+    ``centered`` are the centred repetitions.
     """
     count, places, dims = centered.shape
     total = centered.sum(axis=0)
@@ -62,22 +62,22 @@ def explain_variance(poses, path, visits, centered):
     expected, rest = np.empty(dims), np.empty(dims)
     left = 0.0
     for k in range(count):
-        # The mean of the others, and its best size for this repetition.
+        # Mean of the others, and the factor that fits it to this repetition.
         product = mean_square = 0.0
         for p in range(places):
             for d in range(dims):
-                # The sum of all, less itself, is that of the others.
+                # Sum of all less this one is the sum of the others.
                 mean[p, d] = (total[p, d] - centered[k, p, d]) / (count - 1)
                 product += centered[k, p, d] * mean[p, d]
                 mean_square += mean[p, d] * mean[p, d]
-        # A negative factor would turn the mean round: 0 is the least.
+        # A negative factor would reverse the movement, so it is at least 0.
         size = max(product, 0.0) / max(mean_square, 1e-12)
-        # What is left of each frame: the mean is interpolated at the place that it has reached.
+        # Residual of each frame: the mean is interpolated at the frame's position on the path.
         first, last = visits[k], visits[k + 1]
         length = max(path[last] - path[first], 1e-12)
         residuals = np.empty((last - first, dims))
         for f in range(first, last):
-            # Places are at the middles of their parts, hence half a place less.
+            # Places are at the middles of equal parts of the path, hence - 0.5.
             phase = (path[f] - path[first]) / length * places - 0.5
             low = min(max(int(np.floor(phase)), 0), places - 1)
             high = min(low + 1, places - 1)
@@ -85,8 +85,7 @@ def explain_variance(poses, path, visits, centered):
             for d in range(dims):
                 fitted = mean[low, d] * (1 - share) + mean[high, d] * share
                 residuals[f - first, d] = poses[f, d] - size * fitted
-        # Variances of what is left and of the poses, each about its mean.
-        # The variance begins just above 0, so that it can divide.
+        # Variances of residuals and of poses. The latter starts above 0, to avoid division by 0.
         residual, variance = 0.0, 1e-12
         for d in range(dims):
             expected[d] = rest[d] = 0.0
@@ -96,15 +95,15 @@ def explain_variance(poses, path, visits, centered):
             for f in range(first, last):
                 residual += (residuals[f - first, d] - rest[d]) ** 2
                 variance += (poses[f, d] - expected[d]) ** 2
-        noise = (count - 1) / count  # the mean of few others has noise of its own
-        # A repetition that the mean makes worse counts as unexplained; frames weigh the same.
+        noise = (count - 1) / count  # correction for the noise of a mean of few repetitions
+        # Limited to 1: a repetition that does not fit at all is unexplained. Weighted by frames.
         left += min(residual * noise / variance, 1.0) * (last - first)
     return 1 - left / (visits[-1] - visits[0])
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64, int64)", **SUMS)
 def _measure_residual(rows, total, start, stop):
-    """Squares that the best multiple of the mean of the others leaves of rows, summed over rows.
+    """Return the sum of squares of rows that the scaled mean of the other rows does not explain.
 
     ``total`` is the sum of the rows from start to stop.
     """
@@ -117,33 +116,33 @@ def _measure_residual(rows, total, start, stop):
             product += mean * rows[k, e]
             mean_square += mean * mean
             square += rows[k, e] * rows[k, e]
-        # Squares left by the best multiple, corrected for the noise of the mean of few others.
+        # Residual of the best factor, corrected for the noise of a mean of few rows.
         left += (square - max(product, 0.0) ** 2 / max(mean_square, 1e-12)) * (count - 1) / count
     return left
 
 
 @njit("float64(float64[:, :, ::1])", **OPTIONS)
 def find_best_parting(centered):
-    """What two means leave of repetitions, as a share of what one mean leaves; the least share.
+    """Find the best split into first and last repetitions, each described by its own mean.
 
-    One mean is of the first repetitions, the other of the last. 1 where there are too few.
+    Return the residual of two means as a share of that of one mean; 1 without a split.
     """
     count = len(centered)
-    # Sums up to each repetition, so that a total is one difference.
+    # Cumulative sums, so that the sum of a range is one difference.
     rows = centered.copy().reshape(count, -1)
     sums = np.zeros((count + 1, rows.shape[1]))
     for k in range(count):
         for e in range(rows.shape[1]):
             sums[k + 1, e] = sums[k, e] + rows[k, e]
-    # Added to both, so that repetitions that are nearly equal are one movement.
+    # Added to both residuals, so that nearly equal repetitions are one movement.
     rough = 1e-12
     for k in range(count):
         for e in range(rows.shape[1]):
             rough += ROUGH * rows[k, e] * rows[k, e]
     one_mean = _measure_residual(rows, sums[count], 0, count)
     best = 1.0
-    for cut in range(LEAST, count - LEAST + 1):
-        # Both parts have as many repetitions as a movement needs.
+    for cut in range(MIN_COUNT, count - MIN_COUNT + 1):
+        # Residuals of both parts, each with at least MIN_COUNT repetitions.
         two_means = _measure_residual(rows, sums[cut], 0, cut)
         two_means += _measure_residual(rows, sums[count] - sums[cut], cut, count)
         best = min(best, (two_means + rough) / (one_mean + rough))
@@ -152,54 +151,53 @@ def find_best_parting(centered):
 
 @njit("float64(float32[:, ::1], int64, int64, int64)", **SUMS)
 def measure_spread(view, start, stop, most):
-    """Return cost of a span: half the mean distance of two samples, times its number of samples.
+    """Return the cost of a span: half the mean distance of its samples, times their number.
 
-    It is estimated from ``most`` of its samples at most.
+    It is estimated from at most ``most`` samples.
     """
     stop = min(stop, len(view))
     count = min(most, stop - start)
     total = 0.0
     for i in range(count):
         for j in range(i):
-            # Evenly spread samples of the span.
+            # Evenly spaced samples of the span.
             a, b = start + i * (stop - start) // count, start + j * (stop - start) // count
             square = 0.0
             for d in range(view.shape[1]):
                 difference = view[a, d] - view[b, d]
                 square += difference * difference
             total += np.sqrt(square)
-    # The mean over all ordered pairs is twice the sum over count²; half of it is left.
+    # The mean over ordered pairs is 2 * total / count²; the cost is half of that per sample.
     return (stop - start) * total / max(count * count, 1)
 
 
 @njit("float64[:, ::1](float64[:, :, ::1])", **SUMS)
 def measure_similarities(movements):
-    """Similarity of each two movements (movements, places, dims) at the phase that fits best.
+    """Return the similarity of pairs of movements (movements, places, dims) at the best phase.
 
-    It is 1 minus their squared distance over the sum of their variances.
+    It is 1 - squared distance / sum of variances.
     """
     count, places, dims = movements.shape
-    varied = np.zeros(count)
+    variances = np.zeros(count)
     for k in range(count):
         for d in range(dims):
             mean = 0.0
             for p in range(places):
                 mean += movements[k, p, d] / places
             for p in range(places):
-                varied[k] += (movements[k, p, d] - mean) ** 2
-    # Each phase in turn: the one is shifted by so many places against the other.
-    found = np.ones((count, count))
+                variances[k] += (movements[k, p, d] - mean) ** 2
+    # Try each phase: a circular shift of one movement against the other.
+    similarities = np.ones((count, count))
     for k in range(count):
         for other in range(k):
-            least = np.inf
-            for by in range(places):
-                apart = 0.0
+            min_distance = np.inf
+            for shift in range(places):
+                distance = 0.0
                 for p in range(places):
                     for d in range(dims):
-                        # Phases go round: beyond the end is the beginning.
-                        difference = movements[k, (p + by) % places, d] - movements[other, p, d]
-                        apart += difference * difference
-                least = min(least, apart)
-            similarity = 1 - least / max(varied[k] + varied[other], 1e-12)
-            found[k, other] = found[other, k] = similarity
-    return found
+                        difference = movements[k, (p + shift) % places, d] - movements[other, p, d]
+                        distance += difference * difference
+                min_distance = min(min_distance, distance)
+            similarity = 1 - min_distance / max(variances[k] + variances[other], 1e-12)
+            similarities[k, other] = similarities[other, k] = similarity
+    return similarities

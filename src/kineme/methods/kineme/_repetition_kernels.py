@@ -1,8 +1,8 @@
-"""Compiled loops for divisions of an activity into repetitions, their cost, and their ends.
+"""Compiled loops that divide an activity into repetitions, and find their cost and ends.
 
-Poses are those of an activity; ``path`` is the length of its path up to each frame and to the
-end. A place is one of equally many positions on the path of each repetition. Naive twins are in
-``tests/helpers/naive``.
+``path`` is the length of the path of poses up to each frame, and to the end. ``places`` is the
+number of positions on its path at which each repetition is sampled. Naive versions of the kernels
+are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from numba import njit
 
 from kineme._util.parallel import OPTIONS
 
-# Poses of an end that are farther than this share of the largest distance never count in full.
 FARTHEST = 0.9
+"""Share of the largest squared distance up to which poses of an end can count in full."""
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
 
 
 @njit("float32[:, ::1](float32[:, ::1], int64[::1])", **SUMS)
 def measure_distances(features, references):
-    """Distance of each reference frame to each frame."""
+    """Return the distance of each reference frame to each frame."""
     distances = np.empty((len(references), len(features)), np.float32)
     for r in range(len(references)):
         row = features[references[r]]
@@ -35,12 +35,12 @@ def measure_distances(features, references):
 
 @njit("int64[::1](float32[::1], float32)", **OPTIONS)
 def find_turning_points(row, least):
-    """Lowest, highest, ..., lowest columns of a row that rises and falls by ``least`` between."""
+    """Return alternating local minima and maxima that differ by ``least``; both ends are minima."""
     turns = np.empty(len(row) + 1, np.int64)
     count = low = high = 0  # columns of the lowest and highest value since the last turn
     rising = falling = False
     for c in range(len(row)):
-        # Lowest and highest columns since the last turn follow the row.
+        # Update the lowest and the highest column since the last turn.
         low = c if row[c] < row[low] else low
         high = c if row[c] > row[high] else high
         if not rising and row[c] - row[low] >= least:
@@ -48,11 +48,11 @@ def find_turning_points(row, least):
             count += 1
             rising, falling, high = True, False, c
         elif not falling and row[high] - row[c] >= least:
-            if count > 0:  # begin with a lowest
+            if count > 0:  # the first turn is a minimum
                 turns[count] = high
                 count += 1
             rising, falling, low = False, True, c
-    # A row that still falls ends with a lowest.
+    # The last turn is a minimum.
     if falling or count == 0:
         turns[count] = low
         count += 1
@@ -61,25 +61,25 @@ def find_turning_points(row, least):
 
 @njit("Tuple((float32[:, ::1], int64[:, ::1]))(float32[:, ::1], float32[::1])", **OPTIONS)
 def find_dips(distances, least):
-    """Depths of the dips of each row, deepest first, and their columns; zero where no more.
+    """Return depths and columns of the dips of each row, deepest first, padded with zeros.
 
-    A dip is as deep as one must climb to reach a deeper one, the deepest as
-    deep as the row is high (topological persistence). Those shallower than
-    ``least``, and those lowest at either end of the row, do not count.
+    The depth of a dip is the climb that is needed to reach a deeper one; that of the deepest is
+    the range of the row (topological persistence). Dips shallower than ``least``, and those at
+    either end of the row, are left out.
     """
     rows, columns = distances.shape
-    # Between two dips lies a higher column, so at most about half of the columns are dips.
+    # Two dips are separated by a higher column, so about half of the columns at most are dips.
     depths = np.zeros((rows, columns // 2 + 1), np.float32)
     lowest = np.zeros((rows, columns // 2 + 1), np.int64)
     for r in range(rows):
         row = distances[r]
-        # Lows are at even turns, highs at odd ones.
+        # Minima are at even turns, maxima at odd ones.
         turns = find_turning_points(row, least[r])
-        found = np.zeros(len(turns) // 2 + 1, np.float32)
-        where = np.zeros(len(turns) // 2 + 1, np.int64)
+        depths_found = np.zeros(len(turns) // 2 + 1, np.float32)
+        columns_found = np.zeros(len(turns) // 2 + 1, np.int64)
         count = n = 0
-        # A climb smaller than those beside it is a dip whatever else there is. One pass over the
-        # turns takes these away, and leaves few.
+        # A climb smaller than both of its neighbours is the depth of a dip. One pass removes most
+        # dips in this way, so the quadratic loop below has little left to do.
         for t in range(len(turns)):
             turns[n] = turns[t]
             n += 1
@@ -88,49 +88,49 @@ def find_dips(distances, least):
                 before = abs(row[turns[n - 3]] - row[turns[n - 4]])
                 if climb >= before or climb >= abs(row[turns[n - 1]] - row[turns[n - 2]]):
                     break
-                found[count], where[count] = climb, turns[at + at % 2]
+                depths_found[count], columns_found[count] = climb, turns[at + at % 2]
                 count += 1
                 turns[at] = turns[n - 1]
                 n -= 2
         while n > 1:
-            # The smallest climb is the depth of the shallowest dip: take its low and high away.
+            # The smallest climb is the depth of the shallowest dip: remove its minimum and maximum.
             at, climb = 0, FAR
             for t in range(n - 1):
                 if abs(row[turns[t + 1]] - row[turns[t]]) < climb:
                     at, climb = t, abs(row[turns[t + 1]] - row[turns[t]])
-            # An even turn is a low; of a high (odd) its following low goes.
-            found[count], where[count] = climb, turns[at + at % 2]
+            # For an odd turn, a maximum, remove the minimum that follows it.
+            depths_found[count], columns_found[count] = climb, turns[at + at % 2]
             count += 1
             n -= 2
-            # Later turns move up by two.
+            # Close the gap of two turns.
             for t in range(at, n):
                 turns[t] = turns[t + 2]
-        # The last low is the deepest dip: it is as deep as the row is high.
+        # The last minimum is the deepest dip; its depth is the range of the row.
         top = row[0]
         for c in range(columns):
             top = max(top, row[c])
-        found[count], where[count] = top - row[turns[0]], turns[0]
-        # Deepest first, without those at an end of the row.
+        depths_found[count], columns_found[count] = top - row[turns[0]], turns[0]
+        # Sort by depth, and leave out dips at the ends of the row.
         place = 0
-        for i in np.argsort(-found, kind="mergesort"):
-            if found[i] >= least[r] and 0 < where[i] < columns - 1:
-                depths[r, place], lowest[r, place] = found[i], where[i]
+        for i in np.argsort(-depths_found, kind="mergesort"):
+            if depths_found[i] >= least[r] and 0 < columns_found[i] < columns - 1:
+                depths[r, place], lowest[r, place] = depths_found[i], columns_found[i]
                 place += 1
     return depths, lowest
 
 
 @njit("Tuple((float64[:, ::1], float64[::1]))(float32[:, ::1], int64)", **OPTIONS)
 def smooth_rows(rows, smoothing):
-    """Rows averaged over so many before and after, and the mean speed per frame over the same."""
+    """Average rows over ``smoothing`` frames on each side; return them and their mean speeds."""
     n, dims = rows.shape
-    # Sums up to each row, so that a mean is one difference.
+    # Cumulative sums, so that a mean is one difference.
     sums = np.zeros((n + 1, dims))
     for f in range(n):
         for d in range(dims):
             sums[f + 1, d] = sums[f, d] + rows[f, d]
     poses, speeds = np.empty((n, dims)), np.empty(n)
     for f in range(n):
-        # Fewer rows at the ends, where neighbours are missing.
+        # The window is cut at the ends.
         before, after = max(f - smoothing, 0), min(f + smoothing, n - 1)
         for d in range(dims):
             poses[f, d] = (sums[after + 1, d] - sums[before, d]) / (after + 1 - before)
@@ -146,11 +146,11 @@ def smooth_rows(rows, smoothing):
 
 @njit("float64[:, ::1](float64[:, ::1], float64[::1], float64[::1])", **OPTIONS)
 def look_up_poses(poses, path, lengths):
-    """Return the poses at these lengths along the path."""
-    found = np.empty((len(lengths), poses.shape[1]))
-    # Binary search for the frame before this length.
+    """Return the poses at the given lengths along the path."""
+    found_poses = np.empty((len(lengths), poses.shape[1]))
+    # Binary search for the last frame up to each length.
     for i in range(len(lengths)):
-        low, high = 0, len(path)  # the first frame that is farther
+        low, high = 0, len(path)  # range of the first frame beyond this length
         while low < high:
             middle = (low + high) // 2
             if path[middle] <= lengths[i]:
@@ -159,22 +159,22 @@ def look_up_poses(poses, path, lengths):
                 high = middle
         frame = min(max(low - 1, 0), len(poses) - 1)
         for d in range(poses.shape[1]):
-            found[i, d] = poses[frame, d]
-    return found
+            found_poses[i, d] = poses[frame, d]
+    return found_poses
 
 
 @njit("float64[::1](float64[:, :, ::1], float64)", **SUMS)
 def measure_unexplained(repetitions, centering):
-    """Return the share of each repetition that the mean of all others does not explain, 0 to 1.
+    """Return the share of each repetition that the mean of the others does not explain, 0 to 1.
 
-    It is 1 minus the square of their correlation if that is positive, and so does not depend on
-    size. Before, ``centering`` times its mean is subtracted from each repetition (places, dims).
+    It is 1 minus the square of their correlation, or 1 if that is negative. So it does not depend
+    on size. First, ``centering`` times its mean is subtracted from each repetition.
     """
     count, places, dims = repetitions.shape
     rows = np.empty((count, places * dims))
     total = np.zeros(places * dims)
     mean = np.empty(dims)
-    # Repetitions as centered rows, and the sum of these.
+    # Flatten the centred repetitions to rows, and sum them.
     for k in range(count):
         mean[:] = 0
         for p in range(places):
@@ -182,30 +182,30 @@ def measure_unexplained(repetitions, centering):
                 mean[d] += repetitions[k, p, d]
         for p in range(places):
             for d in range(dims):
-                # `mean` holds sums, hence the division by places.
+                # `mean` holds a sum, hence the division by places.
                 value = repetitions[k, p, d] - mean[d] * (centering / places)
                 rows[k, p * dims + d] = value
                 total[p * dims + d] += value
-    # Each row with the sum of the others, which correlates as their mean does.
-    found = np.empty(count)
+    # Correlate each row with the sum of the others, which is proportional to their mean.
+    unexplained = np.empty(count)
     for k in range(count):
         product = square = other = 0.0
-        for each in range(places * dims):
-            rest = total[each] - rows[k, each]
-            product += rows[k, each] * rest
-            square += rows[k, each] * rows[k, each]
+        for column in range(places * dims):
+            rest = total[column] - rows[k, column]
+            product += rows[k, column] * rest
+            square += rows[k, column] * rows[k, column]
             other += rest * rest
-        # The square of a correlation that is not positive counts as 0; the floor avoids 0 / 0.
-        found[k] = 1 - max(product, 0.0) ** 2 / max(square * other, 1e-24)
-    return found
+        # Negative correlations count as 0; the lower limit avoids 0 / 0.
+        unexplained[k] = 1 - max(product, 0.0) ** 2 / max(square * other, 1e-24)
+    return unexplained
 
 
 @njit("float64[:, :, ::1](float64[:, ::1], float64[::1], int64[::1], int64)", **OPTIONS)
 def sample_repetitions(poses, path, visits, places):
-    """(repetitions, places, dims): poses evenly along the path from each visit to the next."""
-    found = np.empty((len(visits) - 1, places, poses.shape[1]))
+    """Sample poses evenly along the path between visits: (repetitions, places, dims)."""
+    repetitions = np.empty((len(visits) - 1, places, poses.shape[1]))
     lengths = np.empty(places)
-    for k in range(len(found)):
+    for k in range(len(repetitions)):
         first, last = path[visits[k]], path[visits[k + 1]]
         for p in range(places):
             # Middles of equal parts of the path.
@@ -213,13 +213,13 @@ def sample_repetitions(poses, path, visits, places):
         reached = look_up_poses(poses, path, lengths)
         for p in range(places):
             for d in range(poses.shape[1]):
-                found[k, p, d] = reached[p, d]
-    return found
+                repetitions[k, p, d] = reached[p, d]
+    return repetitions
 
 
 @njit("float64(float64[::1])", **OPTIONS)
 def find_upper_median(values):
-    """Return the middle value, the upper one of two."""
+    """Return the median, or the upper one of two middle values."""
     ordered = np.empty(len(values))
     # Insertion sort: a division has few repetitions.
     for k in range(len(values)):
@@ -233,7 +233,7 @@ def find_upper_median(values):
 
 @njit("float64[:, ::1](float64[:, :, ::1])", **OPTIONS)
 def average_repetitions(repetitions):
-    """(places, dims): the mean of repetitions of (places, dims) each."""
+    """Return the mean (places, dims) of repetitions (repetitions, places, dims)."""
     count, places, dims = repetitions.shape
     mean = np.zeros((places, dims))
     for k in range(count):
@@ -248,7 +248,7 @@ def average_repetitions(repetitions):
 
 @njit("float64(float64[:, :, ::1], float64[:, ::1])", **SUMS)
 def measure_scatter(repetitions, mean):
-    """Mean square distance of the poses of repetitions from those of their mean; 0 of one."""
+    """Return the mean squared distance of repetitions from their mean; 0 for one repetition."""
     count, places, dims = repetitions.shape
     total = 0.0
     for k in range(count):
@@ -256,23 +256,23 @@ def measure_scatter(repetitions, mean):
             for d in range(dims):
                 difference = repetitions[k, p, d] - mean[p, d]
                 total += difference * difference
-    # One degree of freedom less, since the mean is of the same repetitions.
+    # One degree of freedom less, as the mean is computed from the same repetitions.
     return total / (places * max(count - 1, 1))
 
 
 @njit("Tuple((int64, float64))(float64[:, ::1], float64)", **OPTIONS)
 def match_columns(gains, full):
-    """Columns up to which the rows follow them, and how many of these count; 0 if no path gains.
+    """Find the warping path with the largest gain; return its columns, and how many count.
 
-    They are those of the warping path with the largest gain. Paths begin before the first row and
-    column. Steps (1, 1) count a gain twice, (1, 2) and (2, 1) three times. A column counts by its
-    gain as a share of ``full``, 0 to 1.
+    Return 0 for both if no path gains. Paths begin before the first row and column. Steps (1, 1)
+    count a gain twice, (1, 2) and (2, 1) three times. A column counts by its gain as a share of
+    ``full``, 0 to 1.
     """
     rows, columns = gains.shape
     sums = np.full((rows + 2, columns + 2), -np.inf)
     sums[1, 1] = 0
     best, row, column = 0.0, -1, -1
-    # The largest sum of a path to each entry; those of entry (i, j) are at (i + 2, j + 2).
+    # Largest sum of a path to each entry (i, j), stored at (i + 2, j + 2) to avoid border cases.
     for i in range(rows):
         for j in range(columns):
             straight = sums[i + 1, j + 1] + 2 * gains[i, j]
@@ -280,29 +280,29 @@ def match_columns(gains, full):
             sums[i + 2, j + 2] = max(straight, bent)
             if sums[i + 2, j + 2] > best:
                 best, row, column = sums[i + 2, j + 2], i, j
-    # Back on the best path, step by step, adding up how much of its columns counts.
+    # Backtrack along the best path and add up how much its columns count.
     length, count = column + 1, 0.0
     while row >= 0:
         share = min(max(gains[row, column] / full, 0.0), 1.0)
         bent = max(sums[row, column + 1], sums[row + 1, column])
-        # The same comparison as forward: which step gave the largest sum here.
+        # The same comparison as in the forward pass.
         if 2 * gains[row, column] + sums[row + 1, column + 1] >= 3 * gains[row, column] + bent:
             count, row, column = count + share, row - 1, column - 1
         elif sums[row, column + 1] >= sums[row + 1, column]:
             count, row, column = count + share, row - 2, column - 1
         else:
-            # A step of two columns counts the column that it passes over, too.
+            # A step of two columns also counts the skipped one.
             count, row, column = count + 2 * share, row - 1, column - 2
     return length, count
 
 
 @njit("float64[::1](float64, float64, int64, int64, float64)", **OPTIONS)
 def place_steps(begin, step, places, number, path_length):
-    """Lengths on the path, ``places`` a step from ``begin`` on: ``number``, less those off it."""
+    """Return ``number`` lengths from ``begin`` on, ``places`` per step; drop those off the path."""
     lengths = np.empty(number)
     count = 0
     for i in range(number):
-        # A negative step goes backwards from `begin`.
+        # A negative step goes backwards.
         length = begin + (i + 0.5) / places * step
         if 0 <= length <= path_length:
             lengths[count] = length
@@ -316,13 +316,13 @@ def place_steps(begin, step, places, number, path_length):
     **SUMS,
 )
 def follow_end(poses, path, lengths, mean, near, full):
-    """Places of the mean that the poses at these lengths follow, and how many of these count.
+    """Return how many places of the mean the poses at these lengths follow, and how many count.
 
-    ``near`` and ``full`` are squared distances from the mean: a pose gains by being nearer than
+    ``near`` and ``full`` are squared distances from the mean: a pose has a positive gain below
     ``near``, and counts in full up to ``full``.
     """
     reached = look_up_poses(poses, path, lengths)
-    # Gains begin at `near`, from which the squared distance is subtracted.
+    # The gain is `near` less the squared distance.
     gains = np.full((len(reached), len(mean)), near)
     for i in range(len(reached)):
         for j in range(len(mean)):
@@ -339,41 +339,41 @@ def follow_end(poses, path, lengths, mean, near, full):
     " int64[::1], int64, float64, float64, float64, float64)",
     **OPTIONS,
 )
-def measure_division(poses, path, visits, places, near, followed_for, centering, scattered):
-    """Lengths of both ends in repetitions, how much of them counts, and the unexplained share.
+def measure_division(poses, path, visits, places, near, max_end, centering, max_scatter):
+    """Return the lengths of both ends, how much of them counts, and the unexplained share.
 
-    The ends lie before the first visit and after the last. An end is as long as it follows the
-    mean repetition between the visits, at most ``followed_for`` repetitions. Its poses are nearer
-    to the mean than ``near``, a squared distance. They count in full up to ``scattered`` times the
-    mean square distance of repetitions. The unexplained share is of the whole activity.
+    Lengths are in repetitions. The ends lie before the first visit and after the last. An end is
+    as long as it follows the mean repetition, at most ``max_end`` repetitions. Its poses are
+    nearer to the mean than ``near``, a squared distance. They count in full up to ``max_scatter``
+    times the mean squared distance of repetitions. The unexplained share is that of the activity.
     """
-    # Repetitions between the visits, their upper median length, and their mean.
+    # Lengths of the repetitions between visits, and their mean repetition.
     total_length = path[-1]
     count = len(visits) - 1
     lengths = np.empty(count)
     for k in range(count):
         lengths[k] = path[visits[k + 1]] - path[visits[k]]
-    # The floor avoids a division by 0 where the path stands still.
+    # The lower limit avoids a division by 0 if nothing moves.
     length = max(find_upper_median(lengths), 1e-12)
     inner = sample_repetitions(poses, path, visits, places)
     mean = average_repetitions(inner)
     first, last = path[visits[0]], path[visits[-1]]
-    # The ends: back from the first visit on the reversed mean, and on from the last visit.
-    number_of_steps = int(places * followed_for)
+    # Ends: backwards from the first visit along the reversed mean, forwards from the last visit.
+    number_of_steps = int(places * max_end)
     before = place_steps(first, -length, places, number_of_steps, total_length)
     after = place_steps(last, length, places, number_of_steps, total_length)
     full = FARTHEST * near
     if count > 1:
-        full = min(scattered * measure_scatter(inner, mean), full)
-    # Backwards, so the mean is reversed as well.
+        full = min(max_scatter * measure_scatter(inner, mean), full)
     to_head, in_head = follow_end(poses, path, before, np.ascontiguousarray(mean[::-1]), near, full)
     to_tail, in_tail = follow_end(poses, path, after, mean, near, full)
     head, tail = to_head / places, to_tail / places
-    # The unexplained share: that of repetitions, and all that no repetition reaches.
+    # Path outside of all repetitions, which is unexplained.
     outside = max(first - head * length, 0.0) + max(total_length - last - tail * length, 0.0)
     number = count + head + tail
-    if count == 1:  # one repetition is compared with the rest, which goes on at the beginning
-        # Evenly from the last visit on; beyond the end of the path it goes on at its beginning.
+    if count == 1:
+        # Compare a single repetition with the rest of the path, sampled from the last visit on and
+        # continued at the start.
         ahead = np.empty(places)
         for p in range(places):
             ahead[p] = last + (total_length - length) * ((p + 0.5) / places)
@@ -385,49 +385,48 @@ def measure_division(poses, path, visits, places, near, followed_for, centering,
             for d in range(poses.shape[1]):
                 both[0, p, d], both[1, p, d] = inner[0, p, d], reached[p, d]
         inner = both
-    # Of both only the repetition itself counts.
+    # For a single repetition, drop the share of the rest.
     shares = measure_unexplained(inner, centering)[:count]
-    # Path in the two ends: neither between visits nor outside of all repetitions.
+    # Length of the path in both ends.
     inside = max(total_length - outside - lengths.sum(), 0.0)
     total = (shares.sum() / count * inside + outside) / total_length
-    for k in range(count):  # a short repetition counts as much as one of mean length
+    for k in range(count):  # a short repetition counts at least as much as one of mean length
         total += max(lengths[k] / total_length, 1 / number) * shares[k]
     return head, tail, (in_head + in_tail) / places, total
 
 
 @njit("void(float32[:, ::1], float64, float64[::1])", **OPTIONS)
-def interpolate_pose(rows, at, found):
-    """Return the row at a time between two rows, in frames; the first or last one beyond them."""
-    # Beyond the ends the first or last row.
+def interpolate_pose(rows, at, pose):
+    """Interpolate the row at a time in frames; beyond the ends take the first or last row."""
     before = min(max(int(np.floor(at)), 0), len(rows) - 1)
     after = min(before + 1, len(rows) - 1)
     share = min(max(at - before, 0.0), 1.0)
     for d in range(rows.shape[1]):
-        found[d] = rows[before, d] * (1 - share) + rows[after, d] * share
+        pose[d] = rows[before, d] * (1 - share) + rows[after, d] * share
 
 
 @njit("float64[:, :, ::1](float32[:, ::1], int64[::1], int64[::1], int64)", **OPTIONS)
 def sample_evenly(rows, starts, lengths, places):
-    """(spans, places, dims): rows evenly in time from each start on, over each length."""
-    found = np.empty((len(starts), places, rows.shape[1]))
+    """Sample rows evenly in time over spans from ``starts`` on: (spans, places, dims)."""
+    samples = np.empty((len(starts), places, rows.shape[1]))
     for k in range(len(starts)):
         for p in range(places):
-            # Frames are centred on their middles, hence half a frame less.
+            # Frame i covers [i, i + 1), so its middle is at i + 0.5.
             at = starts[k] + lengths[k] * ((p + 0.5) / places) - 0.5
-            interpolate_pose(rows, at, found[k, p])
-    return found
+            interpolate_pose(rows, at, samples[k, p])
+    return samples
 
 
 @njit("int64(float32[:, ::1], int64, int64, int64, float64[:, ::1])", **SUMS)
 def find_best_length(rows, stop, shortest, longest, mean):
-    """Return the length of the span up to a frame that is nearest to the mean, evenly in time."""
+    """Return the length of the span before ``stop`` that is nearest to the mean repetition."""
     places, dims = mean.shape
     pose = np.empty(dims)
     best, least = shortest, np.inf
     for length in range(shortest, longest + 1):
         misfit = 0.0
         for p in range(places):
-            # From the start of the span, which is its stop less its length.
+            # Positions evenly spaced in time; see `sample_evenly`.
             interpolate_pose(rows, stop - length + length * ((p + 0.5) / places) - 0.5, pose)
             for d in range(dims):
                 difference = pose[d] - mean[p, d]

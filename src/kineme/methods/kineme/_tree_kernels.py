@@ -1,6 +1,6 @@
-"""Compiled loops of change points, distances of samples, and groupings.
+"""Compiled loops for change points, distances of samples, and agglomerative clustering.
 
-Naive twins are in ``tests/helpers/naive``.
+Naive versions of the kernels are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -15,14 +15,15 @@ SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 
 @njit("void(float32[:, ::1], float64, int64, int64, float32[:, ::1])", **SUMS)
 def compute_similarity_band(features, unit, start, stop, similarity):
-    """``similarity[i, j - i] = 1 - |x_i - x_j| / unit`` for the rows from start to stop."""
+    """Set ``similarity[i, j - i] = 1 - |x_i - x_j| / unit`` for the rows from start to stop."""
     n, width = similarity.shape
-    one, units = np.float32(1.0), np.float32(1.0 / unit)  # sums in doubles take twice as long
+    # Single precision throughout: doubles take twice as long.
+    one, units = np.float32(1.0), np.float32(1.0 / unit)
     for i in range(start, stop):
         for lag in range(width):
             j = i + lag
             if j >= n:
-                # Beyond the last sample there is nothing to be similar to.
+                # Beyond the last sample.
                 similarity[i, lag] = 0.0
                 continue
             square = np.float32(0.0)
@@ -34,14 +35,15 @@ def compute_similarity_band(features, unit, start, stop, similarity):
 
 @njit("float64[::1](float32[:, ::1], int64[::1], int64)", **OPTIONS)
 def measure_near_distances(features, chosen, width):
-    """Distances of the chosen samples, ascending, of which two are less than `width` apart."""
+    """Return the distances of pairs of chosen samples that are less than `width` apart in time."""
+    # `chosen` is ascending. First pass: count the pairs.
     count = 0
     for i in range(len(chosen)):
         for j in range(i + 1, len(chosen)):
             if chosen[j] - chosen[i] >= width:
                 break
             count += 1
-    found = np.empty(count)
+    distances = np.empty(count)
     at = 0
     for i in range(len(chosen)):
         for j in range(i + 1, len(chosen)):
@@ -51,36 +53,36 @@ def measure_near_distances(features, chosen, width):
             for d in range(features.shape[1]):
                 difference = np.float64(features[chosen[i], d]) - features[chosen[j], d]
                 square += difference * difference
-            found[at] = np.sqrt(square)
+            distances[at] = np.sqrt(square)
             at += 1
-    return found
+    return distances
 
 
 @njit("int64[::1](float32[:, ::1], float64)", **OPTIONS)
 def find_change_points(similarity, penalty):
-    """Borders of the segments whose samples are most similar, ends included.
+    """Return the borders of the cheapest division into segments of similar samples, with ends.
 
-    Minimises, by dynamic programming, the sum over segments of
-    ``length - (sum of similarities of all pairs) / length + penalty``. No
-    segment is longer than the band is wide.
+    Minimise, by dynamic programming, the sum over segments of
+    ``length - (sum of similarities of all pairs) / length + penalty``. The width of the band
+    limits the length of a segment.
     """
     samples, width = similarity.shape
     best = np.full(samples + 1, np.inf)
     best[0] = 0
     before = np.zeros(samples + 1, np.int64)
-    # row_sums[s]: similarity of s to itself, and twice those to the later samples of the segment.
+    # row_sums[s]: similarity of s to itself, plus twice those to later samples of the segment.
     row_sums = np.zeros(samples)
     inverse = np.empty(samples + 1)
     for length in range(1, samples + 1):
         inverse[length] = 1 / length
     for end in range(1, samples + 1):
-        # The sample before the end is added to the sums of all starts within the band.
+        # Add the last sample to the sums of all samples within the band.
         last = end - 1
         first = max(0, end - width)
         row_sums[last] = similarity[last, 0]
         for start in range(first, last):
             row_sums[start] += 2 * similarity[start, last - start]
-        # The cheapest last segment: its similarities are summed while its start moves back.
+        # Find the cheapest last segment; the sum of its similarities grows as its start moves back.
         inside = 0.0
         for start in range(last, first - 1, -1):
             inside += row_sums[start]
@@ -89,7 +91,7 @@ def find_change_points(similarity, penalty):
             if cost < best[end]:
                 best[end] = cost
                 before[end] = start
-    # Borders of the cheapest division, from the last one back.
+    # Backtrack from the last border.
     borders = [samples]
     while borders[-1] > 0:
         borders.append(before[borders[-1]])
@@ -98,10 +100,10 @@ def find_change_points(similarity, penalty):
 
 @njit("void(float32[:, ::1], int64[::1], int64[::1], int64, int64, float64[:, ::1])", **SUMS)
 def compute_mean_distances(features, chosen, borders, start, stop, means):
-    """Mean distance of the chosen samples of each two groups, for some rows.
+    """Compute the mean distances between samples of two groups, for the rows from start to stop.
 
-    Group g has ``chosen[borders[g]:borders[g + 1]]``. Columns before the row
-    are left as they are; the matrix is symmetric.
+    Group g has ``chosen[borders[g]:borders[g + 1]]``. Only the upper triangle is written, as the
+    matrix is symmetric.
     """
     for g in range(start, stop):
         for h in range(g, len(borders) - 1):
@@ -121,9 +123,9 @@ def compute_mean_distances(features, chosen, borders, start, stop, means):
 def _measure_distance(sums, lengths, g, h, spread_share):
     """Return the mean distance of two clusters, less a share of the mean distance within them.
 
-    ``sums`` are summed distances of the samples of each two clusters, ``lengths`` their numbers.
+    ``sums`` are summed distances between samples of two clusters, ``lengths`` numbers of samples.
     """
-    # `sums[g, g]` has all n² ordered pairs, those of a sample with itself included.
+    # `sums[g, g]` is the sum over all n² ordered pairs, including each sample with itself.
     within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
     return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
 
@@ -133,9 +135,9 @@ def _measure_distance(sums, lengths, g, h, spread_share):
     **OPTIONS,
 )
 def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
-    """Return the cluster whose distance to cluster g is least, and that distance."""
+    """Set ``nearest[g]`` to the cluster nearest to cluster g, and ``apart[g]`` to its distance."""
     apart[g] = np.inf
-    # A cluster is alive if it is named after itself.
+    # A cluster exists while it owns itself.
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
             distance = _measure_distance(sums, lengths, g, h, spread_share)
@@ -149,15 +151,14 @@ def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
     **OPTIONS,
 )
 def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
-    """Return the least cost of a grouping of segments; `labels` gets the grouping.
+    """Find the cheapest grouping of segments, write it to `labels`, and return its cost.
 
-    The two clusters that are nearest are joined, again and again: by their mean distance,
-    less `spread_share` of the mean of the distances within them. A grouping costs half the
-    distances within clusters, and a price for each run of segments of one cluster and for
-    each cluster, of which there are `most` at most. `sums` (summed distances of each two
-    segments) and `lengths` are used up.
+    Merge the two nearest clusters repeatedly (see `_measure_distance`). The cost of a grouping is
+    half of the distances within clusters, plus a price for each run of segments of one cluster
+    and for each cluster. It has at most `most` clusters. `sums` (summed distances between
+    segments) and `lengths` are overwritten.
     """
-    # Of each cluster: the segment that it is named after, the nearest other, and how far that is.
+    # For each cluster: its first segment, the nearest other cluster, and the distance to it.
     k = len(lengths)
     owner = np.arange(k)
     nearest = np.zeros(k, np.int64)
@@ -166,13 +167,13 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
         _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
     cheapest = np.inf
     for clusters in range(k, 0, -1):
-        # The cost of this grouping, kept if it is the least.
+        # Cost of this grouping.
         if clusters <= most:
             cost = cluster_cost * clusters
             for g in range(k):
                 if owner[g] == g:
                     cost += sums[g, g] / (2 * lengths[g])
-                # Neighbours of one cluster are one segment.
+                # Neighbours of one cluster count as one segment.
                 if g == 0 or owner[g] != owner[g - 1]:
                     cost += segment_cost
             if cost < cheapest:
@@ -181,14 +182,13 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
                     labels[g] = owner[g]
         if clusters == 1:
             break
-        # Join the two nearest clusters: h becomes part of g.
+        # Merge the two nearest clusters, h into g; the smaller number stays the owner.
         g = int(np.argmin(apart))
         h = nearest[g]
-        # The smaller number stays the owner.
         if h < g:
             g, h = h, g
         lengths[g] += lengths[h]
-        # Never the nearest any more: h is a part of g.
+        # h is gone: it is never chosen by `argmin` again.
         apart[h] = np.inf
         for other in range(k):
             sums[g, other] += sums[h, other]
@@ -196,7 +196,7 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
                 owner[other] = g
         for other in range(k):
             sums[other, g] += sums[other, h]
-        # Only distances to g are new.
+        # Only distances to g have changed.
         _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
         for other in range(k):
             if owner[other] != other or other == g:
@@ -205,7 +205,7 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
                 _find_nearest(sums, lengths, owner, other, spread_share, nearest, apart)
                 continue
             distance = _measure_distance(sums, lengths, other, g, spread_share)
-            if distance < apart[other]:  # a union can be nearer than both of its parts were
+            if distance < apart[other]:  # a union can be nearer than both of its parts
                 apart[other] = distance
                 nearest[other] = g
     return cheapest

@@ -1,16 +1,17 @@
-"""Borders to the frame, and the transitions between two activities.
+"""Refine borders to the frame, and find the transitions between two activities.
 
-Statistics are averaged over a second, so borders of the tree lie where half of that second has
-strong movement: late at its start, early at its end. Single frames are more precise. On either
-side each channel is a normal distribution, with the mean and variance of frames whose averages
-hold nothing of the other side. The channels of the whole recording are a third distribution.
+Views are averaged over a second, so borders of the tree are imprecise: strong movement seems to
+start late and to end early. This module uses single frames. Each side of a border is modelled by
+one normal distribution per channel, fitted to frames that are not mixed with the other side by the
+averaging. A third model is fitted to the whole recording.
 
-A *transition* is a span about the border, shorter than the averaged time, under which the
-whole recording is likelier than either side. Where there is none, the border lies where the
-likelihood of both sides together is largest. That is on the quiet side: a movement that a quiet
-segment never has ends it at once. People set borders a little farther, and so does `border_shift`.
+A *transition* is a span around the border, shorter than the averaging window, in which the model
+of the whole recording is more likely than those of both sides. Without a transition, the border is
+where the likelihood of both sides is largest. This is often too far on the quiet side, because a
+single movement that a quiet segment never contains ends it. So `border_shift` moves the border
+only part of the way, as people do.
 
-Only frames within the averaged time of a border are considered. No segment is added or removed.
+Only frames within the averaging window of a border are considered. No segment is added or removed.
 """
 
 from __future__ import annotations
@@ -29,16 +30,16 @@ if TYPE_CHECKING:
 Frames = NDArray[np.int64]
 Spans = tuple[Frames, Frames]
 
-LEARNT = 4.0
-"""Seconds of a side at most from which its distribution is estimated."""
-QUIETEST = 0.05
-"""Least deviation of a channel, as a share of that in the whole recording."""
+MAX_SIDE = 4.0
+"""Longest span of a side from which its distribution is estimated, s."""
+MIN_DEVIATION = 0.05
+"""Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
-"""A border moves by one part of so many of a segment at most."""
+"""A border moves by at most 1 / SHARE of a segment."""
 
 
 def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
-    """Where each segment begins, and where it ends; what lies between two is a transition.
+    """Return the first frame and the end of each segment; frames between two are a transition.
 
     Parameters
     ----------
@@ -53,7 +54,7 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -
     starts, stops : (segments,) array
     """
     averaged = max(1, preset.frames(preset.averaging))
-    learnt = max(1, preset.frames(LEARNT))
+    max_side = max(1, preset.frames(MAX_SIDE))
     centred = channels - channels.mean(axis=0)
     deviations = np.sqrt((centred**2).mean(axis=0))
     scaled = centred / np.where(deviations > 0, deviations, 1.0)
@@ -61,25 +62,27 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -
     for i in range(1, len(borders) - 1):
         start, at, stop = borders[i - 1 : i + 2].tolist()
         # Half of the averaged time is mixed with the other side of the border.
-        left_side = slice(max(start + averaged // 2 * (i > 1), at - learnt), at - averaged // 2)
+        left_side = slice(max(start + averaged // 2 * (i > 1), at - max_side), at - averaged // 2)
         last = stop - averaged // 2 * (i < len(borders) - 2)
-        right_side = slice(at + averaged // 2, min(last, at + learnt))
+        right_side = slice(at + averaged // 2, min(last, at + max_side))
         if min(left_side.stop - left_side.start, right_side.stop - right_side.start) < averaged:
             continue
         # A border moves by the averaged time at most, and never far into a short segment.
         first = at - min(averaged, (at - start) // SHARE)
-        near = scaled[first : at + min(averaged, (stop - at) // SHARE)]
-        # Log-likelihoods of both sides, less that of the whole recording: up to each frame by the
-        # left side, from it on by the right side.
-        anything = -0.5 * (near**2).mean(axis=1)
-        before = np.append(0.0, np.cumsum(_compute_likelihoods(near, scaled[left_side]) - anything))
-        gains = _compute_likelihoods(near, scaled[right_side]) - anything
-        behind = np.append(np.cumsum(gains[::-1])[::-1], 0.0)
-        likeliest = int(np.argmax(before + behind))
-        left, right = _place_ends(before, behind, averaged - 1)
-        # What lies between is described by neither side: by "anything", at no gain and no loss.
-        gained = before[left] + behind[right] - before[likeliest] - behind[likeliest]
-        if gained > preset.transition_cost * preset.working_fps:
+        window = scaled[first : at + min(averaged, (stop - at) // SHARE)]
+        # Log-likelihoods relative to the whole recording: cumulative sums of the left model up to
+        # each frame, and of the right model from each frame on.
+        overall = -0.5 * (window**2).mean(axis=1)
+        before = np.append(
+            0.0, np.cumsum(_compute_likelihoods(window, scaled[left_side]) - overall)
+        )
+        gains = _compute_likelihoods(window, scaled[right_side]) - overall
+        after = np.append(np.cumsum(gains[::-1])[::-1], 0.0)
+        likeliest = int(np.argmax(before + after))
+        left, right = _place_ends(before, after, averaged - 1)
+        # Frames between both ends are described by the overall model, whose gain is 0.
+        gain = before[left] + after[right] - before[likeliest] - after[likeliest]
+        if gain > preset.transition_cost * preset.working_fps:
             stops[i - 1], starts[i] = first + left, first + right
         else:
             moved = at + round(preset.border_shift * (first + likeliest - at))
@@ -87,48 +90,45 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -
     return starts, stops
 
 
-def _place_ends(before: Floats, behind: Floats, longest: int) -> tuple[int, int]:
-    """Where to end the first side and begin the second, at most so far apart: the likeliest."""
-    # For each end of the gap, the best start within `longest` before it.
+def _place_ends(before: Floats, after: Floats, longest: int) -> tuple[int, int]:
+    """Return the likeliest end of the left side and start of the right, at most `longest` apart."""
+    # For each start of the right side, the best end of the left side within `longest` before it.
     rights = np.arange(len(before))
     firsts = np.maximum(rights - longest, 0)
     spans = zip(firsts.tolist(), rights.tolist(), strict=True)
     lefts = np.array([first + int(np.argmax(before[first : right + 1])) for first, right in spans])
-    right = int(np.argmax(before[lefts] + behind))
+    right = int(np.argmax(before[lefts] + after))
     return int(lefts[right]), right
 
 
 def _compute_likelihoods(rows: Floats, side: Floats) -> Floats:
-    """Log-likelihood of each row by the means and variances of a side, the mean of its channels."""
-    variances = np.maximum(side.var(axis=0), QUIETEST**2)
+    """Return the log-likelihood of each row under the model of a side, averaged over channels."""
+    variances = np.maximum(side.var(axis=0), MIN_DEVIATION**2)
     squares = (rows - side.mean(axis=0)) ** 2 / variances
     likelihoods: Floats = -0.5 * (np.log(variances) + squares).mean(axis=1)
     return likelihoods
 
 
 def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
-    """Return the samples nearest to borders in frames, from 0 to n.
-
-    Each segment has one at least.
-    """
+    """Convert borders from frames to the nearest samples, 0 to n, at least one per segment."""
     nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
     order = np.arange(len(frames))
-    # Less its own index, a strictly ascending sequence only has to ascend: a running maximum.
-    after = np.maximum.accumulate(nearest - order)
-    borders: Frames = np.minimum(after, n - order[-1]) + order
+    # Subtracting the index turns "strictly ascending" into "ascending": a running maximum.
+    ascending = np.maximum.accumulate(nearest - order)
+    borders: Frames = np.minimum(ascending, n - order[-1]) + order
     borders[-1] = n
     return borders
 
 
 def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
-    """Finest borders with those of a level where they have been moved to.
+    """Return the finest borders, with those of a level moved to their new places.
 
     Parameters
     ----------
     fine : (segments + 1,) array
-        Samples, `before` among them.
+        Samples, including `before`.
     before, after : (segments + 1,) array
-        Borders of the level, and where each is now.
+        Old and new borders of the level.
 
     Examples
     --------
@@ -136,8 +136,8 @@ def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
     >>> move_fine_borders(fine, level, np.array([0, 7, 9])).tolist()
     [0, 2, 7, 9]
     """
-    # Fine borders between the old and the new place of a border are passed over: they go.
+    # Remove fine borders between the old and the new place of a border.
     low, high = np.minimum(before, after), np.maximum(before, after)
-    at = np.searchsorted(low, fine, side="right") - 1
-    passed = fine <= high[at]
+    last = np.searchsorted(low, fine, side="right") - 1
+    passed = fine <= high[last]
     return np.unique(np.concatenate([fine[~passed], after]))

@@ -266,13 +266,13 @@ class KinemeConstants(Preset):
         """Convert seconds to samples at `rate`."""
         return seconds * self.rate
 
-    def in_scale(self, view: int) -> Self:
+    def select_view(self, view: int) -> Self:
         """Return the preset with one view only."""
         shared, weight = self.shared[view], self.weights[view]
         change_window = self.restless_over[view]
         return replace(self, shared=(shared,), weights=(weight,), restless_over=(change_window,))
 
     @property
-    def near(self) -> int:
+    def comparison_width(self) -> int:
         """Return `compared_within` in samples."""
         return max(2, round(self.samples(self.compared_within)))

@@ -1,10 +1,9 @@
-"""Ends: where the first repetition of an activity begins and where the last one ends.
+"""Find the start of the first repetition of an activity and the end of the last one.
 
-The repetitions between the first cut and the last have a mean over time. The first
-repetition is the span before the first cut that fits this mean best, at whatever pace.
-Where it begins before the activity does, in a transition, the activity begins with it.
-Where it begins later, the span before it is part of no repetition: a transition of the
-primitive level. The last repetition is found the same way, back in time.
+The first repetition is the span before the first cut that fits the mean of the inner
+repetitions best, at any pace. If it begins before the activity, in a transition, the
+activity is extended to it. If it begins later, the span before it becomes a transition
+of the primitive level. The last repetition is found in the same way, backwards in time.
 
 The method is ours; see ``docs/method.md``.
 """
@@ -31,21 +30,21 @@ Frames = NDArray[np.int64]
 Features = NDArray[np.float32]
 
 SHORTEST, LONGEST = 0.5, 1.5
-"""Shortest and longest first or last repetition, times the mean length of the others."""
-ERROR = 0.1
-"""Seconds that are no transition: the first repetition begins with its activity."""
+"""Shortest and longest first or last repetition, relative to the mean length of the others."""
+MIN_TRANSITION = 0.1
+"""Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Ends:
-    """Where activities and their repetitions begin and end.
+    """Starts and ends of activities and of their repetitions.
 
     Attributes
     ----------
     starts, stops : (activities,) array
         Frames of the activities.
     firsts, lasts : (activities,) array
-        Where the first repetition begins and where the last one ends.
+        Start of the first repetition, and end of the last one.
     """
 
     starts: Frames
@@ -62,7 +61,7 @@ def fit_ends(
     cuts: Sequence[Frames],
     preset: KinemeConstants,
 ) -> Ends:
-    """Return the ends of activities where repetitions fit; neighbours do not overlap.
+    """Fit the first and last repetition of each activity; activities do not overlap.
 
     Parameters
     ----------
@@ -71,55 +70,56 @@ def fit_ends(
     starts, stops : (activities,) array
         Frames of the activities, in time order.
     labels : (activities,) array
-        Their clusters. Two of one cluster do not touch afterwards, if they did not before.
+        Their clusters. A gap between two activities of one cluster is never closed.
     cuts : sequence of arrays of int
-        Where the second, third, ... repetition of each begins.
+        Starts of the second, third, ... repetition of each.
     preset : KinemeConstants
     """
     n = len(features)
-    # The last repetition is the first one of the recording played backwards.
-    back = np.ascontiguousarray(features[::-1])
+    # The last repetition is the first one of the reversed recording.
+    reversed_features = np.ascontiguousarray(features[::-1])
 
-    def fitted(i: int) -> tuple[int, int, int, int]:
+    def fit(i: int) -> tuple[int, int, int, int]:
         start, first = _find_begin(features, int(starts[i]), cuts[i])
-        stop, last = _find_begin(back, n - int(stops[i]), (n - cuts[i])[::-1].copy())
+        reversed_cuts = (n - cuts[i])[::-1].copy()
+        stop, last = _find_begin(reversed_features, n - int(stops[i]), reversed_cuts)
         return start, n - stop, first, n - last
 
-    found = np.array(map_threads(fitted, range(len(cuts))), np.int64).reshape(-1, 4)
-    begins, ends, firsts, lasts = found.T
+    fitted = np.array(map_threads(fit, range(len(cuts))), np.int64).reshape(-1, 4)
+    begins, ends, firsts, lasts = fitted.T
     for left in np.flatnonzero(ends[:-1] >= begins[1:]).tolist():
         right = left + 1
         low, high = int(stops[left]), int(starts[right])
-        # One movement with a pause: the pause stays, or both would become one activity.
+        # Keep the pause between two activities of one cluster, or they would become one.
         if labels[left] == labels[right]:
             ends[left], begins[right] = low, high
-        elif ends[left] > begins[right]:  # both reach into the time between them
+        elif ends[left] > begins[right]:  # they overlap: meet in the middle
             middle = (ends[left] + begins[right]) // 2
             ends[left] = begins[right] = min(max(middle, low), high)
-    error = preset.frames(ERROR)
-    firsts = np.where(firsts - begins < error, begins, firsts)
-    lasts = np.where(ends - lasts < error, ends, lasts)
+    tolerance = preset.frames(MIN_TRANSITION)
+    firsts = np.where(firsts - begins < tolerance, begins, firsts)
+    lasts = np.where(ends - lasts < tolerance, ends, lasts)
     return Ends(begins, ends, firsts, lasts)
 
 
 def fit_edges(rows: Features, cuts: Frames) -> Frames:
-    """Return where repetitions of a span begin, and where the last one ends, if two cuts are known.
+    """Return the starts of the repetitions of a span, and the end of the last one.
 
     Parameters
     ----------
     rows : (frames, dims) array
     cuts : (cuts,) array of int
-        Where the second, third, ... repetition begins.
+        Starts of the second, third, ... repetition.
     """
-    n, back = len(rows), np.ascontiguousarray(rows[::-1])
+    n, reversed_rows = len(rows), np.ascontiguousarray(rows[::-1])
     _, first = _find_begin(rows, 0, cuts)
-    _, last = _find_begin(back, 0, (n - cuts)[::-1].copy())
+    _, last = _find_begin(reversed_rows, 0, (n - cuts)[::-1].copy())
     return np.concatenate([[first], cuts, [n - last]])
 
 
 def _find_begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
-    """Where the activity that was found from ``start`` on begins, and its first repetition."""
-    if len(cuts) < 2:  # nothing lies between two cuts
+    """Return the start of an activity found at ``start``, and that of its first repetition."""
+    if len(cuts) < 2:  # there is no inner repetition
         return start, start
     lengths = np.diff(cuts)
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, PLACES)
@@ -129,9 +129,10 @@ def _find_begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
 
 
 def _find_first(rows: Features, cuts: Frames, mean: Floats) -> int:
-    """Where the span before the first cut begins that fits the mean best; 0 if none fits."""
-    usual, stop = float(np.diff(cuts).mean()), int(cuts[0])
-    shortest, longest = max(1, ceil(SHORTEST * usual)), min(int(LONGEST * usual), stop)
+    """Return the start of the span before the first cut that fits the mean best; 0 without one."""
+    mean_length, stop = float(np.diff(cuts).mean()), int(cuts[0])
+    shortest = max(1, ceil(SHORTEST * mean_length))
+    longest = min(int(LONGEST * mean_length), stop)
     if shortest > longest:
         return 0
     return stop - int(kernels.find_best_length(rows, stop, shortest, longest, mean))

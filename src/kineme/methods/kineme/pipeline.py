@@ -130,8 +130,8 @@ def _analyze(
         if len(parts) > 1:
             # All parts are compared in the view that most of them chose.
             scale = int(np.bincount([part.scale for part in parts]).argmax())
-            features = compute_views(rows, preset.in_scale(scale), joints=joints).views[0]
-        unit = compute_median_distance(features, preset.near)
+            features = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
+        unit = compute_median_distance(features, preset.comparison_width)
         at = choose_frames(n, preset.working_fps, preset.rate)
         price = preset.cluster_price(len(parts[0].view))
         level = link_parts(features, at, [part.level for part in parts], unit=unit, price=price)
@@ -156,7 +156,7 @@ def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstant
     """Segment a part on its own. Its view is chosen without regard to repetitions."""
 
     def find_clusters(fine: FineLevel) -> Frames:
-        return find_level(fine, preset).per_sample()
+        return find_level(fine, preset).expand_to_samples()
 
     scale, fine_levels = 0, [find_fine_level(view, preset) for view in views.views]
     if len(fine_levels) > 1:
@@ -164,4 +164,4 @@ def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstant
         halves = [find_clusters(find_fine_level(half, preset)) for half in views.halves]
         scale = choose_view(answers, halves, margin=preset.view_margin)
     level = find_level(fine_levels[scale], preset, Repeating(poses, preset))
-    return Part(scale, views.views[scale], level.in_frames(span, preset))
+    return Part(scale, views.views[scale], level.to_frames(span, preset))

@@ -1,16 +1,17 @@
-"""Whether a segment repeats, and how much shorter its description by one repetition is.
+"""Decide whether a segment repeats, and how much this shortens its description.
 
-There are two descriptions of a segment. By its samples it costs half their mean distances to each
-other. If it repeats, one repetition describes the others as well. That is so if the mean of all
-others explains most of each, whatever its size. Then this share of the cost is saved:
+A segment can be described in two ways. By its samples it costs half of their mean distances to
+each other. If it repeats, one repetition describes all. It repeats if the mean of the other
+repetitions, scaled, explains most of each one. Then this share of the cost is saved:
 
     (1 - max((chance_period / period)², few)) · evenness
     few = min(chance_count / count, chance_duration / (count · period), 1)
 
-Fast repetitions save little, as means over a second do not show them. Few repetitions save little,
-as they may be similar by chance, unless they last long. Two movements one after the other save
-nothing. They are found twice by two means, of the first repetitions and of the last, that leave
-far less than one mean: once of the repetitions' shapes, once of which channels move in each.
+Fast repetitions save little, because the averaged view does not show them. Few repetitions save
+little, because they may be similar by chance, unless they last long. Two different movements in
+sequence save nothing. They are detected by comparing two means, of the first and of the last
+repetitions, with a single mean: once for the shapes of the repetitions, once for which channels
+move.
 
 The method is ours; see ``docs/method.md``.
 """
@@ -39,15 +40,15 @@ if TYPE_CHECKING:
 Frames = NDArray[np.int64]
 
 SPAN = (1.0, 90.0)
-"""Seconds of the shortest and the longest segment that can save anything."""
-COMPARED = 32
-"""Samples at most whose distances give the cost of a segment."""
-SOFT = 0.05
-"""From so far below a threshold to so far above it, a share counts more and more."""
+"""Shortest and longest segment that is tested, s."""
+MAX_COMPARED = 32
+"""Largest number of samples whose distances give the cost of a segment."""
+RAMP = 0.05
+"""Half width of the linear ramp around a threshold."""
 
 
 class Division(NamedTuple):
-    """A division into repetitions: from which sample to which, and the share that it saves."""
+    """A division into repetitions: its first sample, its end, and the share of cost it saves."""
 
     start: int
     stop: int
@@ -56,7 +57,7 @@ class Division(NamedTuple):
 
 @dataclass
 class Repeating:
-    """What spans of a recording save by repeating themselves.
+    """Savings of spans of a recording that repeat themselves.
 
     Attributes
     ----------
@@ -68,24 +69,26 @@ class Repeating:
     rows: NDArray[np.float32]
     preset: KinemeConstants
 
-    def saved(self, view: NDArray[np.float32], unit: float, start: int, stop: int) -> float:
-        """Samples at the distance `unit` that a segment of the view saves by repeating itself."""
-        best = self.division(start, stop)
+    def measure_saving(
+        self, view: NDArray[np.float32], unit: float, start: int, stop: int
+    ) -> float:
+        """Return the cost that a segment of the view saves, in samples at the distance `unit`."""
+        best = self.find_division(start, stop)
         if best is None:
             return 0.0
-        spread: float = kernels.measure_spread(view, best.start, best.stop, COMPARED)
+        spread: float = kernels.measure_spread(view, best.start, best.stop, MAX_COMPARED)
         return best.share * spread / unit
 
-    def division(self, start: int, stop: int) -> Division | None:
-        """Of the divisions of a span of samples, the one that saves most; None if none does."""
+    def find_division(self, start: int, stop: int) -> Division | None:
+        """Return the division of a span of samples that saves most; None if none saves."""
         rate, fps = self.preset.rate, self.preset.working_fps
         rows = self.rows[round(start / rate * fps) : round(stop / rate * fps)]
         if not SPAN[0] <= (stop - start) / rate <= SPAN[1] or len(rows) < PLACES:
             return None
-        # Where a pose is visited once per repetition, the visits divide the span.
+        # A pose that is visited once per repetition divides the span.
         movement = trace_movement(rows, self.preset)
         divisions = (
-            (self._share(movement, visits), visits)
+            (self._compute_share(movement, visits), visits)
             for visits in propose_visits(rows, movement, self.preset)
         )
         share, visits = max(
@@ -95,18 +98,18 @@ class Repeating:
         )
         if share <= 0:
             return None
-        # A part of a repetition before the first visit and after the last repeats, too.
+        # Extend by the partial repetitions before the first visit and after the last.
         ends = assess_division(movement, visits, self.preset, centering=1.0)
         period = (visits[-1] - visits[0]) / (len(visits) - 1)
         first = start + (visits[0] - min(ends.before, 1.0) * period) / fps * rate
         last = start + (visits[-1] + min(ends.after, 1.0) * period) / fps * rate
         return Division(max(round(first), start), min(round(last), stop), share)
 
-    def _share(self, movement: Movement, visits: Frames) -> float:
-        """Return the share that a division saves, 0 to 1."""
-        # The cheap part first: nothing else is asked where it is 0.
+    def _compute_share(self, movement: Movement, visits: Frames) -> float:
+        """Return the share of cost that a division saves, 0 to 1."""
+        # Cheap tests first: the others are skipped if they fail.
         preset = self.preset
-        share: float = kernels.share_by_times(
+        share: float = kernels.score_durations(
             visits,
             preset.working_fps,
             preset.max_repetition,
@@ -121,16 +124,16 @@ class Repeating:
         kernels.center_repetitions(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
         share *= _ramp_up(explained, preset.min_explained)
-        return share and share * share_of_one_movement(repetitions, preset)
+        return share and share * score_one_movement(repetitions, preset)
 
 
-def share_of_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants) -> float:
-    """Return 1 if repetitions are one movement and 0 if they are two, with a soft border.
+def score_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants) -> float:
+    """Return 1 if repetitions are one movement, 0 if they are two, and values between on a ramp.
 
     Parameters
     ----------
     repetitions : (repetitions, places, dims) array
-        Each with a mean of 0.
+        Each centred.
     preset : KinemeConstants
     """
     share = _ramp_up(kernels.find_best_parting(repetitions), preset.two_movements)
@@ -140,12 +143,12 @@ def share_of_one_movement(repetitions: NDArray[np.float64], preset: KinemeConsta
 
 
 def measure_channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how strongly each channel moves in each repetition, whatever the repetition's size.
+    """Return the relative strength of movement of each channel in each repetition.
 
     Parameters
     ----------
     centered : (repetitions, places, dims) array
-        Repetitions, each with a mean of 0.
+        Repetitions, each centred.
 
     Returns
     -------
@@ -159,10 +162,10 @@ def measure_channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float6
     """
     energies = np.sqrt((centered**2).mean(axis=1, keepdims=True))
     norms = np.linalg.norm(energies, axis=2, keepdims=True)
-    energies /= np.maximum(norms, 1e-12)  # a repetition without movement has no channels
+    energies /= np.maximum(norms, 1e-12)  # zeros stay zeros
     return np.ascontiguousarray(energies)
 
 
 def _ramp_up(share: float, threshold: float) -> float:
-    """0 below the threshold and 1 above it, evenly between within `SOFT` of it."""
-    return min(max((share - threshold) / (2 * SOFT) + 0.5, 0.0), 1.0)
+    """Return 0 below the threshold and 1 above it, with a linear ramp within `RAMP` of it."""
+    return min(max((share - threshold) / (2 * RAMP) + 0.5, 0.0), 1.0)

@@ -1,22 +1,21 @@
-"""Repetitions: how often an activity repeats itself, and where each one begins.
+"""Count the repetitions of an activity and find the start of each.
 
-Each repetition passes every pose of the activity once. So the distance of an activity to one of
-its poses has a dip for each repetition. Some dips are not such *visits*. So the deepest two,
-three, ... dips of several poses are *candidates*: divisions of the activity. The best is the one
-whose repetitions are most similar to the mean of the others.
+Each repetition passes every pose of the activity once. So the distance to a fixed pose has a dip
+in each repetition: the repetition *visits* the pose. Not all dips are visits. So the deepest two,
+three, ... dips of several poses give *candidate* divisions of the activity. The best candidate is
+the one whose repetitions are most similar to the mean of the others.
 
-The ends, before the first visit and after the last, count by how far they follow the mean, and the
-less the farther they are from it than repetitions are. The paths of repetitions should be about as
-long as each other.
+The ends, before the first visit and after the last, count as far as they follow the mean, and less
+if they deviate from it more than repetitions do. Paths of repetitions should have similar lengths.
 
-Repetitions are compared by position on their path, not in time, so that pace does not matter and a
+Repetitions are compared by position on their path, not by time, so that pace does not matter and a
 rest has no length. They are compared by correlation: a deep bend and a shallow one are two bends,
-while a step with the left foot and one with the right are halves of one repetition. Posture counts
-as far as `centering` leaves it.
+while a step with the left foot and one with the right are halves of one repetition. `centering`
+controls the influence of posture.
 
-Repetitions begin at rest, where there is a rest between them. People see events begin and end
-where movement is slowest (Zacks, Kumar, Abrams and Mehta 2009), and a clip that begins there can
-be used.
+If there is a rest between repetitions, they begin at rest. People perceive the ends of events where
+movement is slowest (Zacks, Kumar, Abrams and Mehta 2009), and clips that begin at rest are easier
+to use.
 """
 
 from __future__ import annotations
@@ -38,24 +37,24 @@ Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
 
 PLACES = 16
-"""Places on a repetition's path at which it is compared."""
-VOTERS, COUNTS, POSES = 80, 8, 4
+"""Number of positions on its path at which a repetition is sampled."""
+N_VOTERS, N_COUNTS, N_POSES = 80, 8, 4
 """Poses that vote on the number of repetitions, numbers that are tried, and poses for each."""
-DEEP = 0.9
-"""Depths of dips are measured against this quantile of a pose's distances."""
-SMOOTHED = 0.14
-"""Seconds before and after a frame, over which poses are averaged."""
-FOLLOWED = 1.5
+DEPTH_QUANTILE = 0.9
+"""Depths of dips are relative to this quantile of the distances to a pose."""
+SMOOTHING = 0.14
+"""Seconds before and after a frame over which poses are averaged."""
+MAX_END = 1.5
 """Longest end, in repetitions."""
-ROUNDED_UP = 0.35
-"""From this on a part of a repetition is one."""
+MIN_PART = 0.35
+"""Part of a repetition from which it counts as one."""
 SAME_COUNT = 0.75
-"""Candidates whose numbers differ by this at most are averaged for the length of the ends."""
-REST_AVERAGED = 0.1
-"""Seconds before and after a frame, over which its speed is the mean."""
-RESTING = 0.25
+"""Largest difference of the numbers of repetitions of candidates that are averaged."""
+SPEED_WINDOW = 0.1
+"""Seconds before and after a frame over which its speed is averaged."""
+REST_SPEED = 0.25
 """Share of the mean speed below which there is a rest."""
-NEAR = 0.15
+REST_RANGE = 0.15
 """Share of a repetition within which each rest is searched."""
 
 
@@ -66,13 +65,13 @@ class Movement:
     Attributes
     ----------
     poses : (frames, dims) array
-        Smoothed, the mean subtracted.
+        Smoothed poses, centred.
     middle : (dims,) array
-        That mean, each pose weighted by its speed.
+        The subtracted mean, in which each pose is weighted by its speed.
     path : (frames + 1,) array
         Length of the path up to each frame, and to the end.
     variance : float
-        Mean square of the poses, each weighted by its speed.
+        Mean square of the poses, weighted by speed.
     """
 
     poses: Floats
@@ -83,16 +82,16 @@ class Movement:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """One division of an activity.
+    """A possible division of an activity into repetitions.
 
     Attributes
     ----------
     visits : array of int
-        Frames at which a pose is visited.
+        Frames at which the pose is visited.
     before, after : float
-        Share of a repetition before the first visit, and after the last.
+        Length of the ends, before the first visit and after the last, in repetitions.
     ends : float
-        What of these counts, the less the farther it is from the others.
+        Sum of both ends, weighted down if they deviate from the repetitions.
     unexplained : float
         Share of the activity that the other repetitions do not explain.
     preset : KinemeConstants
@@ -120,30 +119,31 @@ class Candidate:
     def is_chance(self, most: float) -> bool:
         """Return whether the mean of many repetitions would leave more than ``most`` unexplained.
 
-        The mean of few others has noise of its own, and explains less. That is allowed for: with
-        the correlation 1 - ``most`` between any two, the mean of these others explains so much.
+        The mean of a few repetitions is noisy and explains less. So the threshold is what their
+        mean explains if any two have the correlation 1 - ``most``.
         """
-        # Variance of a mean: the common part stays, the noise of each is divided by their number.
+        # Variance of a mean: the common part stays, the noise is divided by the number.
         common, others = 1 - most, max(self.number - 1, 1)
         explained = common**2 * others / (1 + (others - 1) * common)
         return self.unexplained >= 1 - explained
 
-    def cuts(self, count: int) -> Frames | None:
-        """Return the visits at which one of so many repetitions ends and the next begins.
+    def choose_cuts(self, count: int) -> Frames | None:
+        """Return the visits that separate ``count`` repetitions.
 
-        None if there are too few visits, or more than one too many at either end.
+        Return None if there are too few visits, or more than one too many at either end.
         """
         spare = len(self.visits) - (count - 1)
         if not 0 <= spare <= 2:
             return None
-        first = spare == 2 or (spare == 1 and self.before < self.after)
-        return self.visits[int(first) : len(self.visits) - (spare - int(first))]
+        # Drop a spare visit at the shorter end.
+        drop_first = spare == 2 or (spare == 1 and self.before < self.after)
+        return self.visits[int(drop_first) : len(self.visits) - (spare - int(drop_first))]
 
 
 def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) -> Frames:
-    """Frames at which the second, third, ... repetition of an activity begins, at equal phase.
+    """Return the starts of the second, third, ... repetition of an activity, at equal phase.
 
-    The first begins with the activity, the others at rest if there are rests.
+    The first repetition begins with the activity. The others begin at rest, if there are rests.
 
     Parameters
     ----------
@@ -165,20 +165,20 @@ def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConsta
         if each.cost <= best.cost + preset.same_cost
         and abs(each.number - best.number) <= SAME_COUNT
     ]
-    # Several divisions of nearly the same cost are more certain about the ends than one.
+    # The mean over candidates of nearly the same cost is a better estimate than the best one.
     count = _round_count(float(np.mean([each.number for each in same])))
-    divisions = [cuts for each in same if (cuts := each.cuts(count)) is not None]
+    divisions = [cuts for each in same if (cuts := each.choose_cuts(count)) is not None]
     if not divisions:
-        divisions = [cuts for cuts in [best.cuts(best.count)] if cuts is not None]
-    # Of divisions with that count the one with the most even repetitions.
+        divisions = [cuts for cuts in [best.choose_cuts(best.count)] if cuts is not None]
+    # Choose the division whose repetitions are most even.
     lengths = np.diff(np.array(divisions), axis=1, prepend=0, append=len(rows))
     cuts = divisions[lengths.std(axis=1).argmin()]
-    return start + shift_to_rest(cuts, movement.path, preset.frames(REST_AVERAGED))
+    return start + shift_to_rest(cuts, movement.path, preset.frames(SPEED_WINDOW))
 
 
 def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
-    """Return a span of a recording as a path of poses."""
-    poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHED))
+    """Compute the path of poses of a span of a recording."""
+    poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHING))
     path = np.append(0, np.cumsum(speeds))
     shares = speeds / max(path[-1], 1e-12)
     middle = shares @ poses
@@ -187,49 +187,51 @@ def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
 
 
 def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
-    """Frames at which a pose is visited, once per repetition, of each division that is tried."""
-    # Some poses, evenly in time, each of which is searched everywhere.
-    references = np.unique(np.linspace(0, len(rows) - 1, min(VOTERS, len(rows))).astype(np.int64))
+    """Yield candidate divisions: the frames at which a pose is visited once per repetition."""
+    # Reference poses, evenly spaced in time; the span is searched for each of them.
+    references = np.unique(np.linspace(0, len(rows) - 1, min(N_VOTERS, len(rows))).astype(np.int64))
     depths, centers = _find_dips(rows, references, preset)
-    # Dips are sorted by depth: after the last true visit the next dip is much shallower.
+    # Dips are sorted by depth. The largest fall of depth is after the last true visit.
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
-    # A pose votes with its speed, since poses at rest are visited without a repetition.
+    # Weight votes by speed: poses at rest are visited without a repetition.
     votes = np.diff(movement.path)[references] @ falls
     votes[0] = 0  # every pose visits itself
-    # Numbers of visits with most votes; for each the poses that are clearest about it.
-    for column in np.argsort(-votes, kind="stable")[:COUNTS]:
-        clear = np.argsort(-falls[:, column], kind="stable")[:POSES]
+    # The numbers of visits with most votes; for each, the poses with the largest fall.
+    for column in np.argsort(-votes, kind="stable")[:N_COUNTS]:
+        best = np.argsort(-falls[:, column], kind="stable")[:N_POSES]
         if votes[column] > 0:
-            yield from np.sort(centers[clear[falls[clear, column] > 0], : column + 1], axis=1)
+            yield from np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1)
 
 
 def _find_dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
-    """Depths, 0 to 1, of each reference's dips, deepest first, and where they are."""
+    """Return depths, 0 to 1, and frames of the dips of each reference pose, deepest first."""
     distances = kernels.measure_distances(rows, references)
-    rank = int(DEEP * (len(rows) - 1))
-    # A quantile in place of the largest distance, which one outlier decides.
+    rank = int(DEPTH_QUANTILE * (len(rows) - 1))
+    # A quantile is robust to outliers, unlike the largest distance.
     large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
     noise = np.float32(preset.noise_share)
     depths, centers = kernels.find_dips(distances, noise * large)
-    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)  # the others have none
+    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)  # further columns are empty
     depths, centers = depths[:, :most], centers[:, :most]
     shares = np.minimum(depths / large[:, None], 1)
     return np.maximum(shares - noise, 0), centers
 
 
 def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
-    """Divisions of an activity into more than one repetition."""
-    found = [
+    """Return the divisions of an activity into more than one repetition."""
+    candidates = [
         assess_division(movement, visits, preset, preset.centering)
         for visits in propose_visits(rows, movement, preset)
     ]
-    return [each for each in found if each.count > 1 and not _is_chance(each, movement, preset)]
+    return [
+        each for each in candidates if each.count > 1 and not _is_chance(each, movement, preset)
+    ]
 
 
 def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants) -> bool:
-    """Return whether its repetitions are similar by chance in how they move, wherever they are.
+    """Return whether the movements of its repetitions, without posture, are similar by chance.
 
-    Standing and leaning now to one side, now to the other, is no repetition.
+    Leaning to one side and the other while standing is no repetition.
     """
     if preset.centering < 1:
         division = assess_division(movement, division.visits, preset, centering=1.0)
@@ -239,33 +241,33 @@ def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants)
 def assess_division(
     movement: Movement, visits: Frames, preset: KinemeConstants, centering: float
 ) -> Candidate:
-    """Return the division of an activity at these visits, with its ends."""
-    near, scattered = preset.end_distance * movement.variance, preset.end_scatter
+    """Measure the ends and the unexplained share of the division at these visits."""
+    max_distance, max_scatter = preset.end_distance * movement.variance, preset.end_scatter
     before, after, ends, unexplained = kernels.measure_division(
-        movement.poses, movement.path, visits, PLACES, near, FOLLOWED, centering, scattered
+        movement.poses, movement.path, visits, PLACES, max_distance, MAX_END, centering, max_scatter
     )
     return Candidate(visits, before, after, ends, unexplained, preset)
 
 
 def _round_count(number: float) -> int:
-    """Return a number of repetitions in whole ones, parts of them included."""
-    return int(number + 1 - ROUNDED_UP)
+    """Round a number of repetitions; parts from `MIN_PART` on count as one."""
+    return int(number + 1 - MIN_PART)
 
 
 def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
-    """Return the cuts, all moved by the same phase to where movement is slowest.
+    """Move all cuts by the same phase to where movement is slowest.
 
-    They stay where there is no rest, and where the first or the last repetition would be less
-    than half of one.
+    They stay if there is no rest, or if the first or last repetition would become shorter than
+    half of one.
 
     Parameters
     ----------
     cuts : (cuts,) array of int
-        Frames at which the second, third, ... repetition begins, ascending.
+        Starts of the second, third, ... repetition, ascending.
     path : (frames + 1,) array
         Length of the path up to each frame, and to the end.
     averaged : int
-        Frames before and after one, over which its speed is the mean.
+        Frames before and after a frame over which its speed is averaged.
 
     Examples
     --------
@@ -276,24 +278,24 @@ def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     if not len(cuts):
         return cuts
     n = len(path) - 1
-    # All cuts move by the same phase: by half a repetition to either side at most.
-    usual = float(np.median(np.diff(cuts, prepend=0, append=n)))
-    half = usual / 2
+    # Shifts by up to half a repetition to either side.
+    period = float(np.median(np.diff(cuts, prepend=0, append=n)))
+    half = period / 2
     shifts = np.arange(-int(half), int(half) + 1)
     shifts = shifts[(cuts[0] + shifts >= half) & (cuts[-1] + shifts <= n - half)]
     if not len(shifts):
         return cuts
     frames = np.arange(n)
     first, last = np.maximum(frames - averaged, 0), np.minimum(frames + averaged + 1, n)
-    # The path is a running sum of speeds, so differences give means at once.
+    # The path is the cumulative sum of speeds, so differences give means.
     speeds = (path[last] - path[first]) / (last - first)
-    # (shifts,): mean speed at all cuts, if they were moved by that much.
-    slowness = speeds[cuts[:, None] + shifts].mean(axis=0)
-    if slowness.min() > RESTING * path[-1] / n:
+    # Mean speed at all cuts for each shift.
+    shifted_speeds = speeds[cuts[:, None] + shifts].mean(axis=0)
+    if shifted_speeds.min() > REST_SPEED * path[-1] / n:
         return cuts
-    # Then each cut goes to the slowest frame close by, as rests are never exactly even.
-    rests = cuts + shifts[slowness.argmin()]
-    reach = int(NEAR * usual)
+    # Then move each cut to the slowest frame nearby, as rests are never exactly even.
+    rests = cuts + shifts[shifted_speeds.argmin()]
+    reach = int(REST_RANGE * period)
     near = np.arange(-reach, reach + 1)
     around = np.clip(rests[:, None] + near, 1, n - 1)
     slowest = np.take_along_axis(around, speeds[around].argmin(axis=1)[:, None], axis=1)[:, 0]

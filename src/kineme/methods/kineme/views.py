@@ -1,14 +1,15 @@
-"""Views: the same statistics of channels in several scales, as no one scale fits all sensors.
+"""Views: the same statistics of channels in several scales, as no single scale fits all sensors.
 
-A scale has two choices. What channels have in common is movement where sensors are on both legs,
-and only position where channels are positions of joints: it is left in, or reduced. And some
-sensors separate activities by what varies most, others by what changes seldom: statistics are
-divided by one or the other. The first and the last view are opposite in both. The last one is taken
-if it agrees with all views more than the first by a margin (`choose_view`). Of few channels, views
-of half of them are among these, as an answer that depends on one channel is doubtful.
+A scale makes two choices. First, the variance that channels share is kept or reduced: for sensors
+on both legs it is movement, for positions of joints it is only the position of the body. Second,
+statistics are divided by their deviation or by their change over time: some sensors separate
+activities by what varies most, others by what changes seldom. The first and the last view differ in
+both. The last view is chosen if it agrees with all views by a margin more than the first does
+(`choose_view`). For signals, views of half of the channels also vote, because a result that depends
+on a single channel is unreliable.
 
-Where channels are positions of joints, their velocities are added: sitting down and standing up
-have the same positions.
+If channels are positions of joints, their velocities are added, because sitting down and standing
+up have the same positions.
 """
 
 from __future__ import annotations
@@ -29,26 +30,26 @@ if TYPE_CHECKING:
 Labels = NDArray[np.int64]
 
 DIGITS = 9
-"""Agreements are equal if so many decimals are: rounding decides nothing."""
+"""Number of decimals of agreements that are compared, so that rounding errors decide nothing."""
 
-STILL = 0.05
-"""Least restlessness of a statistic, as a share of that of all of them."""
-VELOCITY_OVER = 0.6
-"""Seconds before and after a sample, between which velocities are taken."""
+MIN_CHANGE = 0.05
+"""Smallest change of a statistic, as a share of the root mean square of all changes."""
+VELOCITY_WINDOW = 0.6
+"""Seconds before and after a sample from which its velocity is computed."""
 TINY = 1e-9
-"""Deviations below it are rounding."""
+"""Deviation below which a channel is constant."""
 
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """All views of a recording, `preset.rate` times a second.
+    """All views of a recording, at `preset.rate`.
 
     Attributes
     ----------
     views : list of (samples, dims) array
-        All channels, in each of the scales that the preset names.
+        All channels, in each scale of the preset.
     halves : list of (samples, dims) array
-        Half of the channels, in the first and in the last of these.
+        Each half of the channels, in the first and in the last scale.
     """
 
     views: list[NDArray[np.float32]]
@@ -60,7 +61,7 @@ class Scale(NamedTuple):
 
     shared: float
     weight: float
-    restless_over: float
+    change_window: float
 
 
 def compute_views(
@@ -69,7 +70,7 @@ def compute_views(
     *,
     joints: bool = False,
 ) -> Views:
-    """Return the statistics of the channels in each of the scales that the preset names.
+    """Compute the statistics of channels in each scale of the preset.
 
     Parameters
     ----------
@@ -77,7 +78,7 @@ def compute_views(
         At the working rate of the preset.
     preset : KinemeConstants
     joints : bool
-        Whether channels are of the positions of joints.
+        Whether channels are computed from positions of joints.
     """
     centred = channels - channels.mean(axis=0)
     scaled = np.asarray(centred / _measure_deviations(centred), np.float64)
@@ -85,16 +86,16 @@ def compute_views(
     requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
     if len(scales) > 1 and preset.half_views:
         halves = split_by_speed(scaled)
-        # An answer that half of the channels gives as well depends on no single channel.
+        # A result that half of the channels confirm does not depend on a single channel.
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
-    found = _make_scales(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
-    return Views(found[: len(scales)], found[len(scales) :])
+    views = _make_views(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
+    return Views(views[: len(scales)], views[len(scales) :])
 
 
 def append_velocities(
     view: NDArray[np.float32], channels: int, steps: int, weight: float
 ) -> NDArray[np.float32]:
-    """Return view and, `weight` times, how its means change from `steps` before to `steps` after.
+    """Append velocities to a view: `weight` times the change of its means over 2 `steps`.
 
     Examples
     --------
@@ -108,7 +109,7 @@ def append_velocities(
 
 
 def split_by_speed(scaled: Floats) -> list[Ints]:
-    """Return the half of the channels that changes less from frame to frame, and the other half.
+    """Return the slower half of the channels, by mean change per frame, and the faster half.
 
     Examples
     --------
@@ -123,15 +124,15 @@ def split_by_speed(scaled: Floats) -> list[Ints]:
     return [np.sort(order[:middle]), np.sort(order[middle:])]
 
 
-def _make_scales(
+def _make_views(
     scaled: Floats,
     requested: Sequence[tuple[Ints, Scale]],
     preset: KinemeConstants,
     velocity_weight: float,
 ) -> list[NDArray[np.float32]]:
-    """A view for each request of channels and a scale, with velocities if they have a weight."""
+    """Return a view for each request of channels and scale, with velocities if weighted."""
     mixtures = {
-        # Scales that reduce the same variance share one mixture, which takes most of the time.
+        # Scales with the same reduction share one mixture, which takes most of the run time.
         (channels.tobytes(), scale.shared): Mixture(
             channels, reduce_shared(scaled[:, channels], scale.shared)
         )
@@ -146,61 +147,62 @@ def _make_scales(
         bands=preset.bands,
     )
     statistics = dict(zip(mixtures, mixed, strict=True))
-    found = []
+    views = []
     for channels, scale in requested:
         values = statistics[channels.tobytes(), scale.shared]
         view = (
-            divide_by_change(values, round(preset.samples(scale.restless_over)), scale.weight)
-            if scale.restless_over
+            divide_by_change(values, round(preset.samples(scale.change_window)), scale.weight)
+            if scale.change_window
             else divide_by_deviation(values, len(channels), scale.weight)
         )
-        steps = max(1, round(preset.samples(VELOCITY_OVER)))
+        steps = max(1, round(preset.samples(VELOCITY_WINDOW)))
         weight = velocity_weight
-        found.append(append_velocities(view, len(channels), steps, weight) if weight else view)
-    return found
+        views.append(append_velocities(view, len(channels), steps, weight) if weight else view)
+    return views
 
 
 def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
-    """Return what reduces the variance that channels share; each keeps a deviation of 1.
+    """Return a map that reduces the variance that channels share, and keeps deviations of 1.
 
-    None where nothing is reduced. Memory grows with the smaller side of the array, squared.
+    Return None if nothing is reduced. Memory grows with the square of the smaller side of the
+    array.
 
     Parameters
     ----------
     scaled : (frames, channels) array
-        With a mean of 0 and a deviation of 1, or 0 where nothing changes.
+        With a mean of 0 and a deviation of 1 (0 for constant channels).
     most : float
         Largest variance in any direction of the space of channels.
     """
     frames, channels = scaled.shape
-    if most >= channels:  # they cannot share more
+    if most >= channels:  # the total variance is `channels`
         return None
     if channels <= frames:
         variances, directions = np.linalg.eigh(scaled.T @ scaled / frames)
         large = variances > most
         variances, directions = variances[large], directions[:, large]
-    else:  # the frames' Gram matrix has the same eigenvalues, and is smaller
+    else:  # the Gram matrix of frames is smaller and has the same eigenvalues
         variances, weights = np.linalg.eigh(scaled @ scaled.T / frames)
         large = variances > most
         variances = variances[large]
-        # Left singular vectors times the data give the right ones.
+        # Left singular vectors times the data give the right singular vectors.
         directions = scaled.T @ (weights[:, large] / np.sqrt(frames * variances))
     factors = np.sqrt(most / variances)
-    # Variance of each channel, less what its large directions lose.
-    left = (scaled**2).mean(axis=0) - directions**2 @ (variances - most)
-    left = np.sqrt(np.maximum(left, 0.0))
-    return Reduction(directions, factors, 1 / np.where(left > TINY, left, 1.0))
+    # Remaining variance of each channel, then its deviation.
+    remaining = (scaled**2).mean(axis=0) - directions**2 @ (variances - most)
+    remaining = np.sqrt(np.maximum(remaining, 0.0))
+    return Reduction(directions, factors, 1 / np.where(remaining > TINY, remaining, 1.0))
 
 
 def divide_by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
-    """Means, and each band, divided by their whole deviation to the power `weight`.
+    """Divide means, and each band, by their overall deviation to the power `weight`.
 
     Parameters
     ----------
     statistics : (samples, groups * channels) array
     channels : int
     weight : float
-        1 gives each group the same weight, 0 leaves them as they are.
+        1 gives each group the same weight, 0 does not change them.
     """
     centred = statistics - statistics.mean(axis=0)
     # Columns are grouped: means of all channels, then energies of all in each band.
@@ -211,7 +213,7 @@ def divide_by_deviation(statistics: Floats, channels: int, weight: float) -> NDA
 
 
 def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[np.float32]:
-    """Return each statistic divided by its mean change over so many samples to the power `weight`.
+    """Divide each statistic by its mean change over `steps` samples to the power `weight`.
 
     Examples
     --------
@@ -220,19 +222,19 @@ def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[n
     [0.5, 3.5]
     """
     centred = statistics - statistics.mean(axis=0)
-    # Of a short recording a third is enough to see a change.
+    # At most a third of a short recording.
     steps = max(1, min(steps, len(centred) // 3))
     changes = np.abs(centred[steps:] - centred[:-steps])
-    restless = changes.mean(axis=0) if len(changes) else np.zeros(centred.shape[1])
-    # A statistic that never changes would grow without bounds.
-    least = STILL * float(np.sqrt((restless**2).mean()))
+    mean_change = changes.mean(axis=0) if len(changes) else np.zeros(centred.shape[1])
+    # A lower limit, or statistics that hardly change would grow without bounds.
+    least = MIN_CHANGE * float(np.sqrt((mean_change**2).mean()))
     if least < TINY:
         return np.ascontiguousarray(centred, np.float32)
-    return np.ascontiguousarray(centred / np.maximum(restless, least) ** weight, np.float32)
+    return np.ascontiguousarray(centred / np.maximum(mean_change, least) ** weight, np.float32)
 
 
 def _measure_deviations(centred: Floats) -> Floats:
-    """Return the standard deviation of each column; 1 where nothing changes."""
+    """Return the standard deviation of each column; 1 for constant columns."""
     deviations: Floats = np.sqrt((centred**2).mean(axis=0))
     return np.where(deviations > TINY, deviations, 1.0)
 
@@ -240,16 +242,16 @@ def _measure_deviations(centred: Floats) -> Floats:
 def choose_view(
     answers: Sequence[Labels], others: Sequence[Labels] = (), *, margin: float = 0.0
 ) -> int:
-    """Return 0 for the first answer or the place of the last: the one that agrees more with all.
+    """Return the index of the first or the last answer: the one that agrees more with all.
 
     Parameters
     ----------
     answers : sequence of (samples,) array
-        Per answer the cluster of each sample.
+        Clusters of the samples, for each view.
     others : sequence of (samples,) array
-        Answers that count, but cannot be taken.
+        Answers that vote, but cannot be chosen.
     margin : float
-        Mutual information, in the mean over all, by which the last must agree more to be taken.
+        Mean mutual information by which the last must agree more to be chosen.
 
     Examples
     --------
@@ -266,7 +268,7 @@ def choose_view(
 
 
 def measure_mutual_information(first: Labels, second: Labels) -> float:
-    """Return mutual information of two clusterings of the same samples, over their mean entropy.
+    """Return the mutual information of two clusterings, divided by their mean entropy.
 
     Examples
     --------
@@ -275,10 +277,10 @@ def measure_mutual_information(first: Labels, second: Labels) -> float:
     >>> measure_mutual_information(np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1]))
     0.0
     """
-    # Two labels as one number, so that one count gives the table of both.
+    # Contingency table, by counting pairs of labels as one number.
     width = int(second.max()) + 1
-    together = np.bincount(first * width + second, minlength=(int(first.max()) + 1) * width)
-    table = together.reshape(-1, width)
+    counts = np.bincount(first * width + second, minlength=(int(first.max()) + 1) * width)
+    table = counts.reshape(-1, width)
     one, other = _measure_entropy(table.sum(axis=1)), _measure_entropy(table.sum(axis=0))
     if one + other == 0:
         return 1.0
@@ -286,6 +288,6 @@ def measure_mutual_information(first: Labels, second: Labels) -> float:
 
 
 def _measure_entropy(counts: Labels) -> float:
-    """Of the shares that counts are."""
+    """Return the entropy of the distribution of counts, in nats."""
     shares = counts[counts > 0] / counts.sum()
     return float(-(shares * np.log(shares)).sum()) + 0.0

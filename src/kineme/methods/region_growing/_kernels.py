@@ -1,6 +1,6 @@
-"""Compiled loops of the segmentation: growing regions, coherence, links.
+"""Compiled loops of the segmentation: growing regions, coherent paths, links.
 
-Frames count from 0. Naive twins are in ``tests/helpers/naive``.
+Frames count from 0. Naive versions of the kernels are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from kineme._util.parallel import OPTIONS
 
 @njit("Tuple((int64[::1], int32[::1]))(int64[::1], int32[::1], boolean)", **OPTIONS)
 def group_pairs(indptr, indices, by_later):
-    """Stored pairs grouped by their later frame, or by their earlier one; holds the other."""
+    """Group the stored pairs by their later or earlier frame; return pointers and other frames."""
     n = len(indptr) - 1
-    # Counting sort: how many pairs each frame has, then where its pairs begin.
+    # Counting sort: count the pairs of each frame, then compute where they begin.
     grouped = np.zeros(n + 1, np.int64)
     for i in range(n):
         for e in range(indptr[i], indptr[i + 1]):
             key = max(i, indices[e]) if by_later else min(i, indices[e])
             grouped[key + 1] += 1
-    # Next free place of each frame's pairs.
+    # Next free position among the pairs of each frame.
     position = np.empty(n, np.int64)
     for i in range(n):
         position[i] = grouped[i]
@@ -47,7 +47,7 @@ def find_most(counts, first, last):
 
 @njit("int64[::1](int64[::1], int32[::1], int64, int64)", **OPTIONS)
 def grow_squares_forward(indptr, earlier, min_gap, min_count):
-    """Neighbour pairs inside the growing square, frame by frame; -1 where undefined.
+    """Count the neighbour pairs inside the growing square at each frame; -1 if undefined.
 
     ``earlier[indptr[i]:indptr[i + 1]]`` holds the earlier frame of every
     stored pair whose later frame is i.
@@ -57,7 +57,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
     start = last = still = found = 0
     for i in range(1, n):
         for e in range(indptr[i], indptr[i + 1]):
-            # Pairs with both frames in the square from `start` to i.
+            # Count pairs with both frames in the square from `start` to i.
             found += earlier[e] >= start
         counts[i] = found
         if counts[i] != counts[i - 1]:
@@ -65,7 +65,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
             continue
         still += 1
         if still == min_gap:
-            # A region that holds too little goes on instead of being cut.
+            # A region with too few neighbours is continued instead of cut.
             if find_most(counts, last, i) > min_count:
                 last = i - still
                 start = i
@@ -79,7 +79,7 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
 
 @njit("int64[::1](int64[::1], int32[::1], boolean[::1], int64, int64)", **OPTIONS)
 def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
-    """Return the same from the end; regions also end at forward cuts.
+    """Count the pairs as `grow_squares_forward`, from the end; regions also end at forward cuts.
 
     ``later[indptr[i]:indptr[i + 1]]`` holds the later frame of every stored
     pair whose earlier frame is i.
@@ -88,12 +88,12 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
     counts = np.full(n, -1, np.int64)
     end = last = n - 1
     still = found = 0
-    # From the last frame but one back: there is no later frame to pair the last with.
+    # Start at the last frame but one: the last frame has no later frame.
     for i in range(n - 2, -1, -1):
         for e in range(indptr[i], indptr[i + 1]):
             found += later[e] <= end
         counts[i] = found
-        # At a forward cut another activity ends: the region begins anew there.
+        # At a forward cut another activity ends: start a new region.
         restart = forward_cuts[i]
         if not restart:
             if counts[i] != counts[i + 1]:
@@ -113,7 +113,7 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
 
 @njit("int64[::1](int64[::1], int32[::1], int64, int64)", **OPTIONS)
 def scan_lines_forward(indptr, indices, min_gap, min_count):
-    """Frames at which a region, scanned line by line, stops finding neighbours."""
+    """Return the frames at which a region, scanned line by line, stops finding neighbours."""
     cuts = []
     start = region = still = 0
     for i in range(len(indptr) - 1):
@@ -131,7 +131,7 @@ def scan_lines_forward(indptr, indices, min_gap, min_count):
 
 @njit("int64[::1](int64[::1], int32[::1], boolean[::1], int64, int64)", **OPTIONS)
 def scan_lines_backward(indptr, indices, forward_cuts, min_gap, min_count):
-    """Return the same from the end; regions also end at forward cuts."""
+    """Scan as `scan_lines_forward`, from the end; regions also end at forward cuts."""
     cuts = []
     end = len(indptr) - 2
     region = still = 0
@@ -145,28 +145,28 @@ def scan_lines_backward(indptr, indices, forward_cuts, min_gap, min_count):
             end = i
             region = still = 0
         elif still >= min_gap and region > min_count:
-            # The last frame (seen backward) that had a neighbour.
+            # The last frame, in this direction, that had a neighbour.
             end = i + still
             cuts.append(end)
             region = still = 0
-    # Found from the end, returned in order of time.
+    # Reverse to order of time.
     return np.array(cuts[::-1], dtype=np.int64)
 
 
 @njit("int64(int32[::1], int32[::1])", **OPTIONS)
-def count_members(values, of):
-    """How many of the ascending ``values`` occur in the ascending ``of``."""
+def count_members(values, others):
+    """Count the values of an ascending array that occur in another ascending array."""
     count = k = 0
     for value in values:
-        while k < len(of) and of[k] < value:
+        while k < len(others) and others[k] < value:
             k += 1
-        count += k < len(of) and of[k] == value
+        count += k < len(others) and others[k] == value
     return count
 
 
 @njit("boolean[::1](int64[::1], int32[::1], int32[::1], float64)", **OPTIONS)
 def mark_coherent_paths(ptr, rows, columns, share):
-    """Which paths have a mirror image: a path that matches their spans the other way round."""
+    """Mark the paths with a mirror image: a path with rows and columns exchanged."""
     n = len(ptr) - 1
     coherent = np.zeros(n, np.bool_)
     for p in range(n):
@@ -186,7 +186,7 @@ def mark_coherent_paths(ptr, rows, columns, share):
 
 @njit("int64(int32[::1], int32[::1], int64)", **OPTIONS)
 def find_row_at_column(rows, columns, column):
-    """Return row at which a path passes a column, between two nodes their mean rounded half up."""
+    """Return the row at which a path passes a column; between two nodes, their rounded mean."""
     at = max(np.searchsorted(columns, column, side="right") - 1, 0)
     if columns[at] < column and at + 1 < len(rows):
         return (rows[at] + rows[at + 1] + 1) // 2
@@ -199,7 +199,7 @@ def find_row_at_column(rows, columns, column):
     **OPTIONS,
 )
 def find_linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
-    """Segments h that paths through segment g link to it, and the smaller share covered.
+    """Return the segments h that paths link to segment g, and the smaller covered share of both.
 
     Segments are the frames ``borders[h]..borders[h + 1]``, both inclusive. A
     segment may be linked by several paths.
@@ -213,12 +213,12 @@ def find_linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
         h = max(np.searchsorted(borders, low, side="right") - 2, 0)
         while h < len(borders) - 1 and borders[h] <= high:
             first, last = borders[h], borders[h + 1]
-            # 2014: all rows of the path. 2017: only those between the borders of h.
+            # 2014: all rows of the path. 2017: only the rows between the borders of h.
             row_low, row_high = path_rows[0], path_rows[-1]
             if interpolate:
                 row_low = find_row_at_column(path_rows, path_columns, first)
                 row_high = find_row_at_column(path_rows, path_columns, last)
-            # Frames of h that the path passes, both ends included, as a share of h.
+            # Covered share of the frames of h, and of g; ends are inclusive.
             of_h = (min(last, high) - max(first, low) + 1) / (last - first + 1)
             of_g = (min(g_last, row_high) - max(g_first, row_low) + 1) / (g_last - g_first + 1)
             if min(of_h, of_g) >= coverage:
@@ -230,7 +230,7 @@ def find_linked_segments(ptr, rows, columns, borders, g, coverage, interpolate):
 
 @njit("int64[::1](int64[::1], int32[::1], int64[::1])", **OPTIONS)
 def count_inner_neighbors(indptr, indices, borders):
-    """Neighbours of each frame inside its own block ``[borders[b], borders[b + 1])``."""
+    """Count the neighbours of each frame inside its own block ``[borders[b], borders[b + 1])``."""
     counts = np.zeros(len(indptr) - 1, np.int64)
     for b in range(len(borders) - 1):
         for i in range(borders[b], borders[b + 1]):

@@ -1,8 +1,8 @@
-"""Compiled search for neighbours: small loops on plain arrays.
+"""Compiled loops that search neighbours.
 
-Kernels trust their input; the public functions beside them validate it. Each
-has a slow, literal twin in ``tests/helpers/naive``. Signatures are explicit, so one
-compilation serves every call, and compiled code is kept on disk.
+Kernels do not check their arguments; the functions that call them do. Naive versions
+are in ``tests/helpers/naive``. Signatures are explicit, so that each kernel is
+compiled once, and compiled code is cached on disk.
 """
 
 from __future__ import annotations
@@ -12,16 +12,15 @@ from numba import njit
 
 from kineme._util.parallel import OPTIONS
 
-# Columns are screened in runs of this many, so that the far ones, which are
-# most, cost one vectorised comparison each.
 RUN = 32
+"""Number of columns that are screened at a time, by one vectorised comparison."""
 
 
 @njit("float32(float32[::1], int64, int64)", **OPTIONS)
 def select_smallest(values, count, rank):
-    """Return the value of this rank, from 0, among the first ``count``, which are reordered.
+    """Return the value of rank ``rank``, from 0, among the first ``count``; reorder these.
 
-    Hoare's quickselect: numpy's partition would take seconds to compile.
+    Hoare's quickselect, because numpy's partition takes seconds to compile.
     """
     low, high = 0, count - 1
     while low < high:
@@ -51,21 +50,21 @@ def select_smallest(values, count, rank):
     **OPTIONS,
 )
 def screen_columns(product, row_limits, column_norms, starts, stops, columns, counts):
-    """``columns[i, :counts[i]]``: those in ``[starts[i], stops[i])`` that may be near row i.
+    """Write the columns of ``[starts[i], stops[i])`` that may be near row i to ``columns[i]``.
 
-    A column j passes if ``column_norms[j] - 2 product[i, j] <= row_limits[i]``,
-    in float32.
+    ``counts[i]`` is their number. A column j passes if
+    ``column_norms[j] - 2 product[i, j] <= row_limits[i]``, in float32.
     """
-    # Single precision throughout: a literal 2 would make the expression double.
+    # A literal 2 would make the expression double precision.
     two = np.float32(2)
     for i in range(product.shape[0]):
         limit = row_limits[i]
         count = 0
-        # Most runs hold no near column: they are left after one vectorised count.
+        # Most runs have no near column and end after one vectorised count.
         for first in range(starts[i], stops[i], RUN):
             last = min(first + RUN, stops[i])
             hits = 0
-            # The sides are |y|² - 2 x·y, and r² - |x|² with its margin.
+            # |y|² - 2 x·y <= r² - |x|² + margin.
             for j in range(first, last):
                 hits += column_norms[j] - two * product[i, j] <= limit
             if hits:
@@ -83,9 +82,9 @@ def screen_columns(product, row_limits, column_norms, starts, stops, columns, co
     **OPTIONS,
 )
 def measure_columns(rows, others, radius, first_column, columns, counts):
-    """Screened columns truly within the radius, row after row, and their distances.
+    """Return the screened columns within the radius, row by row, and their distances.
 
-    Distances are taken in float64. ``counts`` is updated to what was kept.
+    Distances are computed in float64. ``counts`` is updated.
     """
     indices = np.empty(counts.sum(), np.int32)
     distances = np.empty(len(indices), np.float32)
@@ -100,7 +99,7 @@ def measure_columns(rows, others, radius, first_column, columns, counts):
                 square += difference * difference
             distance = np.sqrt(square)
             if distance <= radius:
-                # Columns of the block become columns of the graph.
+                # Convert columns of the block to columns of the graph.
                 indices[kept] = first_column + j
                 distances[kept] = distance
                 kept += 1
@@ -110,7 +109,7 @@ def measure_columns(rows, others, radius, first_column, columns, counts):
 
 @njit("boolean[::1](int64[::1], float32[::1], int64)", **OPTIONS)
 def mark_nearest(indptr, distances, k):
-    """Which entries are among the k nearest of their row, ties to the earlier entry.
+    """Mark the k nearest entries of each row; at a tie the earlier entry.
 
     Row i is ``distances[indptr[i] - indptr[0]:indptr[i + 1] - indptr[0]]``.
     """
@@ -128,7 +127,7 @@ def mark_nearest(indptr, distances, k):
             values[e] = distances[first + e]
         # The k-th smallest distance of the row.
         limit = select_smallest(values, count, k - 1) if k > 0 else np.float32(-1)
-        # How many entries at exactly that distance are still to be kept.
+        # Number of entries with exactly this distance that are kept.
         ties = k
         for e in range(first, first + count):
             ties -= distances[e] < limit
@@ -147,11 +146,11 @@ def mark_nearest(indptr, distances, k):
 def copy_restricted(
     indptr, indices, distances, radius, min_lag, out_indptr, out_indices, out_distances
 ):
-    """Copy the entries within the radius and at least min_lag off the diagonal."""
+    """Copy the entries within the radius and at least min_lag off the diagonal; count them."""
     kept = 0
     for i in range(indptr.shape[0] - 1):
         for e in range(indptr[i], indptr[i + 1]):
-            # Every entry is written, and the place only moves on if it is kept: no branch.
+            # Without a branch: write every entry, and overwrite it if it is not kept.
             out_indices[kept] = indices[e]
             out_distances[kept] = distances[e]
             kept += distances[e] <= radius and abs(indices[e] - i) >= min_lag

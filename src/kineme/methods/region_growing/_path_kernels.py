@@ -1,12 +1,12 @@
-"""Compiled walks over the neighbour graph: components, cheapest paths, symmetry.
+"""Compiled loops over the neighbour graph: components and cheapest paths.
 
-A node is a stored pair (t, j) inside a box of rows and columns; nodes are
+A node is a stored pair (t, j) inside a box of rows and columns. Nodes are
 numbered row by row, ascending in j. A warping step (a, b) leads from
-(t - a, j - b) to (t, j). Naive twins are in ``tests/helpers/naive``.
+(t - a, j - b) to (t, j). Naive versions are in ``tests/helpers/naive``.
 
-``first[r]`` is the first stored entry of row r inside the box and ``node[r]``
-the number of its node, so that node v of row r is entry ``v + first[r] - node[r]``.
-The last few rows are kept in a ring of dense rows, in which a step is one look-up.
+``first[r]`` is the first stored entry of row r inside the box, and ``node[r]``
+the number of its node. So node v of row r is entry ``v + first[r] - node[r]``.
+The last few rows are stored densely in a ring buffer, in which a step is one look-up.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from kineme._util.parallel import OPTIONS
     "Tuple((int64[::1], int64[::1]))(int64[::1], int32[::1], int64, int64, int64, int64)", **OPTIONS
 )
 def find_box_rows(indptr, indices, row_start, row_stop, column_start, column_stop):
-    """``first`` and ``node`` of the rows of a box."""
+    """Return ``first`` and ``node`` for the rows of a box; see the module docstring."""
     rows = row_stop - row_start
     first = np.empty(rows, np.int64)
     node = np.zeros(rows + 1, np.int64)
@@ -36,8 +36,8 @@ def find_box_rows(indptr, indices, row_start, row_stop, column_start, column_sto
 
 @njit("Tuple((int64, int64))(int32[::1], int64[::1], int64[::1])", **OPTIONS)
 def find_used_columns(indices, first, node):
-    """First column with a node, and how many from there hold all: what a ring must span."""
-    # The largest number of an index stands for no column yet.
+    """Return the first column with a node, and the number of columns up to the last one."""
+    # The largest index stands for "none yet".
     low, high = np.int64(np.iinfo(np.int32).max), np.int64(-1)
     for r in range(len(first)):
         nodes = node[r + 1] - node[r]
@@ -49,13 +49,13 @@ def find_used_columns(indices, first, node):
 
 @njit("Tuple((int32[::1], int64, int64))(int64[:, ::1], int64)", **OPTIONS)
 def make_ring(steps, width):
-    """Return the ring, the length of its rows, and how far steps reach to the left."""
+    """Return an empty ring buffer, the length of its rows, and how far steps reach to the left."""
     # As many rows as the longest step goes back, plus the current one.
     depth, reach = 1, 0
     for s in range(len(steps)):
         depth = max(depth, steps[s, 0] + 1)
         reach = max(reach, steps[s, 1])
-    # Room to the left, so that a step never leaves its row.
+    # Padding to the left, so that a step never leaves its row.
     return np.full(depth * (width + reach), -1, np.int32), width + reach, reach
 
 
@@ -65,16 +65,16 @@ def make_ring(steps, width):
     **OPTIONS,
 )
 def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
-    """Put row r into the ring in place of the row that falls out of reach.
+    """Replace the oldest row of the ring buffer by row r.
 
     Afterwards the node one step s before column j of row r is
-    ``ring[looks[s] + j]``, or -1.
+    ``ring[slots[s] + j]``, or -1.
     """
     depth = len(ring) // line
-    # The row's place in the ring; column j is at `here + j`.
+    # Column j of the row is at `here + j`.
     here = (r % depth) * line + offset
     if r >= depth:
-        # Only entries that were set are cleared: cheaper than a whole row.
+        # Clear only the entries that were set, which is cheaper than a whole row.
         old = r - depth
         for e in range(first[old], first[old] + node[old + 1] - node[old]):
             ring[here + indices[e]] = -1
@@ -82,15 +82,15 @@ def enter_row(ring, line, slots, r, indices, first, node, steps, offset):
     for v in range(node[r], node[r + 1]):
         ring[here + indices[v + shift]] = v
     for s in range(len(steps)):
-        # Place of column j of the row from which step s comes, less the columns that it goes.
+        # Position of the node before step s, without the column j.
         slots[s] = ((r - steps[s, 0]) % depth) * line + offset - steps[s, 1]
 
 
 @njit("int32[::1](int32[::1], int64[::1], int64[::1], int64[:, ::1], int64, int64)", **OPTIONS)
 def find_component_roots(indices, first, node, steps, column_start, width):
-    """``roots[v]``: the first node of the weakly connected component of v."""
+    """Return the first node of the weakly connected component of each node."""
     n = node[-1]
-    # Union-find over nodes; a root has the smallest number of its component.
+    # Union-find; the root of a component is its smallest node.
     parents = np.empty(n, np.int32)
     ring, line, reach = make_ring(steps, width)
     slots = np.empty(len(steps), np.int64)
@@ -102,18 +102,18 @@ def find_component_roots(indices, first, node, steps, column_start, width):
             root = np.int32(v)
             for slot in slots:
                 u = ring[slot + j]
-                # A step of (0, b) looks into the same row, where later nodes are not yet known.
+                # A step (0, b) looks into the same row, where later nodes are not yet set.
                 if u < 0 or u >= v:
                     continue
                 up = parents[u]
                 if up == root:
                     continue
-                # Path halving: nodes on the way to the root are attached to their grandparents.
+                # Path halving: attach nodes on the way to the root to their grandparents.
                 while up != u:
                     parents[u] = parents[up]
                     u = parents[u]
                     up = parents[u]
-                # The smaller root wins, so a root is the first node of its component.
+                # The smaller root becomes the root of the union.
                 if u < root:
                     if root < v:
                         parents[root] = u
@@ -121,7 +121,7 @@ def find_component_roots(indices, first, node, steps, column_start, width):
                 else:
                     parents[u] = root
             parents[v] = root
-    # Parents come first, so one pass leaves the root everywhere.
+    # Parents have smaller numbers, so one pass in order resolves all roots.
     for v in range(n):
         parents[v] = parents[parents[v]]
     return parents
@@ -135,11 +135,11 @@ def find_component_roots(indices, first, node, steps, column_start, width):
 def find_cheapest_arrivals(
     indices, distances, first, node, steps, penalties, column_start, width, roots, valid, zero_cost
 ):
-    """Cost, predecessor and first column of the cheapest path to every node.
+    """Return cost, predecessor and first column of the cheapest path to every node.
 
     Paths begin at any node of the first row of their component. A node costs
-    its distance, ``zero_cost`` where that is zero, and the penalty of the step
-    that led there. Nodes of components that are not ``valid`` are skipped.
+    its distance (``zero_cost`` if that is zero) plus the penalty of the step
+    that led to it. Nodes of components that are not ``valid`` are skipped.
     """
     n = node[-1]
     costs = np.full(n, np.inf)
@@ -151,12 +151,12 @@ def find_cheapest_arrivals(
         enter_row(ring, line, slots, r, indices, first, node, steps, reach - column_start)
         shift = first[r] - node[r]
         for v in range(node[r], node[r + 1]):
-            # Too small components are not worth a path.
+            # Skip components that are too small.
             if not valid[roots[v]]:
                 continue
             j = indices[v + shift]
             best = np.inf
-            # The component begins in this row: a path may begin here at no cost.
+            # If the component begins in this row, a path may begin here at no cost.
             if roots[v] >= node[r]:
                 best = 0.0
                 origins[v] = j
@@ -165,10 +165,10 @@ def find_cheapest_arrivals(
                 if u >= 0 and costs[u] + penalties[s] < best:
                     best = costs[u] + penalties[s]
                     before[v] = u
-            # The path keeps the column of its first node.
+            # Inherit the first column of the path.
             if before[v] >= 0:
                 origins[v] = origins[before[v]]
-            # Equal poses have a cost as well, so that a longer path is never free.
+            # Equal poses also have a cost, so that no path is free.
             distance = np.float64(distances[v + shift])
             costs[v] = best + (distance if distance > 0 else zero_cost)
     return costs, before, origins
@@ -176,7 +176,7 @@ def find_cheapest_arrivals(
 
 @njit("Tuple((boolean[::1], int64[::1]))(int32[::1], int64[::1], int64)", **OPTIONS)
 def survey_components(roots, node, min_nodes):
-    """Which components have ``min_nodes`` nodes over two rows or more, and their last rows."""
+    """Mark components of at least ``min_nodes`` nodes and two rows; return also their last rows."""
     n = node[-1]
     counts = np.zeros(n, np.int64)
     last_rows = np.zeros(n, np.int64)
@@ -186,7 +186,7 @@ def survey_components(roots, node, min_nodes):
             root = roots[v]
             counts[root] += 1
             last_rows[root] = r
-            # The root is the first node, so an earlier row means two rows or more.
+            # The root is the first node: if it lies in an earlier row, there are two rows or more.
             valid[root] = root < node[r] and counts[root] >= min_nodes
     return valid, last_rows
 
@@ -196,10 +196,10 @@ def survey_components(roots, node, min_nodes):
     **OPTIONS,
 )
 def choose_ends(roots, valid, last_rows, costs, origins, node, separation):
-    """Nodes of the last row of each component at which a path ends, cheapest first.
+    """Return the nodes of the last row of each component at which paths end, cheapest first.
 
-    Of two ends whose paths begin less than ``separation`` columns apart the
-    cheaper stays. No path may lead from the first row to a node of the last.
+    If two paths begin less than ``separation`` columns apart, only the cheaper one is
+    kept. A node without a path from the first row is skipped.
     """
     ends = []
     for r in range(len(node) - 1):
@@ -214,7 +214,7 @@ def choose_ends(roots, valid, last_rows, costs, origins, node, separation):
                 if roots[v] == roots[end] and costs[v] < costs[end]:
                     end = v
             ends.append(end)
-            # Ends of other components, and of this one those whose paths begin far enough away.
+            # Keep ends of other components, and ends whose paths begin far enough away.
             rest = [
                 v
                 for v in rest
@@ -234,7 +234,7 @@ def find_paths_in_box(
     indptr, indices, distances, row_start, row_stop, column_start, column_stop, steps, penalties,
     zero_cost, min_nodes, separation,
 ):  # fmt: skip
-    """Cheapest paths through the components of a box: pointers, rows, columns, costs."""
+    """Return the cheapest paths through the components of a box: pointers, rows, columns, costs."""
     first, node = find_box_rows(indptr, indices, row_start, row_stop, column_start, column_stop)
     column_start, width = find_used_columns(indices, first, node)
     roots = find_component_roots(indices, first, node, steps, column_start, width)
@@ -244,7 +244,7 @@ def find_paths_in_box(
         zero_cost,
     )  # fmt: skip
     ends = choose_ends(roots, valid, last_rows, costs, origins, node, separation)
-    # Lengths of the paths, found by going back, become pointers.
+    # Backtrack to count the nodes of each path; cumulative counts are the pointers.
     ptr = np.zeros(len(ends) + 1, np.int64)
     for p in range(len(ends)):
         v = ends[p]
@@ -256,7 +256,7 @@ def find_paths_in_box(
     columns = np.empty(ptr[-1], np.int32)
     for p in range(len(ends)):
         v = ends[p]
-        # Filled from the end, since predecessors lead backwards.
+        # Fill from the end, as predecessors lead backwards.
         for position in range(ptr[p + 1] - 1, ptr[p] - 1, -1):
             # Row of a node: the last row that begins at or before it.
             r = np.searchsorted(node, v, side="right") - 1

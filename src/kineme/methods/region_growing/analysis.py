@@ -1,6 +1,6 @@
-"""Published methods: what each stage finds, in frames of the working rate.
+"""Run the stages of the published methods, in frames at the working rate.
 
-Nothing here knows what a skeleton is: any array of frames × dims will do.
+Features are any array of frames × dims.
 """
 
 from __future__ import annotations
@@ -43,17 +43,16 @@ def analyze_regions(
     mirror: Mirror | None = None,
     progress: Progress | None = None,
 ) -> RegionsFound:
-    """Neighbour graph, activities, primitives and clusters of a sequence of features.
+    """Find the neighbour graph, activities, primitives and clusters of a sequence of features.
 
     Parameters
     ----------
     features : (frames, dims) array
-        Stacked poses at the working rate, in metres where the preset's radius is to mean
-        what its source means.
+        Stacked poses at the working rate, in the unit of the preset's lengths.
     preset : RegionGrowingConstants
     mirror : callable, optional
-        Exchanges left and right in such features; `kineme.features.mirror_features` for
-        those of motions.
+        Swaps left and right in these features; `kineme.features.mirror_features` for
+        features of motions.
     progress : callable, optional
         Called with the name of each stage before it runs.
 
@@ -64,28 +63,28 @@ def analyze_regions(
     Raises
     ------
     ParameterError
-        Features of another shape, empty or not finite; or the preset mirrors, and nothing
-        says how.
+        The features have another shape, are empty or not finite; or the preset mirrors, but no
+        `mirror` is given.
     """
-    given = as_features(features)
+    rows = as_features(features)
     if preset.mirror and mirror is None:
         raise ParameterError("these features have no left and right: they take mirror=False")
     timings: dict[str, float] = {}
     stage = time_stages(timings, progress)
-    compared = given
+    compared = rows
     if preset.bundling is not None:
-        from kineme.features.bundling import bundle  # compiled code that few need
+        # Imported here: it loads compiled code.
+        from kineme.features.bundling import bundle
 
         with stage("bundling"):
-            compared = bundle(given, neighbors=preset.bundling)
+            compared = bundle(rows, neighbors=preset.bundling)
     with stage("neighbors"):
         graph = _find_neighbors(compared, None, preset)
     with stage("activities"):
         off_diagonal = _make_growth_graph(graph, preset)
         cuts = _find_activity_cuts(off_diagonal, preset)
         borders = _make_borders(cuts.all, len(graph))
-        # Neighbours of each frame within its own segment; their sum tells whether a segment
-        # repeats.
+        # Neighbours of each frame within its own segment: a segment repeats if it has many.
         inner = _kernels.count_inner_neighbors(off_diagonal.indptr, off_diagonal.indices, borders)
         repeats = _find_repeats(borders, cuts, np.add.reduceat(inner, borders[:-1]), preset)
         # Share of the frames of each segment that have a neighbour in it.
@@ -102,7 +101,7 @@ def analyze_regions(
             cuts_inside = _merge_cuts(divided, mirrored, preset)
             symmetry = _classify_symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
-        # Borders of activities are borders of primitives, too.
+        # Borders of activities are also borders of primitives.
         primitives = _make_borders(np.concatenate([borders, *cuts_inside]), len(graph))
         clustering = _find_clusters(graph, primitives, preset)
     return RegionsFound(
@@ -132,12 +131,12 @@ def _find_neighbors(
 
 
 def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
-    """Return the pairs that growing regions count: near enough, and off the main diagonal."""
+    """Return the pairs that growing regions count: near, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
     if preset.diagonal == "component":
         labels = label_components(graph)
-        # The first stored pair is (0, 0), so its label is that of the main diagonal.
+        # The first stored pair is (0, 0), which lies on the main diagonal.
         graph = graph.select(labels != labels[0])
         return graph.restrict(radius=preset.growth_radius)
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
@@ -156,7 +155,7 @@ def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) ->
 
 
 def _make_borders(cuts: Frames, n: int) -> Frames:
-    """0, the cuts that leave at least a frame on either side, n."""
+    """Return 0, the cuts with at least one frame on each side, and n."""
     inner = np.unique(cuts)
     return np.concatenate([[0], inner[(inner > 0) & (inner < n - 1)], [n]])
 
@@ -164,8 +163,8 @@ def _make_borders(cuts: Frames, n: int) -> Frames:
 def _find_repeats(
     borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingConstants
 ) -> NDArray[np.bool_]:
-    """Segments that repeat themselves; those from an end to the next start do not."""
-    # Between an end and the next start lies a transition.
+    """Mark the segments that repeat themselves."""
+    # A span from an end to the next start is a transition.
     ends_only = np.isin(borders[:-1], cuts.forward) & ~np.isin(borders[:-1], cuts.backward)
     return (pairs > preset.growth_count) & ~(ends_only & np.isin(borders[1:], cuts.backward))
 
@@ -173,15 +172,15 @@ def _find_repeats(
 def _find_primitives(
     graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
-    # Both ends are included, so the last border is the last frame.
+    # Ends are inclusive, so the last border is the last frame.
     frames = np.minimum(borders, len(graph) - 1).tolist()
 
-    def cuts_of(segment: int) -> PrimitiveCuts:
+    def find_cuts(segment: int) -> PrimitiveCuts:
         return find_primitive_cuts(
             graph,
             (frames[segment], frames[segment + 1]),
             steps=preset.steps,
-            # Penalties are given in radii.
+            # The constant is in radii.
             skip_penalty=preset.skip_penalty * preset.radius,
             zero_cost=preset.zero_cost,
             min_nodes=ceil(preset.min_path * preset.working_fps),
@@ -191,7 +190,7 @@ def _find_primitives(
             min_length=preset.min_primitive * preset.working_fps,
         )
 
-    return map_threads(cuts_of, range(len(borders) - 1))
+    return map_threads(find_cuts, range(len(borders) - 1))
 
 
 def _merge_cuts(
@@ -208,9 +207,9 @@ def _classify_symmetry(
     mirrored: list[PrimitiveCuts],
     preset: RegionGrowingConstants,
 ) -> NDArray[np.str_]:
-    """How left and right go together in each segment that repeats; empty in the others."""
+    """Return the symmetry of each segment that repeats; empty for the others."""
     gap = preset.min_primitive * preset.working_fps
-    # Last frames, included.
+    # Last frames, inclusive.
     last = (borders[1:] - 1).tolist()
     types = map(
         classify_symmetry, zip(borders.tolist(), last, strict=False), main, mirrored, repeat(gap)
@@ -225,7 +224,7 @@ def _find_clusters(
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(
         graph,
-        # Both ends are included, so the last border is the last frame.
+        # Ends are inclusive, so the last border is the last frame.
         np.minimum(segments, len(graph) - 1),
         steps=preset.steps,
         skip_penalty=preset.skip_penalty * preset.radius,

@@ -1,8 +1,8 @@
-"""Clusters: segments that match each other, anywhere in the recording.
+"""Cluster segments that match each other, anywhere in the recording.
 
 A segment g is linked to a segment h if a warping path through the rows of g
-covers enough of both. Clusters are the connected components of these links;
-their number is a result, not a parameter.
+covers enough of both. Clusters are the connected components of these links, so
+their number is a result and not a parameter.
 
 Sources: Vögele, Krüger and Klein 2014, section 4; coverage and strong
 components as in the authors' program and Krüger et al. 2017.
@@ -28,10 +28,11 @@ from kineme.methods.segments import number_by_appearance
 
 @dataclass(frozen=True, eq=False)
 class Clustering:
-    """``labels[g]``: cluster of segment g, numbered by first appearance from 0.
+    """Cluster and score of each segment.
 
-    ``scores[g]`` is the largest share that a path covers of g and of another
-    segment of its cluster; 0 where g is alone.
+    ``labels[g]`` is the cluster of segment g, numbered from 0 by appearance.
+    ``scores[g]`` is the largest share of g and another segment of its cluster
+    that a path covers; 0 if g is alone.
     """
 
     labels: NDArray[np.int64]
@@ -52,12 +53,12 @@ def cluster_segments(
     interpolate: bool,
     connection: Literal["weak", "strong"],
 ) -> Clustering:
-    """Groups of segments that warping paths link.
+    """Group the segments that are linked by warping paths.
 
     Parameters
     ----------
     graph : NeighborGraph
-        Main diagonal included.
+        With the main diagonal.
     borders : ndarray of shape (segments + 1,)
         Ascending frames; segment g is ``borders[g]..borders[g + 1]``, both inclusive.
     steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
@@ -65,13 +66,13 @@ def cluster_segments(
     coverage : float
         Share of both segments that a path must cover.
     interpolate : bool
-        Take the rows of a path at the borders of h (2017), or all of them (2014).
+        Count the rows of a path between the borders of h (2017), or all of them (2014).
     connection : {"weak", "strong"}
-        Links in one direction suffice (weak), or must lead back (strong).
+        Links in one direction suffice (weak), or links in both directions are needed (strong).
     """
     n = len(borders) - 1
 
-    def links_of(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    def find_links(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         paths = warping_paths(
             graph,
             (int(borders[g]), int(borders[g + 1]) + 1),
@@ -88,26 +89,25 @@ def cluster_segments(
         )
         return linked
 
-    # In parallel: the paths of each segment are independent.
-    targets, shares = zip(*map_threads(links_of, range(n)), strict=True)
-    links = _link_matrix(targets, shares)
+    targets, shares = zip(*map_threads(find_links, range(n)), strict=True)
+    links = _make_link_matrix(targets, shares)
     _, components = connected_components(links, directed=True, connection=connection)
     return Clustering(number_by_appearance(components), _find_best_shares(links, components))
 
 
-def _link_matrix(
+def _make_link_matrix(
     targets: Sequence[NDArray[np.int64]], shares: Sequence[NDArray[np.float64]]
 ) -> csr_array:
-    """Largest share per ordered pair of different segments."""
+    """Return a sparse matrix of the largest share of each ordered pair of different segments."""
     n = len(targets)
-    # Row of each link: the segment from which it was found.
+    # Row of each link: the segment whose paths were searched.
     g = np.repeat(np.arange(n), [len(linked) for linked in targets])
     h, share = np.concatenate(targets), np.concatenate(shares)
-    # Sorted by pair, the largest share first.
+    # Sort by pair, the largest share first.
     order = np.lexsort((-share, h, g))
     g, h, share = g[order], h[order], share[order]
     keep = g != h
-    # The first of each pair, which is the largest.
+    # Keep the first of each pair, which is the largest.
     keep[1:] &= (np.diff(g) != 0) | (np.diff(h) != 0)
     return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
 
@@ -115,7 +115,7 @@ def _link_matrix(
 def _find_best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
     coo = links.tocoo()
     same = components[coo.row] == components[coo.col]
-    # Both ends of a link within a cluster get its share.
+    # Both segments of a link within a cluster get its share.
     scores = np.zeros(len(components))
     np.maximum.at(scores, coo.row[same], coo.data[same])
     np.maximum.at(scores, coo.col[same], coo.data[same])

@@ -26,7 +26,7 @@ Step = tuple[int, int]
 
 @dataclass(frozen=True, kw_only=True)
 class RegionGrowingConstants(Preset):
-    """Of growing regions and warping paths."""
+    """Constants of growing regions and warping paths."""
 
     method: ClassVar[str] = "region_growing"
     units: ClassVar[tuple[Unit, ...]] = ("metres", "standard deviations")

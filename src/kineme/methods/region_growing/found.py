@@ -1,4 +1,4 @@
-"""What the published methods find, stage by stage, and the segments that come of it."""
+"""Results of all stages of the published methods, and the segment table made from them."""
 
 from __future__ import annotations
 
@@ -18,30 +18,30 @@ Frames = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class RegionsFound:
-    """What the stages found, stage by stage.
+    """Results of the stages.
 
     Attributes
     ----------
     features : (frames, dims) array
         As given, or bundled.
     graph : NeighborGraph
-        Neighbours of every frame, main diagonal included.
+        Neighbours of every frame, with the main diagonal.
     activity_cuts : ActivityCuts
-        Where activities end and start.
+        Ends and starts of activities.
     borders : (segments + 1,) array
-        Of activities and transitions, from 0 to n.
+        Borders of activities and transitions, from 0 to n.
     repeats : (segments,) array of bool
-        Whether it is an activity, or else a transition.
+        True for activities, False for transitions.
     repetition : (segments,) array
-        Share of its frames that are similar to others of it.
+        Share of the frames that are similar to other frames of the segment.
     primitives : (primitives + 1,) array
-        Borders of the primitives, from 0 to n, those of activities included.
+        Borders of primitives, from 0 to n, including those of activities.
     clustering : Clustering
         Cluster and score of each primitive.
     symmetry : (segments,) array of str, optional
-        How left and right go together in each activity: ``symmetric``, ``alternating`` or
-        ``one-sided`` (see `kineme.methods.region_growing.mirroring`); empty in transitions;
-        None where the preset does not mirror.
+        Symmetry of each activity: ``symmetric``, ``alternating`` or ``one-sided`` (see
+        `kineme.methods.region_growing.mirroring`); empty for transitions; None if the preset
+        does not mirror.
     timings : dict of str to float
         Seconds per stage.
     """
@@ -58,36 +58,35 @@ class RegionsFound:
     timings: dict[str, float] = field(default_factory=dict)
 
     def columns(self) -> Columns:
-        """Activities in the cluster that most of their frames are in, primitives in their own."""
-        # The activity of each primitive: the last that begins at or before it.
+        """Return the segment table; an activity is in the cluster of most of its frames."""
+        # Activity of each primitive: the last one that begins at or before it.
         parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
-        clusters = _cluster_numbers(self, parents)
-        of_activities = _main_clusters(clusters, parents, np.diff(self.primitives))
+        clusters = _number_clusters(self, parents)
+        activity_clusters = _find_main_clusters(clusters, parents, np.diff(self.primitives))
         return make_columns(
             self.borders,
             self.primitives,
             is_activity=self.repeats,
-            clusters=(of_activities, clusters),
+            clusters=(activity_clusters, clusters),
             confidence=(self.repetition, self.clustering.scores),
         )
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
-        """None: the published methods give no confidence."""
+        """Return an empty list: the published methods estimate no confidence."""
         return []
 
 
-def _cluster_numbers(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
-    """Numbers from 0 by first appearance; -1 for transitions that nothing else is similar to."""
+def _number_clusters(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
+    """Number clusters from 0 by appearance; -1 for transitions that are similar to no other."""
     labels = found.clustering.labels
-    # Clusters of a single primitive.
-    lonely = np.bincount(labels)[labels] == 1
-    named = ~(lonely & ~found.repeats[parents])
-    return number_by_appearance(np.where(named, labels, -1))
+    is_single = np.bincount(labels)[labels] == 1
+    has_cluster = ~(is_single & ~found.repeats[parents])
+    return number_by_appearance(np.where(has_cluster, labels, -1))
 
 
-def _main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
-    """For each activity the cluster that most of its frames are in; -1 where that is none."""
+def _find_main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
+    """Return the cluster of most of the frames of each activity; -1 if most are in none."""
     frames = np.zeros((int(parents.max()) + 1, int(clusters.max()) + 2), np.int64)
-    np.add.at(frames, (parents, clusters), lengths)  # those in no cluster: the last column
+    np.add.at(frames, (parents, clusters), lengths)  # cluster -1 counts in the last column
     main = frames.argmax(axis=1)
     return np.where(main == frames.shape[1] - 1, -1, main)

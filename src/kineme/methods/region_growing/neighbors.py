@@ -1,9 +1,8 @@
-"""Neighbour graph: for every frame, the frames that are similar to it.
+"""Neighbour graph: the similar frames of every frame, as a sparse self-similarity matrix.
 
-A sparse self-similarity matrix. Search is exact: blocks of one float32 matrix
-product estimate all distances, and every pair that may lie within the radius
-is measured again in float64. Memory grows with the neighbours found, never
-with frames × frames.
+The search is exact. Matrix products in float32 estimate all distances block by
+block. Pairs that may lie within the radius are measured again in float64. Memory
+grows with the number of neighbours, not with frames × frames.
 
 Source: Vögele, Krüger and Klein 2014, section 3 (there a kd-tree).
 """
@@ -27,11 +26,11 @@ from kineme.methods.region_growing import _neighbor_kernels as _kernels
 
 @dataclass(frozen=True, eq=False)
 class NeighborGraph:
-    """``graph[i]`` holds the frames j with ‖x_i − y_j‖ ≤ radius, nearest first, at most k.
+    """Graph whose row i holds the frames j with ‖x_i − y_j‖ ≤ radius, at most k of them.
 
-    Stored as compressed sparse rows in the order of columns (the canonical
-    form of scipy), which is the order in which warping paths walk:
-    row i is ``indices[indptr[i]:indptr[i + 1]]`` with its ``distances``.
+    ``graph[i]`` returns them nearest first. They are stored as compressed sparse rows
+    in the order of columns (the canonical form of scipy): row i is
+    ``indices[indptr[i]:indptr[i + 1]]`` with its ``distances``.
 
     Parameters
     ----------
@@ -41,9 +40,9 @@ class NeighborGraph:
     distances : ndarray of float32 of shape (entries,)
         In the unit of the features.
     n_columns : int
-        Frames that could be neighbours.
+        Number of frames among which neighbours were searched.
     radius : float
-        The radius searched.
+        The search radius.
 
     Examples
     --------
@@ -64,13 +63,13 @@ class NeighborGraph:
         return len(self.indptr) - 1
 
     def __getitem__(self, i: int) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-        """Neighbours of frame i and their distances, nearest first; ties by frame."""
+        """Return the neighbours of frame i and their distances, nearest first; ties by frame."""
         (i,) = as_indices([i], "frames")
         if not -len(self) <= i < len(self):
             raise IndexError(f"frame {i} of a graph of {len(self)}")
-        # The row's bounds: two neighbouring pointers.
+        # `i % len` supports negative indices; the row is bounded by two successive pointers.
         row = slice(*self.indptr[i % len(self) :][:2])
-        # Stable: ties stay in the order of frames.
+        # A stable sort keeps ties in the order of frames.
         order = np.argsort(self.distances[row], kind="stable")
         return self.indices[row][order], self.distances[row][order]
 
@@ -85,27 +84,23 @@ class NeighborGraph:
 
     @property
     def n_entries(self) -> int:
-        """Stored pairs (i, j)."""
+        """Return the number of stored pairs (i, j)."""
         return len(self.indices)
 
     @cached_property
     def counts(self) -> NDArray[np.int64]:
-        """Neighbours stored per frame."""
+        """Return the number of neighbours of each frame."""
         return np.diff(self.indptr)
 
     def nearest(self, k: int) -> NeighborGraph:
-        """Return the same graph with the k nearest of each frame only.
-
-        Ties to the earlier frame.
-        """
+        """Return the graph of the k nearest neighbours of each frame; ties by frame."""
         if not (is_number(k) and k >= 1):
             raise ParameterError(f"the number of neighbours must be at least 1, not {k!r}")
-        # Nothing to leave out.
         if self.n_entries == 0 or k >= self.counts.max():
             return self
 
         def mask(rows: slice) -> NDArray[np.bool_]:
-            # Pointers of these rows; the kernel counts from the first of them.
+            # Pointers of these rows; the kernel subtracts the first of them.
             indptr = self.indptr[rows.start : rows.stop + 1]
             kept: NDArray[np.bool_] = _kernels.mark_nearest(
                 indptr, self.distances[indptr[0] : indptr[-1]], k
@@ -115,17 +110,17 @@ class NeighborGraph:
         return self.select(np.concatenate(map_threads(mask, make_even_slices(len(self)))))
 
     def select(self, mask: NDArray[np.bool_]) -> NeighborGraph:
-        """Return the same graph with the stored entries where the mask is true."""
-        # Number of kept entries before each row: the new pointers.
+        """Return the graph of the stored entries for which the mask is True."""
+        # New pointers: the number of kept entries before each row.
         indptr = np.concatenate([[0], np.cumsum(mask)])[self.indptr]
         return NeighborGraph(
             indptr, self.indices[mask], self.distances[mask], self.n_columns, self.radius
         )
 
     def restrict(self, *, radius: float | None = None, min_lag: int = 0) -> NeighborGraph:
-        """Return same graph with the entries within a smaller radius and with |j − i| ≥ min_lag."""
+        """Return the graph of the entries within a smaller radius and with |j − i| ≥ min_lag."""
         radius = self.radius if radius is None else min(radius, self.radius)
-        # Filled by the kernel, which returns how many entries it kept.
+        # The kernel fills these and returns the number of entries.
         indptr = np.zeros_like(self.indptr)
         indices = np.empty_like(self.indices)
         distances = np.empty_like(self.distances)
@@ -135,7 +130,7 @@ class NeighborGraph:
         return NeighborGraph(indptr, indices[:kept], distances[:kept], self.n_columns, radius)
 
     def to_scipy(self) -> Any:
-        """As ``scipy.sparse.csr_array`` of distances. Stored zeros are neighbours, too."""
+        """Return a ``scipy.sparse.csr_array`` of distances; stored zeros are also neighbours."""
         from scipy.sparse import csr_array
 
         return csr_array(
@@ -151,22 +146,22 @@ def neighbor_graph(
     k: int | None = None,
     max_lag: int | None = None,
 ) -> NeighborGraph:
-    """``graph[i]``: frames within ``radius`` of frame i, nearest first, at most ``k``.
+    """Find the frames within ``radius`` of each frame, at most the ``k`` nearest.
 
     Parameters
     ----------
     features : array_like of shape (frames, dims)
         One vector per frame, finite.
     others : array_like of shape (other frames, dims), optional
-        Where to look for neighbours; by default among ``features``, where
-        every frame is its own nearest neighbour.
+        Frames to search; by default ``features``, where every frame is its own
+        nearest neighbour.
     radius : float
         Largest Euclidean distance, in the unit of the features.
     k : int, optional
-        Neighbours to keep of each frame at most, the nearest; ties to the
-        earlier frame.
+        Largest number of neighbours of each frame; at a tie the earlier frame
+        is kept.
     max_lag : int, optional
-        Search frames with ``|j - i| <= max_lag`` only: time and memory then
+        Search only frames with ``|j - i| <= max_lag``. Time and memory then
         grow linearly with the recording.
 
     Raises
@@ -190,33 +185,33 @@ def neighbor_graph(
     for name, value in (("k", k), ("max_lag", max_lag)):
         if value is not None and not (is_number(value) and value >= 1):
             raise ParameterError(f"{name} must be at least 1, not {value!r}")
-    # Without a limit all frames are within reach.
+    # Without a limit, search all frames.
     lag = max(len(rows), len(columns)) if max_lag is None else max_lag
 
     blocks = iterate_neighbors(rows, columns, radius=float(radius), k=k, lag=lag)
-    # Blocks consist of parts that threads made, in order.
+    # Each block is a list of parts, one for each thread, in order.
     parts = [part for block in blocks for part in block]
     counts, indices, distances = (np.concatenate(part) for part in zip(*parts, strict=True))
     indptr = np.concatenate([[0], np.cumsum(counts)])
     return NeighborGraph(indptr, indices, distances, len(columns), float(radius))
 
 
-# Entries of one block of the matrix product: 8 MB of float32.
 BLOCK_ENTRIES = 1 << 21
+"""Number of entries of one block of the matrix product: 8 MB of float32."""
 
-# Rows of a graph: neighbours per row, their indices, their distances.
 Part = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
+"""Rows of a graph: number of neighbours per row, their indices, their distances."""
 
 
 def iterate_neighbors(
     rows: Floats, columns: Floats, *, radius: float, k: int | None, lag: int
 ) -> Iterator[list[Part]]:
-    """Yield all neighbours, block of rows by block of rows.
+    """Yield all neighbours, for one block of rows at a time.
 
-    The estimate ``|x|² + |y|² - 2 x·y`` errs in float32 by no more than
-    ``margin``; what it lets through is measured in float64.
+    The error of the estimate ``|x|² + |y|² - 2 x·y`` in float32 is at most ``margin``.
+    Pairs that pass are measured in float64.
     """
-    # Distances do not change by a shift, but float32 is finest near 0.
+    # Centring does not change distances, and float32 is most precise near 0.
     center = columns.mean(axis=0)
     spread = max(np.abs(columns - center).max(), np.abs(rows - center).max())
     scale = max(spread, 1e-6 * radius) or 1.0  # so that radius / scale stays within float32
@@ -225,9 +220,9 @@ def iterate_neighbors(
     # Squared lengths of the rows.
     row_norms = np.einsum("ij,ij->i", rows32, rows32)
     column_norms = np.einsum("ij,ij->i", columns32, columns32)
-    # Bound of the rounding errors of float32, which grow with the number of terms.
+    # Upper bound of the rounding errors of float32, which grow with the number of terms.
     margin = 4 * (rows.shape[1] + 4) * 2.0**-24 * (row_norms + column_norms.max())
-    # The condition |y|² - 2 x·y <= r² - |x|² is the same as a distance within r.
+    # |y|² - 2 x·y <= r² - |x|² is equivalent to a distance within r.
     limits = ((radius / scale) ** 2 - row_norms + margin).astype(np.float32)
 
     height, width = _choose_block_shape(len(rows), len(columns), lag)
@@ -236,18 +231,18 @@ def iterate_neighbors(
     screened = np.empty((height, width), np.int32)
     for start in range(0, len(rows), height):
         stop = min(start + height, len(rows))
-        # Columns that some row of the block may reach.
+        # Columns within the lag of any row of the block.
         low = min(max(0, start - lag), len(columns))
         high = min(stop + lag, len(columns))
         estimate = product[: (stop - start) * (high - low)].reshape(stop - start, high - low)
         np.matmul(rows32[start:stop], columns32[low:high].T, out=estimate)
         frames = np.arange(start, stop)
-        near = partial(
-            _measure,
+        measure_part = partial(
+            _measure_part,
             estimate,
             limits[start:stop],
             column_norms[low:high],
-            # Columns that each row may reach, counted within the block.
+            # Columns within the lag of each row, counted within the block.
             np.clip(frames - lag, low, high) - low,
             np.clip(frames + lag + 1, low, high) - low,
             screened,
@@ -257,10 +252,10 @@ def iterate_neighbors(
             radius,
             k,
         )
-        yield map_threads(near, make_even_slices(stop - start))
+        yield map_threads(measure_part, make_even_slices(stop - start))
 
 
-def _measure(
+def _measure_part(
     estimate: NDArray[np.float32],
     limits: NDArray[np.float32],
     column_norms: NDArray[np.float32],
@@ -274,7 +269,7 @@ def _measure(
     k: int | None,
     part: slice,
 ) -> Part:
-    """Return neighbours of some rows of a block: screened by estimate, measured, the k nearest."""
+    """Screen some rows of a block by estimate, measure distances, and keep the k nearest."""
     counts = np.empty(part.stop - part.start, np.int64)
     hits = screened[part]
     _kernels.screen_columns(
@@ -285,16 +280,16 @@ def _measure(
     )
     if k is None or counts.max(initial=0) <= k:
         return counts, indices, distances
-    # The counts of the rows as pointers, for the kernel.
+    # The kernel takes pointers instead of counts.
     indptr = np.concatenate([[0], np.cumsum(counts)])
     mask = _kernels.mark_nearest(indptr, distances, k)
     return np.minimum(counts, k), indices[mask], distances[mask]
 
 
 def _choose_block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:
-    """Rows per block and the columns they can reach, within BLOCK_ENTRIES."""
+    """Return the number of rows per block and of columns they can reach, within BLOCK_ENTRIES."""
     height = max(1, BLOCK_ENTRIES // n_columns)
-    # In a narrow band a block has 2 lag more columns than rows: low blocks would waste work.
+    # With a lag, a block has 2 lag more columns than rows, so low blocks would be inefficient.
     if 2 * lag < n_columns:
         height = max(height, min(2 * lag, int(BLOCK_ENTRIES**0.5)))
     height = min(height, n_rows)

@@ -1,10 +1,10 @@
-"""Published methods' constants, and where each comes from.
+"""Presets of the published methods, with the source of each constant.
 
-Lengths are metres, times seconds. Sources are named as
+Lengths are in metres, times in seconds. The sources are
 
 - V14: Vögele, Krüger and Klein 2014, by section
 - K17: Krüger, Vögele, Willig, Yao, Klein and Weber 2017, by section
-- program: the authors' own program, which keeps both methods; where it parts
+- program: the authors' own program, which contains both methods; if it differs
   from the papers, the program is followed
 """
 
@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 POSE_CHANNELS, POSE_DEVIATION = 15, 0.13
-"""Numbers in a pose, and the metres by which each of them varies: the mean over subject 86."""
+"""Numbers in a pose, and their mean standard deviation in recordings of CMU's subject 86, m."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RegionGrowingPreset(RegionGrowingConstants):
-    """One of the published methods by its constants."""
+    """Preset of a published method."""
 
     def analyze(
         self,
@@ -40,20 +40,21 @@ class RegionGrowingPreset(RegionGrowingConstants):
         mirror: Mirror | None = None,
         progress: Progress | None = None,
     ) -> RegionsFound:
-        """Graph, activities, primitives, clusters; see `kineme.methods.region_growing.analysis`."""
-        from kineme.methods.region_growing.analysis import analyze_regions  # compiled code
+        """Run the method on features; see `kineme.methods.region_growing.analysis`."""
+        # Imported here: it loads compiled code.
+        from kineme.methods.region_growing.analysis import analyze_regions
 
         return analyze_regions(features, self, mirror=mirror, progress=progress)
 
     def for_signals(self) -> Self:
-        """Return the preset with its lengths in standard deviations of channels.
+        """Return the preset with its lengths converted to standard deviations of channels.
 
-        A radius of 19 cm over 15 channels, 4.9 cm for each, becomes 0.38
-        standard deviations. One that is in standard deviations is given back.
+        For example, a radius of 19 cm over 15 channels, 4.9 cm for each, becomes 0.38
+        standard deviations.
         """
         if self.unit == "standard deviations":
             return self
-        # RMS distance of stacked poses whose numbers each vary by this deviation.
+        # Length of a vector of stacked poses in which each number is one deviation.
         per_channel = math.sqrt(POSE_CHANNELS * len(self.offsets)) * POSE_DEVIATION
         lengths = {
             name: value / per_channel

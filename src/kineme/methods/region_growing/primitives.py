@@ -1,12 +1,12 @@
-"""Primitives: the repetitions inside an activity.
+"""Find primitives: the repetitions inside an activity.
 
-Inside an activity every repetition draws a minor diagonal into the
-self-similarity matrix: a connected component of the neighbour graph, and
-through it a cheapest warping path. Where such a path meets the first rows of
-the activity, a repetition begins.
+Every repetition of an activity appears as a minor diagonal in the self-similarity
+matrix: a connected component of the neighbour graph, with a cheapest warping path
+through it. A repetition begins at the column where such a path meets the first rows
+of the activity.
 
 Sources: Vögele, Krüger and Klein 2014, section 3.2, figure 3; Krüger et al.
-2017 and the authors' program for the rule between close cuts.
+2017 and the authors' program for the choice between close cuts.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from kineme.methods.region_growing.warping import Step, WarpingPaths, warping_pa
 
 @dataclass(frozen=True, eq=False)
 class PrimitiveCuts:
-    """Where repetitions start inside one activity, and the paths that say so.
+    """Starts of repetitions inside one activity, and the warping paths that give them.
 
-    ``paths`` are those that hold; path ``sources[i]`` gave ``cuts[i]``.
+    ``cuts[i]`` is the start of path ``sources[i]``.
     """
 
     cuts: NDArray[np.int64]
@@ -47,25 +47,25 @@ def find_primitive_cuts(
     symmetry: float,
     min_length: float,
 ) -> PrimitiveCuts:
-    """Frames at which repetitions start inside an activity, ascending.
+    """Find the frames at which repetitions start inside an activity, ascending.
 
     Parameters
     ----------
     graph : NeighborGraph
-        Main diagonal included.
+        With the main diagonal.
     activity : (int, int)
         (first, last), both inclusive; neighbouring activities share the border frame.
     steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
         As in `kineme.methods.region_growing.warping.warping_paths`.
     symmetry : float
-        Share of a path's rows and columns that another path (or itself) must match the other way
-        round (symmetry coherence).
+        Share of a path's rows and columns that another path (or itself) must match with rows and
+        columns exchanged (symmetry coherence).
     min_length : float
-        Frames; a cut closer than this to a border of the activity falls, of two closer cuts the one
-        with the shorter path.
+        Frames; cuts closer than this to a border of the activity are dropped. Of two cuts closer
+        than this, the one with the shorter path is dropped.
     """
     first, last = activity
-    # The same box for rows and columns: the activity against itself.
+    # Rows and columns have the same box: the activity is compared with itself.
     box = (first, last + 1)
     paths = warping_paths(
         graph,
@@ -79,19 +79,19 @@ def find_primitive_cuts(
     )
     coherent = _kernels.mark_coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
     paths = paths.select(coherent & paths.is_within_slope(max_slope))
-    return _choose(paths, first + min_length, last - min_length, min_length)
+    return _choose_cuts(paths, first + min_length, last - min_length, min_length)
 
 
-def _choose(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:
+def _choose_cuts(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:
     starts = paths.starts[1].astype(np.int64)
     cuts: list[int] = []
     sources: list[int] = []
-    # Longest path first, so of close cuts the one with the longer path is kept.
+    # Longest path first, so that of close cuts the one with the longer path is kept.
     for p in np.argsort(-paths.n_nodes, kind="stable"):
         cut = int(starts[p])
         if low <= cut <= high and all(abs(cut - other) >= min_length for other in cuts):
             cuts.append(cut)
             sources.append(int(p))
-    # Cuts in order, and the paths that gave them likewise.
+    # Sort cuts and their paths by frame.
     order = np.argsort(cuts)
     return PrimitiveCuts(np.array(cuts, np.int64)[order], np.array(sources, np.int64)[order], paths)

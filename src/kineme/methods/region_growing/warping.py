@@ -1,10 +1,10 @@
-"""Warping paths: spans of a recording that match under time warping.
+"""Find warping paths: spans of a recording that match under time warping.
 
-Instead of filling a dynamic-time-warping matrix, paths walk over the stored
-pairs (t, j) of a neighbour graph. A warping step (a, b) leads from (t, j) to
-(t + a, j + b) if both are stored. Each minor diagonal of the self-similarity
-matrix is one weakly connected component, and its cheapest path from its first
-row to its last matches two spans frame by frame.
+Paths run over the stored pairs (t, j) of a neighbour graph instead of a full matrix
+of dynamic time warping. A warping step (a, b) leads from (t, j) to (t + a, j + b) if
+both are stored. Each minor diagonal of the self-similarity matrix is one weakly
+connected component. The cheapest path from its first row to its last matches two
+spans frame by frame.
 
 Source: Vögele, Krüger and Klein 2014, sections 3 and 3.2; the graph after
 Krüger, Tautges, Weber and Zinke 2010.
@@ -31,9 +31,9 @@ BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 @dataclass(frozen=True, eq=False)
 class WarpingPaths:
-    """``rows, columns = paths[p]``: the frames that path p matches, in order.
+    """Paths of matching frames: ``rows, columns = paths[p]`` are those of path p, in order.
 
-    Held flat: path p is ``rows[ptr[p]:ptr[p + 1]]`` and the same of
+    Stored as flat arrays: path p is ``rows[ptr[p]:ptr[p + 1]]`` and the same slice of
     ``columns``; ``costs[p]`` is the sum over its nodes.
 
     Examples
@@ -64,33 +64,32 @@ class WarpingPaths:
 
     @property
     def n_nodes(self) -> NDArray[np.int64]:
-        """Nodes per path."""
+        """Return the number of nodes of each path."""
         return np.diff(self.ptr)
 
     @property
     def starts(self) -> tuple[Ints, Ints]:
-        """Row and column at which each path begins."""
+        """Return row and column at which each path begins."""
         return self.rows[self.ptr[:-1]], self.columns[self.ptr[:-1]]
 
     @property
     def ends(self) -> tuple[Ints, Ints]:
-        """Row and column at which each path ends, inclusive."""
+        """Return row and column at which each path ends, inclusive."""
         return self.rows[self.ptr[1:] - 1], self.columns[self.ptr[1:] - 1]
 
     @property
     def slopes(self) -> NDArray[np.float64]:
-        """Columns per row from start to end; 1 where both spans last equally long."""
+        """Return columns per row from start to end; 1 if both spans are equally long."""
         (row_start, column_start), (row_end, column_end) = self.starts, self.ends
         return (column_end - column_start) / (row_end - row_start)
 
     def is_within_slope(self, max_slope: float) -> NDArray[np.bool_]:
-        """Return which paths match spans that differ by this factor at most in length."""
+        """Mark the paths whose spans differ in length by at most this factor."""
         slopes = self.slopes
         return (slopes >= 1 / max_slope) & (slopes <= max_slope)
 
     def select(self, mask: NDArray[np.bool_]) -> WarpingPaths:
-        """Return the paths where the mask is true, in the same order."""
-        # The mask of each path for all of its nodes.
+        """Return the paths for which the mask is True, in the same order."""
         nodes = np.repeat(mask, self.n_nodes)
         ptr = np.concatenate([[0], np.cumsum(self.n_nodes[mask])])
         return WarpingPaths(ptr, self.rows[nodes], self.columns[nodes], self.costs[mask])
@@ -108,30 +107,30 @@ def warping_paths(
     separation: int | None = None,
     max_slope: float | None = None,
 ) -> WarpingPaths:
-    """Cheapest paths through each connected component inside a box of the graph.
+    """Find the cheapest paths through each connected component inside a box of the graph.
 
     A path runs from any node in the first row of its component to a node in
-    the last. It costs the distances of its nodes.
+    the last row. Its cost is the sum of the distances of its nodes.
 
     Parameters
     ----------
     graph : NeighborGraph
     rows, columns : (start, stop)
-        The box, half-open frames.
+        The box, as half-open spans of frames.
     steps : (a, b) pairs
         Warping steps.
     skip_penalty : float
-        Added for every row and column a step passes over; without it paths
-        hop in long steps over what should be matched.
+        Cost of every row and column that a step skips; without it paths
+        would skip frames that should be matched.
     zero_cost : float
         Cost of a node whose distance is zero.
     min_nodes : int
         Shorter paths are dropped.
     separation : int, optional
-        Several paths of a component are kept if their first columns are at
-        least this far apart; by default only the cheapest is kept.
+        Keep several paths of a component if their first columns are at least
+        this far apart; by default only the cheapest is kept.
     max_slope : float, optional
-        Paths steeper than this, or flatter than its inverse, are dropped.
+        Drop paths steeper than this, or flatter than its inverse.
 
     Examples
     --------
@@ -150,7 +149,7 @@ def warping_paths(
         if not (is_number(value) and value >= 0):
             raise ParameterError(f"{name} must be a number from 0, not {value!r:.60}")
     moves = _as_steps(steps)
-    # Rows and columns that a step passes over, beyond the next one.
+    # Number of rows and columns that a step skips.
     skipped = np.maximum(moves - 1, 0).sum(axis=1)
     ptr, path_rows, path_columns, costs = _path_kernels.find_paths_in_box(
         graph.indptr,
@@ -162,7 +161,7 @@ def warping_paths(
         float(skip_penalty) * skipped,
         float(zero_cost),
         min_nodes,
-        # More than any two columns are apart: only the cheapest path is kept.
+        # Larger than any distance of columns, so that only the cheapest path is kept.
         graph.n_columns + 1 if separation is None else separation,
     )
     paths = WarpingPaths(ptr, path_rows, path_columns, costs)
@@ -175,10 +174,10 @@ def warping_paths(
 def label_components(
     graph: NeighborGraph, *, steps: Sequence[Step] = BASIC_STEPS
 ) -> NDArray[np.int32]:
-    """One label per stored pair: equal where warping steps connect two pairs.
+    """Label the stored pairs; pairs that are connected by warping steps have equal labels.
 
-    The label is the position of the first stored pair of the component, so
-    pairs that share the label of pair (0, 0) lie on the main diagonal's.
+    The label is the index of the first stored pair of the component. So pairs
+    with the label of pair (0, 0) belong to the main diagonal.
 
     Examples
     --------
@@ -189,7 +188,7 @@ def label_components(
     [0, 1, 0, 1, 4, 0, 4, 0]
     """
     indptr = graph.indptr
-    # The whole graph as a box: every row begins at its pointer, and nodes are entries.
+    # The box is the whole graph: every row begins at its pointer, and nodes are entries.
     labels: NDArray[np.int32] = _path_kernels.find_component_roots(
         graph.indices, indptr[:-1], indptr, _as_steps(steps), 0, graph.n_columns
     )
@@ -197,20 +196,20 @@ def label_components(
 
 
 def _find_box(frames: tuple[int, int], name: str) -> tuple[int, int]:
-    found = as_indices(frames, name)
-    if len(found) != 2:
+    bounds = as_indices(frames, name)
+    if len(bounds) != 2:
         raise ParameterError(f"{name} are a start and a stop frame, not {frames!r:.60}")
-    return found[0], found[1]
+    return bounds[0], bounds[1]
 
 
 def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
     try:
-        given = np.array(steps)
-    except ValueError:  # of different lengths
-        given = np.empty(0)
-    integral = given.dtype.kind in "iu" and given.ndim == 2 and given.shape[1] == 2
+        pairs = np.array(steps)
+    except ValueError:  # tuples of different lengths
+        pairs = np.empty(0)
+    is_valid = pairs.dtype.kind in "iu" and pairs.ndim == 2 and pairs.shape[1] == 2
     # Anything but pairs of whole numbers becomes an empty array, which is refused below.
-    moves = given.astype(np.int64) if integral else np.empty((0, 2), np.int64)
+    moves = pairs.astype(np.int64) if is_valid else np.empty((0, 2), np.int64)
     if not len(moves) or moves.min() < 0 or (moves.sum(axis=1) == 0).any():
         raise ParameterError(
             f"warping steps are pairs (a, b) from 0, not both 0; got {steps!r:.60}"

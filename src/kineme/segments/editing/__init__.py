@@ -1,14 +1,11 @@
-"""Corrections by hand: each edit gives a new segmentation, in which every level still tiles.
+"""Corrections by hand: each edit returns a new segmentation, whose levels tile the recording.
 
-A border is a frame where one segment of a level stops and the next starts. The
-borders of activities are borders of primitives, too, where there are any, and
-stay so: what is done to an activity is done to the primitives at its ends. A
-primitive that comes to lie in another activity keeps its own cluster and label
-where they differ from those of the activity it was in; what it had in common
-with that one it has in common with the new one.
+A border is a frame at which one segment of a level stops and the next starts. Borders
+of activities are also borders of primitives, so edits of an activity also change the
+primitives at its ends. A primitive that moves to another activity takes the cluster
+and label of this activity if it had those of its old one, and otherwise keeps its own.
 
-What a person says has no confidence: segments whose span, kind or cluster was
-changed lose theirs.
+Edited segments have no confidence: it is dropped if span, kind or cluster change.
 """
 
 from kineme.segments.editing.annotating import check, comment, comments, exclude

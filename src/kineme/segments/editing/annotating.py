@@ -1,7 +1,7 @@
-"""What people vouch for and say: entries of the `kineme.segments.annotation`.
+"""Edit the annotation of a segmentation: marks, comments and exclusions.
 
-People vouch for segments that they made and for segments that they checked. A comment is on the
-segment that holds its frame; so is what they leave out of means.
+Marks are on segments that people made or checked. A comment belongs to the segment that contains
+its frame, and so does an exclusion from means; see `kineme.segments.annotation`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, Literal
 from numpy.typing import NDArray
 
 from kineme.segments.annotation import Comment, Span
-from kineme.segments.editing.rows import find_starting
+from kineme.segments.editing.rows import find_segment_at
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -23,14 +23,14 @@ Mark = Literal["by_hand", "checked"]
 def check(
     segmentation: Segmentation, level: Level, frames: Iterable[int], checked: bool
 ) -> Segmentation:
-    """Return the segments that start at ``frames`` are checked, or not any more.
+    """Mark the segments that start at ``frames`` as checked, or remove the mark.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frames : iterable of int
-        Where the segments start.
+        Starts of the segments.
     checked : bool
 
     Returns
@@ -50,22 +50,22 @@ def check(
     >>> check(found, "activity", [380], checked=True).annotation.checked
     (('activity', 380, 928),)
     """
-    chosen = {get_span(find_starting(segmentation, level, frame)) for frame in frames}
+    chosen = {get_span(find_segment_at(segmentation, level, frame)) for frame in frames}
     before = find_marked(segmentation, "checked")
     return set_marked(segmentation, "checked", before | chosen if checked else before - chosen)
 
 
 def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> Segmentation:
-    """Return the segment that starts at ``frame`` has this comment in place of any it had.
+    """Set the comment of the segment that starts at ``frame``.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        Where the segment starts.
+        Start of the segment.
     text : str
-        Empty: it has none any more.
+        Empty to remove the comment.
 
     Returns
     -------
@@ -84,21 +84,21 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     >>> comments(comment(found, "primitive", 61, "limps"))
     [('primitive', 93, 'limps')]
     """
-    row = find_starting(segmentation, level, frame)
-    kept = [each for each in comments(segmentation) if not _is_of(each, row)]
+    row = find_segment_at(segmentation, level, frame)
+    kept = [each for each in comments(segmentation) if not _is_comment_on(each, row)]
     if text:
         kept.append(_make_comment(row, text))
     return set_comments(segmentation, kept)
 
 
 def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -> Segmentation:
-    """Return the primitives that start at ``frames`` count in no mean, or do so again.
+    """Exclude the primitives that start at ``frames`` from means, or include them again.
 
     Parameters
     ----------
     segmentation : Segmentation
     frames : iterable of int
-        Where the primitives start.
+        Starts of the primitives.
     excluded : bool
 
     Returns
@@ -122,8 +122,8 @@ def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -
     >>> walk.columns["excluded"][:3].tolist()
     ['', '', 'by hand']
     """
-    rows = [find_starting(segmentation, "primitive", frame) for frame in frames]
-    # An exclusion is a frame, so it holds for whatever segment covers that frame.
+    rows = [find_segment_at(segmentation, "primitive", frame) for frame in frames]
+    # Remove all exclusions inside these primitives, then set the new ones.
     others = {
         frame
         for frame in segmentation.annotation.excluded
@@ -135,7 +135,7 @@ def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -
 
 
 def comments(segmentation: Segmentation) -> list[Comment]:
-    """Level, frame and text of each, in time order.
+    """Return level, frame and text of each comment, in time order.
 
     Examples
     --------
@@ -148,45 +148,44 @@ def comments(segmentation: Segmentation) -> list[Comment]:
 
 
 def get_span(row: Segment) -> Span:
-    """Level, first frame and one past the last frame."""
+    """Return level, first frame and one past the last frame of a segment."""
     return row.level, row.start_frame, row.stop_frame
 
 
 def find_marked(segmentation: Segmentation, mark: Mark) -> set[Span]:
-    """Return the segments that people vouch for in this sense."""
+    """Return the spans of segments with this mark; marks without such a segment are ignored."""
     spans: set[Span] = {*getattr(segmentation.annotation, mark)}
     table = segmentation.table
     return spans.intersection(_list_cells(table.level, table.start_frame, table.stop_frame))
 
 
 def set_marked(segmentation: Segmentation, mark: Mark, spans: Iterable[Span]) -> Segmentation:
-    """Return the same segments, of which people vouch for these and no others in this sense."""
+    """Set this mark on exactly these spans."""
     entry: dict[str, Any] = {mark: tuple(sorted(set(spans)))}
     return replace(segmentation, annotation=replace(segmentation.annotation, **entry))
 
 
 def mark_edited(before: Segmentation, after: Segmentation) -> Segmentation:
-    """Return the segmentation after an edit, with what the edit made marked as made by hand."""
+    """Mark the segments that an edit made or changed as made by hand."""
     earlier, now = (
         {*_list_cells(rows.level, rows.start_frame, rows.stop_frame, rows.kind, rows.cluster)}
         for rows in (before.table, after.table)
     )
-    # Rows that are new or changed; their spans are what people made.
-    made = {(level, start, stop) for level, start, stop, *_ in now - earlier}
-    return set_marked(after, "by_hand", made | find_marked(after, "by_hand"))
+    # Spans of rows that are new or changed.
+    edited = {(level, start, stop) for level, start, stop, *_ in now - earlier}
+    return set_marked(after, "by_hand", edited | find_marked(after, "by_hand"))
 
 
 def assign_comments(segmentation: Segmentation) -> list[str]:
-    """Return the comments on each row, in their order; empty where there is none."""
+    """Return the comments on each row as one text, or an empty text."""
     entries = comments(segmentation)
-    return ["; ".join(each[2] for each in entries if _is_of(each, row)) for row in segmentation]
+    return [
+        "; ".join(each[2] for each in entries if _is_comment_on(each, row)) for row in segmentation
+    ]
 
 
-def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
-    """Return the same segments with these comments, one for each row.
-
-    As they are where they say that.
-    """
+def set_comments_by_row(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
+    """Set the comments by one text for each row; unchanged texts keep the frames of comments."""
     if list(texts) == assign_comments(segmentation):
         return segmentation
     entries = [
@@ -196,13 +195,13 @@ def from_rows(segmentation: Segmentation, texts: Sequence[str]) -> Segmentation:
 
 
 def set_comments(segmentation: Segmentation, entries: list[Comment]) -> Segmentation:
-    """Return the same segments with these comments and no others."""
+    """Replace all comments."""
     annotation = replace(segmentation.annotation, comments=tuple(entries))
     return replace(segmentation, annotation=annotation)
 
 
 def _list_cells(*columns: NDArray[Any]) -> Iterator[tuple[Any, ...]]:
-    """Yield the cells of each row in these columns; tables have many rows."""
+    """Yield the cells of each row in these columns."""
     return zip(*(column.tolist() for column in columns), strict=True)
 
 
@@ -212,11 +211,11 @@ def _make_comment(row: Segment, text: str) -> Comment:
 
 
 def _find_middle(row: Segment) -> int:
-    # The middle stays inside when borders of the segment move a little.
+    # The middle stays inside if borders of the segment move a little.
     return (row.start_frame + row.stop_frame) // 2
 
 
-def _is_of(entry: Comment, row: Segment) -> bool:
+def _is_comment_on(entry: Comment, row: Segment) -> bool:
     """Return whether a comment is on a segment."""
     level, frame, _ = entry
     return level == row.level and row.start_frame <= frame < row.stop_frame

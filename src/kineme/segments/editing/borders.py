@@ -1,4 +1,4 @@
-"""Where segments of a level meet: borders moved, made and taken away."""
+"""Edit borders: move, split, merge and delete."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from kineme.segments.editing.rows import (
     count_frames,
     cut,
     find_row_after,
-    hand_over,
     join_rows,
     list_cuts,
     move_border_rows,
+    reassign_primitives,
 )
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 
 def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -> Segmentation:
-    """Move the border at ``frame`` to ``to``, between those before and after it.
+    """Move the border at ``frame`` to ``to``, between the borders before and after it.
 
-    Of the primitive borders that an activity's border passes, the last one
-    moves with it; primitives between the others go to the activity that grew.
-    A transition stays one primitive.
+    If a border of activities passes borders of primitives, the last of these moves
+    with it, and primitives between the others go to the activity that grew. A
+    transition stays one primitive.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        Where the border is.
+        Frame of the border.
     to : int
-        Where it goes.
+        New frame of the border.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
     """
     after = find_row_after(segmentation, level, frame)
     table = segmentation.level(level)
-    # The borders before and after the one that moves are its limits.
+    # The neighbouring borders are the limits.
     low, high = table[after - 1].start_frame, table[after].stop_frame
     if not low < to < high:
         raise ParameterError(
@@ -63,29 +63,29 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
         )
     if to == frame:
         return segmentation
-    # The activities at both sides of the border, with their primitives.
+    # Activities on both sides of the border, with their primitives.
     part = Part.of(segmentation, frame - 1, frame + 1)
     activities, primitives = part.activities, part.primitives
     if level == "primitive":
-        # A border of activities is one of primitives, too, and both move together.
+        # A border of activities moves together with that of primitives.
         if frame in list_cuts(activities):
             activities = move_border_rows(activities, frame, to)
-        return part.replaced(activities, move_border_rows(primitives, frame, to))
-    wider = move_border_rows(activities, frame, to)
+        return part.insert(activities, move_border_rows(primitives, frame, to))
+    moved = move_border_rows(activities, frame, to)
     if primitives:
-        primitives = hand_over(primitives, activities, wider, (1, frame, to))
-    return part.replaced(wider, primitives)
+        primitives = reassign_primitives(primitives, activities, moved, (1, frame, to))
+    return part.insert(moved, primitives)
 
 
 def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
-    """Return a new border at ``frame``; both parts are called what the whole was.
+    """Insert a border at ``frame``; both parts keep the properties of the segment.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        The first of the second part.
+        First frame of the second part.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
     Raises
     ------
     ParameterError
-        There is a border already, or no segment of that level.
+        There is already a border, or no segment of this level.
 
     Examples
     --------
@@ -110,19 +110,19 @@ def split(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
         raise ParameterError(f"{where}: choose a frame between two borders")
     part = Part.of(segmentation, frame, frame + 1)
     activities = cut(part.activities, frame) if level == "activity" else part.activities
-    # Primitives are cut as well, since a border of activities is one of primitives.
-    return part.replaced(activities, cut(part.primitives, frame))
+    # A border of activities is also a border of primitives.
+    return part.insert(activities, cut(part.primitives, frame))
 
 
 def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Segmentation:
-    """Return the segments of ``[start, stop)`` as one of the kind, cluster and label of the first.
+    """Merge the segments of ``[start, stop)``; the kind, cluster and label are those of the first.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     start, stop : int
-        Where the first of the segments starts and the last stops, frames.
+        First frame of the first segment, and end of the last one.
 
     Returns
     -------
@@ -131,7 +131,7 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
     Raises
     ------
     ParameterError
-        The span does not begin and end at borders, holds fewer than two segments, or
+        The span does not begin and end at borders, has fewer than two segments, or has
         primitives of several activities.
 
     Examples
@@ -152,19 +152,19 @@ def merge(segmentation: Segmentation, level: Level, start: int, stop: int) -> Se
             f"frames {start} to {stop} are not two or more whole segments of level {level!r}"
         )
     part = Part.of(segmentation, start, stop)
-    first = _number(part.of_level(level), start)
+    first = _find_row_index(part.get_rows(level), start)
     return _merge_rows(part, level, first, first + len(chosen) - 1, like=first)
 
 
 def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segmentation:
-    """Return the two segments that meet at ``frame`` as one: the longer takes the other.
+    """Merge the two segments that meet at ``frame``, with the properties of the longer one.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        Where the border is.
+        Frame of the border.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     Raises
     ------
     ParameterError
-        There is no such border, or it is one of activities, too.
+        There is no such border, or it is also a border of activities.
 
     Examples
     --------
@@ -185,14 +185,14 @@ def delete_border(segmentation: Segmentation, level: Level, frame: int) -> Segme
     """
     find_row_after(segmentation, level, frame)
     part = Part.of(segmentation, frame - 1, frame + 1)
-    rows = part.of_level(level)
-    after = _number(rows, frame)
+    rows = part.get_rows(level)
+    after = _find_row_index(rows, frame)
     longer = after if count_frames(rows[after]) > count_frames(rows[after - 1]) else after - 1
     return _merge_rows(part, level, after - 1, after, like=longer)
 
 
-def _number(rows: Rows, frame: int) -> int:
-    """Return the number of the row that starts there."""
+def _find_row_index(rows: Rows, frame: int) -> int:
+    """Return the index of the row that starts at a frame."""
     return next(i for i, row in enumerate(rows) if row.start_frame == frame)
 
 
@@ -204,15 +204,15 @@ def _merge_rows(part: Part, level: Level, first: int, last: int, *, like: int) -
             raise ParameterError(
                 f"the border at frame {border} is one of activities: delete it on that level"
             )
-        return part.replaced(activities, join_rows(primitives, first, last, like))
+        return part.insert(activities, join_rows(primitives, first, last, like))
     merged = join_rows(activities, first, last, like)
-    # Primitives of all joined activities become those of the union.
+    # Primitives of all merged activities belong to the merged one.
     inside = [i for i, row in enumerate(primitives) if first <= row.activity <= last]
     for i in inside:
         primitives[i] = change_parent(
             primitives[i], activities[primitives[i].activity], merged[first]
         )
-    # A transition is one primitive.
+    # A transition has only one primitive.
     if inside and merged[first].kind == "transition":
         primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
-    return part.replaced(merged, primitives)
+    return part.insert(merged, primitives)

@@ -1,11 +1,11 @@
-"""A new segmentation of a recording that takes over what people did to the one before.
+"""Carry corrections over to a new segmentation of the same recording.
 
-Segments made by hand or checked (`kineme.segments.editing.annotating`) are in it as they were;
-the new ones give way. Clusters are matched by the frames that they share: an old cluster is
-the new one that holds more than half of it, unless that has more of another. What matches keeps
-its number, and so its colour; other new clusters get numbers that the table so far has not. Names
-go where they match: that of a cluster to the matching one, that of a segment to the segment that
-it shares more than half of both their frames with. What finds no place is listed.
+Segments made by hand or checked (`kineme.segments.editing.annotating`) replace the new segments in
+their place. Clusters are matched by shared frames: an old cluster matches the new one that has more
+than half of its frames, unless this one has more frames of another old cluster. Matched clusters
+keep their numbers, and thus their colours; other new clusters get unused numbers. The name of a
+cluster goes to the matching cluster. The name of a single segment goes to the segment that shares
+more than half of both their frames. Names without a match are listed.
 """
 
 from __future__ import annotations
@@ -45,19 +45,19 @@ from kineme.segments.table import Level, Segment, SegmentTable
 
 
 @dataclass(frozen=True)
-class Carried:
-    """What became of a table that another one took the place of.
+class CarryResult:
+    """Result of carrying corrections over.
 
     Parameters
     ----------
     segmentation : Segmentation
-        The new one, with what was taken over.
+        The new segmentation with the corrections.
     corrections : int
-        Segments made by hand or checked, all of which are in it.
+        Number of segments made by hand or checked; all of them are carried over.
     names : int
-        Of clusters, and of segments that have their own.
+        Number of names of clusters and of single segments.
     lost : list of str
-        Sentences: the names among them that found no place.
+        One sentence for each name without a match.
     """
 
     segmentation: Segmentation
@@ -66,19 +66,19 @@ class Carried:
     lost: list[str]
 
 
-def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
-    """Return a new segmentation with the corrections and names of the one before.
+def carry_corrections(before: Segmentation, found: Segmentation) -> CarryResult:
+    """Carry the corrections and names of a segmentation over to a new one.
 
     Parameters
     ----------
     before : Segmentation
-        The table so far.
+        The corrected segmentation.
     found : Segmentation
-        Another one of the same recording.
+        A new segmentation of the same recording.
 
     Returns
     -------
-    Carried
+    CarryResult
 
     Examples
     --------
@@ -90,15 +90,15 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
     True
     """
     flags = {mark: find_marked(before, mark) for mark in get_args(Mark)}
-    # Rows that people vouch for in either sense.
+    # Rows with any mark.
     fixed = [row for row in before if get_span(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    singles = {get_span(row) for row in _find_singly_named(before)}
-    # Names of clusters are carried over separately, so only names of their own stay in the rows.
+    singles = {get_span(row) for row in _find_own_names(before)}
+    # Names of clusters are carried over separately, so rows keep only their own names.
     placed = [row if get_span(row) in singles else replace(row, label="") for row in fixed]
     now = _impose_segments(_renumber(before, found), placed)
-    # Marks are set again, since imposing segments made new rows.
+    # Imposing segments made new rows, so set the marks again.
     for mark, spans in flags.items():
         now = set_marked(now, mark, spans)
     now = set_comments(now, comments(before))
@@ -110,20 +110,20 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> Carried:
 
 
 def count_names(segmentation: Segmentation) -> int:
-    """Return how many names there are: of clusters, and of segments that have their own."""
-    return len(cluster_names(segmentation)) + len(_find_singly_named(segmentation))
+    """Return the number of names of clusters and of single segments."""
+    return len(cluster_names(segmentation)) + len(_find_own_names(segmentation))
 
 
-def _find_singly_named(segmentation: Segmentation) -> Rows:
+def _find_own_names(segmentation: Segmentation) -> Rows:
+    """Return the segments whose name differs from that of their cluster."""
     names = cluster_names(segmentation)
-    # A name of its own is one that the row's cluster does not have.
     return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
 
 
 def _renumber(before: Segmentation, found: Segmentation) -> Segmentation:
-    """Return the new segments, with the old numbers of the clusters that match."""
+    """Renumber the clusters of the new segments: matching ones get the old numbers."""
     match = _match_clusters(before, found)
-    # Numbers of former clusters are never reused for other ones.
+    # Numbers of old clusters are never used for other ones.
     used = set(before.table.cluster.tolist())
     free = (number for number in count() if number not in used)
     number = {}
@@ -133,12 +133,12 @@ def _renumber(before: Segmentation, found: Segmentation) -> Segmentation:
 
 
 def _match_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]:
-    """Return the old number of each new cluster that has one."""
+    """Return the number of the matching old cluster for each new cluster with a match."""
     shared: dict[int, Counter[int]] = {}
     for level in get_args(Level):
         # (2, frames): old and new cluster of each frame.
         pairs = np.stack([_spread_clusters(before, level), _spread_clusters(found, level)])
-        # Distinct columns: pairs of clusters, and on how many frames they are.
+        # Distinct columns are pairs of clusters; counts are their shared frames.
         values, sizes = np.unique(pairs, axis=1, return_counts=True)
         for (old, new), frames in zip(values.T.tolist(), sizes.tolist(), strict=True):
             if old >= 0:
@@ -152,26 +152,26 @@ def _match_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]
             most.append((-frames, cluster, new))
     match: dict[int, int] = {}
     for _, cluster, new in sorted(most):
-        # The old cluster with the larger overlap keeps the new one.
+        # `setdefault`: the old cluster with the largest overlap gets the new one.
         match.setdefault(new, cluster)
     return match
 
 
 def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
-    """Return the cluster of each frame; -1 everywhere where there is no such level."""
+    """Return the cluster of each frame; -1 if the level is empty."""
     rows = segmentation.level(level)
     if not len(rows):
         return np.full(segmentation.n_frames, -1)
     return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)
 
 
-def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried:
-    """Return the new table with the names of the old one, and the names that found no place."""
+def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> CarryResult:
+    """Carry names over to the new table, and list the names without a match."""
     lost, new_names = [], dict[int, str]()
     present = set(now.table.cluster.tolist())
-    names, singles = cluster_names(before), _find_singly_named(before)
+    names, singles = cluster_names(before), _find_own_names(before)
     if not names and not singles:
-        return Carried(now, fixed, 0, [])
+        return CarryResult(now, fixed, 0, [])
     for cluster, name in names.items():
         if cluster in present:
             new_names[cluster] = name
@@ -181,20 +181,20 @@ def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> Carried
         now = name_cluster(now, cluster, name)
     labels: dict[Span, str] = {}
     for row in singles:
-        twin = _find_twin(now, row)
+        twin = _find_matching_segment(now, row)
         if twin is None:
             where = f"the {row.level} at {row.start_s:.2f} s"
             lost.append(f"the name “{row.label}” of {where}: no segment matches it")
         else:
             labels[get_span(twin)] = row.label
     rows = [replace(row, label=labels.get(get_span(row), row.label)) for row in now]
-    # Clusters without a name are said to have none, so that none is guessed from labels.
+    # Store empty names for clusters without one, so that none is inferred from labels.
     now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
-    return Carried(now, fixed, len(names) + len(singles), lost)
+    return CarryResult(now, fixed, len(names) + len(singles), lost)
 
 
-def _find_twin(segmentation: Segmentation, row: Segment) -> Segment | None:
-    """Return the segment of that level that shares more than half of both with a row."""
+def _find_matching_segment(segmentation: Segmentation, row: Segment) -> Segment | None:
+    """Return the segment that shares more than half of its frames and of a row's frames."""
     rows = segmentation.level(row.level)
     if not len(rows):
         return None
@@ -207,54 +207,51 @@ def _find_twin(segmentation: Segmentation, row: Segment) -> Segment | None:
 
 
 def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
-    """Return the segmentation with these segments in it as they are."""
+    """Insert fixed segments into the segmentation."""
     by_level = {level: [row for row in fixed if row.level == level] for level in get_args(Level)}
-    # Activities first: their borders must not cut primitives that stay.
-    activities = _spare_primitives(list(found.activities), by_level["primitive"])
+    # Activities first: their borders must not cut fixed primitives.
+    activities = _move_borders_out_of_primitives(list(found.activities), by_level["primitive"])
     activities = _insert_fixed(activities, by_level["activity"])
     if not len(found.primitives):
         return replace_rows(found, activities, [])
-    primitives = _cut_at(activities, list(found.primitives))
+    primitives = _cut_at_borders(activities, list(found.primitives))
     for row in by_level["activity"]:
-        primitives = _keep_inside(primitives, row, found)
-    primitives = _cut_at(activities, _insert_fixed(primitives, by_level["primitive"]))
+        primitives = _adopt_primitives(primitives, row, found)
+    primitives = _cut_at_borders(activities, _insert_fixed(primitives, by_level["primitive"]))
     return replace_rows(found, activities, primitives)
 
 
-def _cut_at(activities: Rows, primitives: Rows) -> Rows:
-    """Return the primitives, none of which crosses a border of activities."""
+def _cut_at_borders(activities: Rows, primitives: Rows) -> Rows:
+    """Cut the primitives at the borders of activities."""
     for border in list_cuts(activities):
         primitives = cut(primitives, border)
     return primitives
 
 
-def _spare_primitives(activities: Rows, primitives: Rows) -> Rows:
-    """Return the activities, their borders moved out of primitives that stay, to the nearer end."""
+def _move_borders_out_of_primitives(activities: Rows, primitives: Rows) -> Rows:
+    """Move borders of activities inside fixed primitives to their nearer end."""
     starts = [row.start_frame for row in primitives]
 
-    def moved(border: int) -> int:
+    def move(border: int) -> int:
         # The last primitive that starts at or before the border.
-        at = bisect_right(starts, border) - 1
-        if at < 0 or border >= primitives[at].stop_frame:
+        index = bisect_right(starts, border) - 1
+        if index < 0 or border >= primitives[index].stop_frame:
             return border
-        start, stop = _list_edges(primitives[at])
-        # To the nearer end; at equal distance to the start.
+        start, stop = _list_edges(primitives[index])
+        # At a tie to the start.
         return start if border - start <= stop - border else stop
 
-    rows = [_change_span(row, moved(row.start_frame), moved(row.stop_frame)) for row in activities]
-    # A row whose borders met has vanished.
+    rows = [_change_span(row, move(row.start_frame), move(row.stop_frame)) for row in activities]
+    # Drop rows that are now empty.
     return [row for row in rows if row.start_frame < row.stop_frame]
 
 
 def _insert_fixed(rows: Rows, fixed: Rows) -> Rows:
-    """Return the rows with others in their place.
-
-    What is left of less than half of a row is joined on.
-    """
-    # Rows that were put in already must not be changed by later ones.
+    """Replace rows by fixed ones; merge a remainder of less than half of a row with the next."""
+    # Fixed rows must not be changed by later ones.
     edges = {_list_edges(one) for one in fixed}
     for one in fixed:
-        # What lies before and after the new row; rows inside are dropped.
+        # Rows before and after the fixed one; rows inside are dropped.
         start, stop = _list_edges(one)
         before = [row for row in rows if row.start_frame < start]
         after = [row for row in rows if row.stop_frame > stop]
@@ -269,38 +266,38 @@ def _insert_fixed(rows: Rows, fixed: Rows) -> Rows:
 def _shorten_row(
     rows: Rows, at: int, beside: int, span: tuple[int, int], edges: set[tuple[int, int]]
 ) -> Rows:
-    """Return a row with the frames that it keeps; they go to the row beside it if they are few."""
+    """Shorten a row to a span; if few frames are left, merge it with the row beside it."""
     row, rows = rows[at], list(rows)
     rows[at] = _change_span(row, *span)
     few = 2 * count_frames(rows[at]) < count_frames(row) and len(rows) > 1
     if few and _list_edges(rows[beside]) not in edges:
-        # Indices from the end become indices from the start.
+        # Convert negative indices.
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
         return join_rows(rows, min(i, j), max(i, j), k)
     return rows
 
 
-def _keep_inside(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
-    """Return the primitives of an activity that stays, with its label where they had its old."""
+def _adopt_primitives(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
+    """Give the primitives inside a fixed activity its properties; a transition gets only one."""
     inside = [i for i, row in enumerate(primitives) if _measure_overlap(row, activity)]
-    was = _find_middle_row(found.activities, activity)
-    if activity.kind == "transition" and was.kind != "transition":
+    old_parent = _find_middle_row(found.activities, activity)
+    if activity.kind == "transition" and old_parent.kind != "transition":
         one = replace(activity, level="primitive", label="")
         return [*primitives[: inside[0]], one, *primitives[inside[-1] + 1 :]]
     for i in inside:
-        primitives[i] = change_parent(primitives[i], was, activity)
+        primitives[i] = change_parent(primitives[i], old_parent, activity)
     return primitives
 
 
 def _find_middle_row(rows: SegmentTable, row: Segment) -> Segment:
-    """Return the one of the rows of a level that holds the middle frame of another."""
-    # The last frame is one before the stop.
+    """Return the row of a level that contains the middle frame of another row."""
+    # - 1: the last frame is one before the stop.
     middle = (row.start_frame + row.stop_frame - 1) // 2
     return rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
 
 
 def _measure_overlap(row: Segment, other: Segment) -> int:
-    """Frames that both have."""
+    """Return the number of frames that both rows share."""
     shared = min(row.stop_frame, other.stop_frame) - max(row.start_frame, other.start_frame)
     return max(shared, 0)
 
@@ -310,6 +307,6 @@ def _list_edges(row: Segment) -> tuple[int, int]:
 
 
 def _change_span(row: Segment, start: int, stop: int) -> Segment:
-    """Return the row with other frames; where it starts anew its border has no confidence."""
+    """Change the frames of a row; drop the confidence of its border if that moves."""
     confidence = row.border_confidence if start == row.start_frame else math.nan
     return replace(row, start_frame=start, stop_frame=stop, border_confidence=confidence)

@@ -1,9 +1,9 @@
-"""Change what segments are and what they are called: clusters, kinds and names.
+"""Edit clusters, kinds and names of segments.
 
-A cluster has a name, which its segments are called by; a segment may have a name of its
-own, which stays whatever the cluster is called. The label of a segment is the one that
-counts for it. Names of clusters are in the `kineme.segments.annotation`; where they are not,
-a cluster is called what more than half of its segments are.
+The name of a cluster is the label of its segments, except of segments with a name of their
+own, which do not change with the cluster. Names of clusters are stored in the
+`kineme.segments.annotation`. If they are missing there, the name of a cluster is the label of
+more than half of its segments.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from kineme.errors import ParameterError
 from kineme.segments.editing.rows import (
     as_movement,
     as_transition,
-    find_starting,
+    find_segment_at,
     join_rows,
     renumber_clusters,
     replace_columns,
@@ -29,16 +29,16 @@ from kineme.segments.table import Kind, Level, Segment
 
 
 def name_segment(segmentation: Segmentation, level: Level, frame: int, label: str) -> Segmentation:
-    """Return the segment that starts at ``frame`` has a name of its own, which stays.
+    """Give the segment that starts at ``frame`` a name of its own.
 
-    An empty one takes it away: then it is called by the name of its cluster, if that has one.
+    An empty name removes it: then the segment has the name of its cluster.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        Where the segment starts.
+        Start of the segment.
     label : str
 
     Returns
@@ -48,7 +48,7 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     Raises
     ------
     ParameterError
-        No segment starts there, or the label is more than a line of text.
+        No segment starts there, or the label is not one line of text.
 
     Examples
     --------
@@ -58,22 +58,22 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     >>> name_segment(found, "primitive", 61, "limp").primitives[:3].label.tolist()
     ['walk', 'limp', 'walk']
     """
-    row, names = find_starting(segmentation, level, frame), collect_names(segmentation)
+    row, names = find_segment_at(segmentation, level, frame), collect_names(segmentation)
     label = label or names.get(row.cluster, "")
     named = change_columns(segmentation, [(level, row)], label=label)
-    # The cluster is said to have no name unless it has: one label must not name it.
+    # Store an empty name for a cluster without one, or this label might be taken for its name.
     return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
 
 def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmentation:
-    """A cluster has this name, and so have its segments of both levels but those with their own.
+    """Name a cluster, and label its segments of both levels, except those with their own name.
 
     Parameters
     ----------
     segmentation : Segmentation
     cluster : int
     label : str
-        Empty: the cluster has no name any more.
+        Empty to remove the name.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     Raises
     ------
     ParameterError
-        No segment is in that cluster, or the label is more than a line of text.
+        No segment is in this cluster, or the label is not one line of text.
 
     Examples
     --------
@@ -95,18 +95,18 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     if not find_members(segmentation, cluster):
         raise ParameterError(f"no segment is in cluster {cluster}")
     names = collect_names(segmentation)
-    called = [
+    members = [
         (row.level, row)
         for row in find_members(segmentation, cluster)
         if row.label in ("", names.get(cluster, ""))
     ]
     return set_cluster_names(
-        change_columns(segmentation, called, label=label), names | {cluster: label}
+        change_columns(segmentation, members, label=label), names | {cluster: label}
     )
 
 
 def cluster_names(segmentation: Segmentation) -> dict[int, str]:
-    """Return the names of the clusters that have one.
+    """Return the names of clusters, without empty ones.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     Returns
     -------
     dict of str
-        By cluster.
+        Name by cluster.
 
     Examples
     --------
@@ -128,9 +128,9 @@ def cluster_names(segmentation: Segmentation) -> dict[int, str]:
 
 
 def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> Segmentation:
-    """Give the clusters these names and no others; labels stay as they are.
+    """Replace all names of clusters; labels of segments do not change.
 
-    The name of a cluster is empty if it has none, whatever its segments are called.
+    The name of a cluster without a name is empty.
     """
     present = set(segmentation.table.cluster.tolist())
     kept = {cluster: names[cluster] for cluster in sorted(names) if cluster in present}
@@ -139,14 +139,14 @@ def set_cluster_names(segmentation: Segmentation, names: Mapping[int, str]) -> S
 
 
 def collect_names(segmentation: Segmentation) -> dict[int, str]:
-    """Return the names of clusters by number; empty for those that are said to have none."""
+    """Return the names of clusters, including stored empty names."""
     clusters, labels = segmentation.table.cluster.tolist(), segmentation.table.label.tolist()
     sizes = Counter(clusters)
     # How often each label occurs in each cluster.
-    called = Counter(zip(clusters, labels, strict=True)).items()
-    # Names that people gave count more than those of most segments.
+    counts = Counter(zip(clusters, labels, strict=True)).items()
+    # Stored names take precedence over labels of most segments.
     names = {
-        cluster: label for (cluster, label), count in called if label and 2 * count > sizes[cluster]
+        cluster: label for (cluster, label), count in counts if label and 2 * count > sizes[cluster]
     } | segmentation.annotation.cluster_names
     return {cluster: names[cluster] for cluster in sorted(sizes) if 0 <= cluster in names}
 
@@ -160,14 +160,14 @@ def find_members(segmentation: Segmentation, cluster: int) -> list[Segment]:
 def change_columns(
     segmentation: Segmentation, members: Sequence[tuple[Level, Segment]], **columns: object
 ) -> Segmentation:
-    """Return the members with other values in these columns."""
+    """Set columns of the members to new values."""
     chosen = {(level, row.start_frame) for level, row in members}
     table = segmentation.table
-    places = zip(table.level.tolist(), table.start_frame.tolist(), strict=True)
-    rows = [i for i, place in enumerate(places) if place in chosen]
+    keys = zip(table.level.tolist(), table.start_frame.tolist(), strict=True)
+    rows = [i for i, key in enumerate(keys) if key in chosen]
     values: dict[str, Any] = table.columns()
     for name, value in columns.items():
-        # Lists, since texts in a fixed-width array would be cut.
+        # Lists, as a fixed-width array would truncate texts.
         values[name] = values[name].tolist()
         for row in rows:
             values[name][row] = value
@@ -175,17 +175,17 @@ def change_columns(
 
 
 def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: int) -> Segmentation:
-    """Put the segment that starts at ``frame`` into a cluster, as no transition; -1: into none.
+    """Move the segment that starts at ``frame`` to a cluster, or to none (-1).
 
-    The primitives of an activity that were in its cluster go with it. Who was called by
-    the old cluster's name is called by the new one's.
+    A transition becomes an activity or primitive. Primitives of an activity that were in
+    its cluster move with it. Labels that are the old cluster's name change to the new one's.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        Where the segment starts.
+        Start of the segment.
     cluster : int
 
     Returns
@@ -195,7 +195,7 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     Raises
     ------
     ParameterError
-        No segment starts there, or the cluster is neither there nor the next new one.
+        No segment starts there, or the cluster neither exists nor is the next new number.
 
     Examples
     --------
@@ -206,31 +206,30 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     >>> again.activities[-1].label, again.repetitions()[3]
     ('jump', 8)
     """
-    # Numbers have no holes: only the next new one may be named.
+    # Numbers must have no gaps: the only new number allowed is the next one.
     following = int(segmentation.table.cluster.max(initial=-1)) + 1
     if not -1 <= cluster <= following:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
-    chosen = find_starting(segmentation, level, frame)
+    chosen = find_segment_at(segmentation, level, frame)
     members = [(level, chosen)]
     if level == "activity":
         inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
         members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
-    # Members that have their own name keep it, those called by their cluster's do not.
     moved = _move_members(segmentation, members, cluster)
     become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
-    places = {(row.level, row.start_frame) for _, row in members}
-    rows = [become(row) if (row.level, row.start_frame) in places else row for row in moved]
+    keys = {(row.level, row.start_frame) for _, row in members}
+    rows = [become(row) if (row.level, row.start_frame) in keys else row for row in moved]
     return replace_rows(moved, rows, [])
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
-    """Move the segments of a cluster into another, with its name where it has one.
+    """Move all segments of a cluster to another one, and label them with its name.
 
     Parameters
     ----------
     segmentation : Segmentation
     cluster : int
-        Which is gone then.
+        Cluster to remove.
     into : int
 
     Returns
@@ -260,16 +259,16 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
-    """Move the primitives of a cluster that start at ``frames`` into a new cluster.
+    """Move the primitives of a cluster that start at ``frames`` to a new cluster.
 
-    So is an activity all of whose primitives of that cluster go.
+    An activity is moved if all of its primitives of this cluster are.
 
     Parameters
     ----------
     segmentation : Segmentation
     cluster : int
     frames : iterable of int
-        Where the primitives start; activities in a table without primitives.
+        Starts of the primitives, or of activities in a table without primitives.
 
     Returns
     -------
@@ -278,7 +277,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     Raises
     ------
     ParameterError
-        None of these is in the cluster, or all are.
+        None of the segments of the cluster is selected, or all are.
 
     Examples
     --------
@@ -297,7 +296,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
             f"{len(leavers)} of {len(members)} segments of cluster {cluster} are chosen: "
             "choose some of them, not all"
         )
-    # An activity moves only if none of its primitives of the cluster stays.
+    # An activity moves only if all of its primitives of the cluster move.
     staying = {row.activity for row in members if row.start_frame not in chosen}
     leaving = {row.activity for row in leavers} - staying
     moved: list[tuple[Level, Segment]] = [(row.level, row) for row in leavers]
@@ -311,13 +310,13 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
 
 
 def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
-    """Return the same clusters numbered anew, in this order from 0; names go along.
+    """Renumber the clusters from 0 in this order; names move with them.
 
     Parameters
     ----------
     segmentation : Segmentation
     order : sequence of int
-        The clusters, each once.
+        All clusters, each once.
 
     Returns
     -------
@@ -326,7 +325,7 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     Raises
     ------
     ParameterError
-        They are not the clusters of the table.
+        `order` does not list each cluster of the table once.
 
     Examples
     --------
@@ -346,18 +345,18 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
 
 
 def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -> Segmentation:
-    """Return the segment that starts at ``frame`` is a transition and in no cluster, or none.
+    """Make the segment that starts at ``frame`` a transition, or an activity or primitive.
 
-    An activity's primitives become what it becomes; a transition is one primitive.
+    Primitives of an activity change with it. A transition has no cluster and only one primitive.
 
     Parameters
     ----------
     segmentation : Segmentation
     level : {"activity", "primitive"}
     frame : int
-        Where the segment starts.
+        Start of the segment.
     kind : {"activity", "primitive", "transition"}
-        One of the first two: what its level says.
+        "activity" and "primitive" both mean the kind of its level.
 
     Returns
     -------
@@ -366,7 +365,7 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     Raises
     ------
     ParameterError
-        No segment starts there, or no such kind.
+        No segment starts there, or the kind does not exist.
 
     Examples
     --------
@@ -378,7 +377,7 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     """
     if kind not in get_args(Kind):
         raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")
-    chosen = find_starting(segmentation, level, frame)
+    chosen = find_segment_at(segmentation, level, frame)
     if (kind == "transition") == (chosen.kind == "transition"):
         return segmentation
     become = as_transition if kind == "transition" else as_movement
@@ -388,7 +387,7 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
         return replace_rows(segmentation, activities, primitives)
     inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
     if inside and kind == "transition":
-        # Its primitives become one, which is a transition.
+        # Merge its primitives to one transition.
         primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
         inside = inside[:1]
     for i in inside:
@@ -402,10 +401,10 @@ def _move_members(
     members: Sequence[tuple[Level, Segment]],
     cluster: int,
 ) -> Segmentation:
-    """Return the members in another cluster, called by its name unless they have their own."""
+    """Move members to another cluster, and label them with its name, except own names."""
     names = collect_names(segmentation)
     moved = segmentation
-    # First those called by the cluster's name, then those with a name of their own.
+    # First the members with the name of their cluster, then those with their own name.
     for inherits in (True, False):
         some = [
             (level, row)
@@ -415,5 +414,5 @@ def _move_members(
         label = {"label": names.get(cluster, "")} if inherits else {}
         if some:
             moved = change_columns(moved, some, cluster=cluster, confidence=math.nan, **label)
-    # A cluster that was nameless is said to be, so that labels of members do not name it.
+    # Store an empty name for a nameless cluster, or labels of members might be taken for its name.
     return set_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

@@ -1,7 +1,7 @@
-"""Rows of one level, in time order, and what an edit makes of them.
+"""Operations on rows of one level in time order, for edits.
 
-An edit of a border reaches the activities about it and no others (`Part`): the rest of a table, of
-thousands of rows, stays as it is.
+An edit of a border changes only the activities around it (`Part`). The rest of the table, which may
+have thousands of rows, is not touched.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ Rows = list[Segment]
 
 @dataclass(frozen=True)
 class Part:
-    """Activities that hold some frames, and their primitives.
+    """The activities that contain some frames, and their primitives.
 
-    ``activity`` of their rows counts from the first of these; ``spans`` are their rows in the
-    table.
+    ``activity`` of these rows counts from the first of the activities. ``spans`` are the positions
+    of both in the table.
     """
 
     segmentation: Segmentation
@@ -35,14 +35,14 @@ class Part:
 
     @classmethod
     def of(cls, segmentation: Segmentation, start: int, stop: int) -> Part:
-        """That of the frames ``[start, stop)``."""
+        """Return the part of the activities that overlap ``[start, stop)``."""
         table = segmentation.table
         # Activities come before primitives in the table.
         n = len(segmentation.activities)
-        # The activity that holds the first frame, and the end of those that begin before `stop`.
+        # The activity that contains the first frame, up to the last that begins before `stop`.
         first = int(np.searchsorted(table.start_frame[:n], start, "right")) - 1
         last = int(np.searchsorted(table.start_frame[:n], stop, "left"))
-        # Primitives of these activities: their parents are in order.
+        # Primitives of these activities; their parents are sorted.
         low, high = (n + np.searchsorted(table.activity[n:], [first, last])).tolist()
         spans = slice(first, last), slice(low, high)
         activities, primitives = (
@@ -50,13 +50,13 @@ class Part:
         )
         return cls(segmentation, activities, primitives, spans)
 
-    def of_level(self, level: Level) -> Rows:
-        """Its rows of a level."""
+    def get_rows(self, level: Level) -> Rows:
+        """Return the rows of a level."""
         return self.activities if level == "activity" else self.primitives
 
-    def replaced(self, activities: Rows, primitives: Rows) -> Segmentation:
-        """Return the whole, with these rows in the place of its own."""
-        # The slices of both levels, in the order of the table.
+    def insert(self, activities: Rows, primitives: Rows) -> Segmentation:
+        """Return the whole segmentation with these rows in place of the part."""
+        # Slices of both levels, in the order of the table.
         (before, first), (last, after) = [(span.start, span.stop) for span in self.spans]
         columns = {}
         for name, column in self.segmentation.table.columns().items():
@@ -70,8 +70,8 @@ class Part:
         return replace_columns(self.segmentation, columns)
 
 
-def find_starting(segmentation: Segmentation, level: Level, frame: int) -> Segment:
-    """Return the segment of a level that starts at ``frame``; ParameterError where none does."""
+def find_segment_at(segmentation: Segmentation, level: Level, frame: int) -> Segment:
+    """Return the segment of a level that starts at ``frame``, or raise ParameterError."""
     rows = segmentation.level(level)
     at = int(np.searchsorted(rows.start_frame, frame))
     if at == len(rows) or rows.start_frame[at] != frame:
@@ -82,7 +82,7 @@ def find_starting(segmentation: Segmentation, level: Level, frame: int) -> Segme
 def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
     """Move the border at ``frame`` to ``to``."""
     return [
-        # The end moved: the span is another one. Where the start moved, so is the border.
+        # A changed span drops the confidence, a changed start also that of the border.
         replace(row, stop_frame=to, confidence=math.nan)
         if row.stop_frame == frame
         else replace(row, start_frame=to, confidence=math.nan, border_confidence=math.nan)
@@ -93,7 +93,7 @@ def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
 
 
 def cut(rows: Rows, frame: int) -> Rows:
-    """Return the row that ``frame`` lies in, if any, as two."""
+    """Split the row that contains ``frame``, if any, in two."""
     parts: Rows = []
     for row in rows:
         if row.start_frame < frame < row.stop_frame:
@@ -106,23 +106,23 @@ def cut(rows: Rows, frame: int) -> Rows:
 
 
 def join_rows(rows: Rows, first: int, last: int, like: int) -> Rows:
-    """Rows ``first`` to ``last`` as one that is like one of them."""
+    """Merge rows ``first`` to ``last`` to one, with the properties of row ``like``."""
     if first == last:
         return rows
-    one = replace(
+    merged = replace(
         rows[like],
         start_frame=rows[first].start_frame,
         stop_frame=rows[last].stop_frame,
         confidence=math.nan,
-        # Only the first border is still one.
+        # The start is still that of the first row.
         border_confidence=rows[first].border_confidence,
     )
-    return [*rows[:first], one, *rows[last + 1 :]]
+    return [*rows[:first], merged, *rows[last + 1 :]]
 
 
 def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
-    """Return a primitive that lay in one activity and lies in another."""
-    # A primitive that was a transition within an activity stays one, and the other way round.
+    """Move a primitive from one activity to another; see the package docstring for the rules."""
+    # The kind follows the activity only if it was the same before.
     same = (row.kind == "transition") == (before.kind == "transition")
     kind = choose_kind(row.level, transition=after.kind == "transition")
     new = replace(
@@ -131,40 +131,42 @@ def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
         cluster=after.cluster if row.cluster == before.cluster >= 0 else row.cluster,
         label=after.label if row.label == before.label != "" else row.label,
     )
-    # The confidence is of kind and cluster.
+    # The confidence is that of kind and cluster.
     unchanged = (new.kind, new.cluster) == (row.kind, row.cluster)
     return new if unchanged else replace(new, confidence=math.nan)
 
 
 def as_transition(row: Segment) -> Segment:
-    """Return the row as a transition, which is in no cluster."""
+    """Convert the row to a transition without a cluster."""
     return replace(row, kind="transition", cluster=-1, confidence=math.nan)
 
 
 def as_movement(row: Segment) -> Segment:
-    """Return the row as what its level says: an activity, or a primitive."""
+    """Convert the row to the kind of its level: activity or primitive."""
     return replace(row, kind=row.level, confidence=math.nan)
 
 
-def hand_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]) -> Rows:
-    """Return the primitives once the border of activities (number, from, to) has moved."""
+def reassign_primitives(
+    primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]
+) -> Rows:
+    """Update the primitives after a border of activities (number, from, to) has moved."""
     number, frame, to = move
     low, high = min(frame, to), max(frame, to)
     borders = list_cuts(primitives)
-    # A border of activities must be one of primitives: the nearest one passed moves there.
+    # A border of activities must be one of primitives: move the nearest one that was passed.
     if to not in borders:
         passed = [border for border in borders if low <= border <= high]
         primitives = move_border_rows(
             primitives, min(passed, key=lambda border: abs(border - to)), to
         )
-    # The activity that lost frames, and the one that got them.
+    # Indices of the activity that lost frames, and of the one that got them.
     gave, took = (number - 1, number) if to < frame else (number, number - 1)
-    # Primitives that lie wholly in what changed hands.
+    # Primitives that lie completely in the moved span.
     inside = [i for i, row in enumerate(primitives) if low <= row.start_frame < high]
     inside = [i for i in inside if primitives[i].stop_frame <= high]
     for i in inside:
         primitives[i] = change_parent(primitives[i], before[gave], after[took])
-    # A transition is one primitive: what it took is joined to its own.
+    # A transition has only one primitive: merge it with those that it got.
     if inside and after[took].kind == "transition":
         host = inside[-1] + 1 if to < frame else inside[0] - 1
         primitives = join_rows(primitives, min(host, inside[0]), max(host, inside[-1]), host)
@@ -172,12 +174,12 @@ def hand_over(primitives: Rows, before: Rows, after: Rows, move: tuple[int, int,
 
 
 def list_cuts(rows: Rows) -> list[int]:
-    """Where one row stops and the next starts."""
+    """Return the frames at which one row stops and the next starts."""
     return [row.start_frame for row in rows[1:]]
 
 
 def find_row_after(segmentation: Segmentation, level: Level, frame: int) -> int:
-    """Return the number of the segment after the border; ParameterError where there is none."""
+    """Return the index of the segment after the border, or raise ParameterError."""
     borders: list[int] = segmentation.cuts(level).tolist()
     if frame not in borders:
         nearest = min(borders, key=lambda border: abs(border - frame), default=None)
@@ -187,14 +189,14 @@ def find_row_after(segmentation: Segmentation, level: Level, frame: int) -> int:
 
 
 def count_frames(row: Segment) -> int:
-    """Frames."""
+    """Return the number of frames of a row."""
     return row.stop_frame - row.start_frame
 
 
 def replace_rows(
     segmentation: Segmentation, activities: Iterable[Segment], primitives: Iterable[Segment]
 ) -> Segmentation:
-    """Return the same recording with these rows; seconds and parents follow from their frames."""
+    """Replace all rows; seconds and parents are computed from their frames."""
     rows = [*activities, *primitives]
     return replace_columns(
         segmentation, {name: [getattr(row, name) for row in rows] for name in COLUMNS}
@@ -202,9 +204,8 @@ def replace_rows(
 
 
 def replace_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
-    """Return the same recording with these columns; seconds and parents follow from frames."""
+    """Replace all columns; seconds and parents are computed from frames."""
     return Segmentation.from_columns(
-        # Parents follow from the frames.
         {name: values for name, values in columns.items() if name != "activity"},
         n_frames=segmentation.n_frames,
         fps=segmentation.fps,
@@ -215,7 +216,7 @@ def replace_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]
 
 
 def renumber_clusters(segmentation: Segmentation, numbers: Mapping[int, int]) -> Segmentation:
-    """Give the clusters these numbers; segments of clusters without one are in none."""
+    """Renumber clusters; segments of clusters without a new number are in none (-1)."""
     table = segmentation.table
     clusters = np.array([numbers.get(c, -1) for c in table.cluster.tolist()], np.int64)
     # Each row's `action` is the cluster of its activity.
