@@ -1,16 +1,15 @@
-"""Segments as clips: a folder with a file each, and lists of them.
+"""Write segments as clips: a folder with one file each, and manifests.
 
-A clip of a motion is a BVH, or of another format that is asked for; a CSV of joint positions
-where it has no rotations (see `kineme.formats.tables`). Of a format that holds several motions,
-such as GLB, there is one file for each recording, with its clips as animations; given the path of
-such a file instead of a folder, all clips go there, into a copy of the file that they came from
-where that is of the same format, and the lists beside it, as ``clips.manifest.csv`` for
-``clips.glb``. A clip of signals
-is rows of their own file (see `kineme.formats.channels.writing`). Files are called
-``RECORDING_NUMBER_TEXT`` (see `kineme.clips.names`), with the text of `kineme.labels.spans`.
+Clips of a motion are BVH files by default, or CSV files of joint positions without rotations (see
+`kineme.formats.tables`). For formats that hold several motions, such as GLB, there is one file per
+recording with its clips as animations. If the path of such a file is given instead of a folder, all
+clips go into it, or into a copy of the source file if that has the same format. The manifests are
+then beside it, such as ``clips.manifest.csv`` for ``clips.glb``. Clips of signals are rows of their
+source file (see `kineme.formats.channels.writing`). Files are named ``RECORDING_NUMBER_TEXT`` (see
+`kineme.clips.names`), with the text of `kineme.labels.spans`.
 
-``manifest.csv`` has a row per clip, in the order of the segments; ``manifest.json`` says more of
-it (see `kineme.clips.manifest`):
+``manifest.csv`` has one row per clip, in the order of the segments; ``manifest.json`` has more
+details (see `kineme.clips.manifest`):
 
 ============================ =====================================================
 ``file``, ``source``         the clip, the recording it was cut from
@@ -18,14 +17,14 @@ it (see `kineme.clips.manifest`):
 ``level``, ``kind``          as in the segment table
 ``cluster``, ``label``       as in the segment table
 ``tags``                     direction, turn, start and stop (see `kineme.clips.tags`)
-``rank``, ``cost``           of loops only: its place in its cluster, 1 the best, and
-                             what it was placed by (see `kineme.clips.quality`)
-``turn_deg``, ``x_m``,       of loops only: what carries one round to the next, a
-``z_m``                      turn about the vertical axis, then a shift
-``animation``                of files with several clips only: the name of the clip
+``rank``, ``cost``           for loops: rank in the cluster, 1 for the best, and the
+                             cost it is sorted by (see `kineme.clips.quality`)
+``turn_deg``, ``x_m``,       for loops: motion from one round to the next, a turn
+``z_m``                      about the vertical axis, then a shift
+``animation``                for files with several clips: the name of the clip
 ============================ =====================================================
 
-The folder appears whole or not at all, and nothing that was there is touched.
+The folder is written atomically, and existing files are never changed.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ Source = (
     tuple[Motion | Signals, Sequence[Segment]]
     | tuple[Motion | Signals, Sequence[Segment], Sequence[RankedLoop]]
 )
-"""A recording, its segments, and those of them that become loops, where they are ranked already."""
+"""A recording, its segments, and optionally those that become loops, already ranked."""
 
 
 def split(
@@ -75,58 +74,58 @@ def split(
     cluster: int | None = None,
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write each segment as a clip of its own; for each clip the path of its file.
+    """Write each segment as a clip and return the path of each clip's file.
 
     Parameters
     ----------
     recording : Motion or Signals
-        What was segmented.
+        The segmented recording.
     segmentation : Segmentation
-        Its segments, of as many frames.
+        Its segments.
     folder : str or PathLike
-        To be made; one that is there must be empty. A path that ends as a format that holds several
-        motions, such as ``clips.glb``, is one file with all clips as its animations.
+        New or empty folder. A path with the suffix of a format that holds several motions, such as
+        ``clips.glb``, becomes one file with all clips as animations.
     level : {"activity", "primitive"}, optional
-        The segments to take; without a cluster all, transitions too.
+        Level of the segments to write.
     cluster : int, optional
-        See `level`.
+        Only segments of this cluster; by default all, including transitions.
 
     Other Parameters
     ----------------
     loops : bool, optional
-        Blend the ends of each clip but transitions (see `kineme.clips.loops`); motions only.
+        Turn clips other than transitions into loops (see `kineme.clips.loops`); motions only.
     format : str, optional
-        The suffix of a format that motions are written in, such as "bvh", "amc" or "glb".
+        Suffix of a format that writes motions, such as "bvh", "amc" or "glb".
     best : int, optional
-        Of loops: so many of each cluster, the best ones (see `kineme.clips.quality`), and no
-        transitions.
+        Write only so many loops of each cluster, the best ones (see `kineme.clips.quality`), and
+        no transitions.
     root_motion : {"keep", "extract", "in-place"}, optional
-        Keep it; move it to a root bone, which is added where there is none; or put each clip to
-        the origin, facing +z, without it (see `kineme.clips.root_motion`). The manifest has it.
+        Keep root motion; move it to a root bone, which is added if missing; or remove it, with
+        each clip at the origin facing +z (see `kineme.clips.root_motion`). It is in the manifest.
     straight : bool, optional
-        Take the turn out, so that the body goes straight on.
+        Remove turning, so that the body moves straight ahead.
     mirror : bool, optional
         Exchange left and right.
     close : bool, optional
-        Repeat the first frame of each loop at its end, as engines want it.
+        Repeat the first frame of each loop at its end, as game engines expect.
     fps : float, optional
-        Frames per second of the clips, whose borders go to whole frames; of motions only.
+        Frames per second of the clips; borders are rounded to whole frames. Motions only.
     name : str, optional
         Template of names, such as ``{take}_{label}_{n:02}`` (see `kineme.clips.names.FIELDS`).
     target : {"unreal", "unity", "blender", "godot"}, optional
-        Format, root motion, closing and names as that program wants them, unless given.
+        Program that sets defaults for format, root motion, closing and names.
     sheet : str or PathLike, optional
-        A picture to write: a strip of small figures for each clip.
+        Picture to write, with a strip of small figures for each clip.
     motion_matching : str or PathLike, optional
-        A database to write, ``.npz`` or ``.bin`` (see `kineme.clips.motion_matching`).
+        Database to write, ``.npz`` or ``.bin`` (see `kineme.clips.motion_matching`).
 
     Raises
     ------
     MotionError
-        The segments are of another recording.
+        The segments belong to another recording.
     ParameterError
-        No segment is of that level and cluster, loops or a format of signals, no format of
-        that suffix, the best of what is no loop, or names that clash.
+        No segment with this level and cluster, loops or a format for signals, unknown format,
+        ``best`` without loops, or duplicate names.
     WriteError
         The folder is not empty, or cannot be written.
 
@@ -151,7 +150,7 @@ def split_all(
     cluster: int | None = None,
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write the segments of several recordings as `split` does, such as of all takes of a file."""
+    """Write the segments of several recordings like `split`, for example all takes of a file."""
     if not is_one_of(level, get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}, not {level!r:.60}")
     if cluster is not None and not is_number(cluster):
@@ -180,10 +179,10 @@ def write_clips(
     together: bool = False,
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write segments of several recordings as clips in one folder; for each clip its file.
+    """Write segments of several recordings as clips to one folder; return the file of each clip.
 
-    They are gone through once, so that one recording at a time needs memory. The rest is as for
-    `split`. Loops are ranked among those of their recording, unless they are ranked ``together``.
+    ``clips`` is iterated once, so that only one recording is in memory. Other arguments are those
+    of `split`. Loops are ranked within their recording, or ``together``.
     """
     target, chosen = Path(folder), resolve_options(options)
     one_file = writer_of(target.suffix.lower()) if target.suffix else None
@@ -194,7 +193,7 @@ def write_clips(
     companions = Companions(chosen.given)
     with atomic_folder(target) as draft:
         first, files, names = 0, set[str](), set[str]()
-        # Numbers go on over the recordings, so that names stay unique in the folder.
+        # Numbers continue over recordings, so that names are unique in the folder.
         for recording, rows, *ranked in clips:
             run = _Run(recording, first, draft, chosen, names)
             first += len(rows)
@@ -226,9 +225,9 @@ def write_clips(
 def _write_one_file(
     clips: Iterable[Source], target: Path, found: Format, chosen: Chosen
 ) -> list[Path]:
-    """Leave all clips in one file, a copy of their own where it is of that format.
+    """Write all clips to one file, or to a copy of their source file if it has this format.
 
-    They are of one recording, or of takes in one file.
+    They must come from one recording, or from takes in one file.
     """
     given = chosen.given.get("format")
     if given is not None and f".{given}" != target.suffix.lower():
@@ -272,7 +271,7 @@ def _make_clips(
     companions: Companions,
     ranked: Sequence[RankedLoop] | None = None,
 ) -> Iterator[ShapedClip]:
-    """Yield the clips of a recording, which companions are told of."""
+    """Yield the clips of a recording, passing them through the companions."""
     shape = run.chosen.shape
     motion = mirrored(recording) if shape.mirror else recording
     made = shape_clips(motion, rows, shape, ranked)
@@ -280,7 +279,7 @@ def _make_clips(
 
 
 def _refuse_poses(chosen: Chosen) -> None:
-    """ParameterError where signals are to be treated as bodies."""
+    """Raise ParameterError if options for bodies are given for signals."""
     shape = chosen.shape
     if shape.loops:
         raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
@@ -297,9 +296,9 @@ def _refuse_poses(chosen: Chosen) -> None:
 
 @dataclass(frozen=True)
 class _Run:
-    """Clips of one recording, numbered from ``first`` in their folder.
+    """Names the clips of one recording, numbered from ``first`` on.
 
-    ``names`` are those that are taken, in small letters. Clips of takes are called after these.
+    ``names`` holds the used names in lower case. With ``of_takes``, names start with the take.
     """
 
     recording: Motion | Signals
@@ -320,7 +319,7 @@ class _Run:
     def named(
         self, index: int, segment: Segment, tags: Sequence[str] = (), *, loop: bool = False
     ) -> tuple[str, str]:
-        """Return the name of a clip and that of its file, of a segment among those given."""
+        """Return the names of a clip and of its file, for the segment with an index."""
         number, text = self.first + index, format_text(segment)
         template = self.chosen.name
         if template is None:
@@ -344,9 +343,9 @@ class _Run:
     def clip(
         self, index: int, segment: Segment, suffix: str, file: str | None = None, **fields: Any
     ) -> Clip:
-        """Return what the lists say of it; the other fields are those of `Clip`.
+        """Return the manifest entry of a clip; ``fields`` are other fields of `Clip`.
 
-        It has a file of its own where none is given. ParameterError where its name is taken.
+        Without ``file``, the clip has its own file. Raise ParameterError for a duplicate name.
         """
         tags, is_loop = fields.get("tags", ()), fields.get("carry") is not None
         name, own = self.named(index, segment, tags, loop=is_loop)
@@ -363,7 +362,7 @@ class _Run:
         )
 
     def shaped_clip(self, made: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
-        """Return the same of a motion that was made of it."""
+        """Return the manifest entry of a shaped clip."""
         return self.clip(
             made.index,
             made.segment,
@@ -387,7 +386,7 @@ class _Run:
 
 
 def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
-    """Leave each clip in a file of its own: rows of the recording's."""
+    """Write each clip as rows of the recording's file to its own file."""
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = rows_of(signals, shortest=shortest)
     for index, row in enumerate(rows):
@@ -398,7 +397,7 @@ def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterato
 
 
 def _write_files(run: _Run, made: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
-    """Leave each clip in a file of its own."""
+    """Write each clip to its own file."""
     for each in made:
         clip = run.shaped_clip(each, suffix=f".{suffix}")
         write(each.motion, run.folder / clip.file)
@@ -411,7 +410,7 @@ def _write_animations(
     path: Path,
     write_all: Callable[[Mapping[str, Motion], Path], object],
 ) -> list[Clip]:
-    """Leave all clips in one file."""
+    """Write all clips to one file."""
     animations: dict[str, Motion] = {}
     clips = _add_animations(run, made, path.name, animations)
     if animations:
@@ -422,7 +421,7 @@ def _write_animations(
 def _add_animations(
     run: _Run, made: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
 ) -> list[Clip]:
-    """Add clips to the animations of a file; return what the lists say of them."""
+    """Add clips to the animations of a file; return their manifest entries."""
     clips = []
     for each in made:
         clip = run.shaped_clip(each, file)
