@@ -118,9 +118,9 @@ def as_texts(
 ) -> tuple[str, ...]:
     """Return the values as a tuple of texts; raise ``error`` for a single text or other types."""
     if isinstance(values, Iterable) and not isinstance(values, str):
-        found = tuple(values)
-        if all(isinstance(value, str) for value in found):
-            return found
+        texts = tuple(values)
+        if all(isinstance(value, str) for value in texts):
+            return texts
     raise error(f"{name} must be a list of texts, not {values!r:.60}")
 
 
@@ -139,15 +139,15 @@ def as_floats(
 ) -> NDArray[np.float64]:
     """Return the values as a float64 array of any shape; raise ``error`` if not numbers."""
     try:
-        given = np.asarray(values)
-        if given.dtype.kind != "c":  # numpy would drop the imaginary parts
-            return np.asarray(given, np.float64)
+        array = np.asarray(values)
+        if array.dtype.kind != "c":  # numpy would drop the imaginary parts
+            return np.asarray(array, np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
-    shown = repr(values) if isinstance(values, str) else type(values).__name__
+    description = repr(values) if isinstance(values, str) else type(values).__name__
     if isinstance(values, np.ndarray):
-        shown = f"{values.dtype} values"
-    raise error(f"{name} must be an array of numbers, not {shown:.60}") from None
+        description = f"{values.dtype} values"
+    raise error(f"{name} must be an array of numbers, not {description:.60}") from None
 
 
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:
@@ -205,12 +205,12 @@ def make_unique(names: Iterable[str], *, allow_empty: bool = False) -> list[str]
     ['hip', 'knee', 'hip_2', '_2']
     """
     distinct: dict[str, None] = {}
-    tried: dict[str, int] = {}  # the last number behind each name
+    last_numbers: dict[str, int] = {}  # the last number behind each name
     for name in names:
         new = name
         while new in distinct or not (new or allow_empty):
-            tried[name] = tried.get(name, 1) + 1
-            new = f"{name}_{tried[name]}"
+            last_numbers[name] = last_numbers.get(name, 1) + 1
+            new = f"{name}_{last_numbers[name]}"
         distinct[new] = None
     return list(distinct)
 
@@ -374,8 +374,8 @@ def _load_objects(path: str, home: str) -> Iterable[Any]:
     return _as_sequence(getattr(import_module(f".{module}", home), name))
 
 
-def _as_sequence(found: Any) -> Iterable[Any]:
-    return found if isinstance(found, tuple | list) else (found,)
+def _as_sequence(objects: Any) -> Iterable[Any]:
+    return objects if isinstance(objects, tuple | list) else (objects,)
 
 
 def warn(message: str) -> None:

@@ -220,13 +220,13 @@ def refuse_link(path: Path) -> None:
     if hasattr(path, "protocol"):  # universal_pathlib has no links
         return
     try:
-        found = path.lstat()
+        status = path.lstat()
     except (FileNotFoundError, NotADirectoryError):
         return
     except (OSError, ValueError) as error:  # no permission; a null byte in the name
         reason = getattr(error, "strerror", None) or error
         raise WriteError(path, f"cannot be written: {reason}") from error
-    if stat.S_ISLNK(found.st_mode):
+    if stat.S_ISLNK(status.st_mode):
         raise LinkError(path, "is a link, which could lead out of the folder: remove it")
 
 
@@ -253,9 +253,9 @@ def find_video(recording: Path) -> Path | None:
     """
     if not recording.name:
         return None
-    own = recording.with_name(recording.name.removesuffix(POSES) or recording.name)
-    beside = [own.with_suffix(end) for suffix in VIDEOS for end in (suffix, suffix.upper())]
-    for path in [own, *beside] if own.suffix.lower() in VIDEOS else beside:
+    video = recording.with_name(recording.name.removesuffix(POSES) or recording.name)
+    beside = [video.with_suffix(end) for suffix in VIDEOS for end in (suffix, suffix.upper())]
+    for path in [video, *beside] if video.suffix.lower() in VIDEOS else beside:
         if path.is_file() and not path.is_symlink():
             return path
     return None

@@ -61,28 +61,28 @@ def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
     {'offset_s': 2.0}
     """
     try:
-        found = json.loads(text)
+        content = json.loads(text)
     except RecursionError as error:
         raise ReadError(path, TOO_DEEP) from error
     except ValueError as error:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
-    if fault := find_fault(found):
+    if fault := find_fault(content):
         raise ReadError(path, fault)
     if shape is Any:
-        return found
+        return content
     try:
-        return convert_json(found, shape)
+        return convert_json(content, shape)
     except ValueError as error:
         raise ReadError(path, f"is not as it was written: {error}") from error
 
 
-def convert_json(found: Any, shape: type[Shape]) -> Shape:
+def convert_json(content: Any, shape: type[Shape]) -> Shape:
     """Convert parsed JSON to a type that msgspec supports; raise ValueError on mismatch."""
     import msgspec  # not needed by `import kineme`
 
     try:
-        return msgspec.convert(found, shape, str_keys=True)  # keys of JSON are texts
+        return msgspec.convert(content, shape, str_keys=True)  # keys of JSON are texts
     except msgspec.ValidationError as error:
         raise ValueError(format_problem(str(error))) from error
     except ValueError as error:  # a lone surrogate in a name
@@ -107,10 +107,10 @@ def options_to_json(options: object) -> dict[str, Any]:
     >>> options_to_json(ReadOptions(fps=30.0, columns=("acc_*",)))
     {'fps': 30.0, 'columns': ['acc_*']}
     """
-    given, defaults = (
+    values, defaults = (
         json.loads(json.dumps(vars(each), default=_as_plain)) for each in (options, type(options)())
     )
-    return {name: value for name, value in given.items() if value != defaults[name]}
+    return {name: value for name, value in values.items() if value != defaults[name]}
 
 
 def options_from_json(kind: type[Options], content: object) -> Options:
@@ -148,9 +148,9 @@ def _as_tuples(value: Any) -> Any:
     return tuple(map(_as_tuples, value)) if isinstance(value, list) else value
 
 
-def find_fault(found: Any) -> str:
+def find_fault(content: Any) -> str:
     """Return why parsed JSON is unacceptable; empty if it is valid."""
-    level: list[Any] = [[found]]
+    level: list[Any] = [[content]]
     # Go level by level, since recursion would fail on deep content.
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []

@@ -79,17 +79,17 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
     """
     items, ask = list(items), _ask.get()
 
-    def one(item: Item) -> Result:
+    def run(item: Item) -> Result:
         with cancellable(ask):  # context variables are not inherited by threads
             check_cancelled()
             return function(item)
 
     # A thread of the pool must not wait for others of the pool: deadlock.
     if count_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
-        return [one(item) for item in items]
+        return [run(item) for item in items]
     pool = _get_pool()
     try:
-        return list(pool.map(one, items))
+        return list(pool.map(run, items))
     except KeyboardInterrupt:
         # Discard the pool: a thread that was just starting would keep the program alive.
         _get_pool.cache_clear()
@@ -119,10 +119,10 @@ def count_threads() -> int:
 def _get_pool() -> ThreadPoolExecutor:
     from concurrent.futures import ThreadPoolExecutor
 
-    def begin() -> None:
+    def initialize() -> None:
         _here.of_pool = True
 
-    return ThreadPoolExecutor(count_threads(), thread_name_prefix="kineme", initializer=begin)
+    return ThreadPoolExecutor(count_threads(), thread_name_prefix="kineme", initializer=initialize)
 
 
 if hasattr(os, "register_at_fork"):
@@ -154,15 +154,15 @@ def make_process_context(imports: Sequence[str] = ()) -> BaseContext:
 
     if sys.platform != "linux":
         return get_context("spawn")
-    started = get_context("forkserver")
-    started.set_forkserver_preload([*imports])
+    context = get_context("forkserver")
+    context.set_forkserver_preload([*imports])
     resource_tracker.ensure_running()  # unblocks signals, so it must come first
-    let_through = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    old_mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         forkserver.ensure_running()
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, let_through)
-    return started
+        signal.pthread_sigmask(signal.SIG_SETMASK, old_mask)
+    return context
 
 
 @contextmanager
@@ -273,9 +273,9 @@ def _make_temporary_cache() -> str:
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = Path(tempfile.gettempdir(), f"kineme-{user}")
     folder.mkdir(mode=0o700, exist_ok=True)
-    found = folder.lstat()
-    private = stat.S_ISDIR(found.st_mode) and found.st_uid == user
+    status = folder.lstat()
+    private = stat.S_ISDIR(status.st_mode) and status.st_uid == user
     # Another user may have planted the folder: use it only if owned by this user and private.
-    if private and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+    if private and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         return str(folder)
     return tempfile.mkdtemp(prefix="kineme-")

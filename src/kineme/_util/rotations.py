@@ -100,8 +100,8 @@ def to_euler_zyx(q: Floats) -> Floats:
 def rotate_about_y(angle: ArrayLike) -> Floats:
     """Return rotations about the vertical by angles in radians."""
     half = np.asarray(angle, np.float64) / 2
-    still = np.zeros_like(half)
-    return join_components(np.cos(half), still, np.sin(half), still)
+    zero = np.zeros_like(half)
+    return join_components(np.cos(half), zero, np.sin(half), zero)
 
 
 def to_rotation_vectors(q: Floats) -> Floats:
@@ -166,8 +166,8 @@ def from_matrices(axes: Floats) -> Floats:
         ]
     )
     # Select the row for the largest component of each rotation.
-    found = rows[largest, np.arange(len(axes))]
-    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)
+    chosen = rows[largest, np.arange(len(axes))]
+    return np.asarray(chosen / np.linalg.norm(chosen, axis=1, keepdims=True), np.float64)
 
 
 def split_components(array: Floats) -> tuple[Floats, ...]:

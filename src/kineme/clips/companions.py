@@ -26,8 +26,8 @@ class Companions:
     `write` writes those that were requested.
     """
 
-    def __init__(self, given: ClipOptions) -> None:
-        self.sheet, self.matching = given.get("sheet"), given.get("motion_matching")
+    def __init__(self, options: ClipOptions) -> None:
+        self.sheet, self.matching = options.get("sheet"), options.get("motion_matching")
         # Check before any work is done.
         for path, suffixes in ((self.sheet, PICTURES), (self.matching, SUFFIXES)):
             if path is not None:
@@ -35,17 +35,17 @@ class Companions:
         self.strips: list[tuple[str, Motion, int]] = []
         self.database = Database()
 
-    def follow(
+    def collect(
         self,
         motion: Motion,
         rows: Sequence[Segment],
-        made: Iterable[ShapedClip],
-        name_of: Callable[[ShapedClip], str],
+        clips: Iterable[ShapedClip],
+        get_name: Callable[[ShapedClip], str],
     ) -> Iterator[ShapedClip]:
         """Yield the clips of a recording unchanged, and collect data from each."""
         ranges = []
-        for clip in made:
-            name = name_of(clip)
+        for clip in clips:
+            name = get_name(clip)
             if self.sheet is not None:
                 title = "   ".join(filter(None, [name, ", ".join(clip.tags)]))
                 self.strips.append((title, _thin_frames(clip.motion), clip.segment.cluster))

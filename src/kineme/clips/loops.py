@@ -149,9 +149,9 @@ def compute_seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
 
     ``values`` (frames, ...) needs at least two frames.
     """
-    near = min(len(values), max(FEWEST, round(NEAR_S * fps)))
+    n_fit = min(len(values), max(FEWEST, round(NEAR_S * fps)))
     # The seam is at 0: half a frame after the last frame and half a frame before the first.
-    return _extrapolate_seam(values[-near:], 0.5 - near), _extrapolate_seam(values[:near], 0.5)
+    return _extrapolate_seam(values[-n_fit:], 0.5 - n_fit), _extrapolate_seam(values[:n_fit], 0.5)
 
 
 def _extrapolate_seam(values: Floats, first: float) -> Floats:
@@ -160,11 +160,11 @@ def _extrapolate_seam(values: Floats, first: float) -> Floats:
     degree = 2 if len(frames) >= FEWEST else 1
     # Least-squares fit: the columns of the Vandermonde matrix are 1, t, t².
     fit = np.linalg.pinv(np.vander(frames, degree + 1, increasing=True))
-    found = np.zeros((3, *values.shape[1:]))
-    found[: degree + 1] = np.tensordot(fit, values, axes=1)
+    derivatives = np.zeros((3, *values.shape[1:]))
+    derivatives[: degree + 1] = np.tensordot(fit, values, axes=1)
     # The second derivative of a parabola is twice its coefficient.
-    found[2] *= 2
-    return found
+    derivatives[2] *= 2
+    return derivatives
 
 
 def _close_rotations(

@@ -96,10 +96,10 @@ class Database:
         """Write all clips; raise ParameterError if there are none."""
         if not self.parts:
             raise ParameterError("there is no clip for motion_matching")
-        found = {key: np.concatenate([part[key] for part in self.parts]) for key in self.parts[0]}
+        arrays = {key: np.concatenate([part[key] for part in self.parts]) for key in self.parts[0]}
         names, tags, starts, stops = zip(*self.ranges, strict=True)
         bone_names, parents = self.skeleton
-        found |= {
+        arrays |= {
             "bone_parents": np.array(parents, np.int32),
             "range_starts": np.array(starts, np.int32),
             "range_stops": np.array(stops, np.int32),
@@ -108,21 +108,21 @@ class Database:
             if Path(path).suffix.lower() == ".bin":
                 for key in LAYOUT:
                     # The shape precedes each array, without the dimension of vector components.
-                    shape = found[key].shape[:2]
-                    file.write(struct.pack(f"<{len(shape)}I", *shape) + found[key].tobytes())
+                    shape = arrays[key].shape[:2]
+                    file.write(struct.pack(f"<{len(shape)}I", *shape) + arrays[key].tobytes())
                 return
-            offset, scale = _compute_normalization(found["features"])
-            names_of = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
-            found |= {
+            offset, scale = _compute_normalization(arrays["features"])
+            feature_names = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
+            arrays |= {
                 "features_offset": offset,
                 "features_scale": scale,
-                "feature_names": np.array(names_of),
+                "feature_names": np.array(feature_names),
                 "bone_names": np.array(bone_names),
                 "range_names": np.array(names),
                 "range_tags": np.array([", ".join(each) for each in tags]),
                 "fps": np.array(RATE),
             }
-            np.savez_compressed(file, allow_pickle=False, **found)
+            np.savez_compressed(file, allow_pickle=False, **arrays)
 
 
 LAYOUT = (
@@ -162,8 +162,8 @@ def _describe_motion(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[
         "bone_rotations": rotations,
         "bone_angular_velocities": _compute_angular_velocities(rotations),
     }
-    found: dict[str, NDArray[Any]] = {key: part.astype("<f4") for key, part in arrays.items()}
-    return found | {"contact_states": np.stack(contacts, axis=1).astype(np.uint8)}
+    described: dict[str, NDArray[Any]] = {key: part.astype("<f4") for key, part in arrays.items()}
+    return described | {"contact_states": np.stack(contacts, axis=1).astype(np.uint8)}
 
 
 def _compute_features(

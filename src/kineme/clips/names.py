@@ -117,13 +117,13 @@ def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str
 def clean_name(text: str, more: str = "") -> str:
     """Replace all but letters, digits, ``_``, ``-`` and ``more`` by ``_``; limit the length."""
     # Cut in bytes; decoding drops a partial letter at the end.
-    kept = _replace_special(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
-    return kept.decode(errors="ignore")
+    cleaned = _replace_special(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
+    return cleaned.decode(errors="ignore")
 
 
 def _replace_special(text: str, more: str = "") -> str:
-    kept = f"-_{more}"
-    return "".join(letter if letter.isalnum() or letter in kept else "_" for letter in text)
+    allowed = f"-_{more}"
+    return "".join(letter if letter.isalnum() or letter in allowed else "_" for letter in text)
 
 
 def _protect_numbers(text: str) -> str:
@@ -134,7 +134,7 @@ def _protect_numbers(text: str) -> str:
 def _to_ascii(text: str) -> str:
     """Return ASCII letters and digits without accents, with single ``_`` for everything else."""
     # NFKD separates accents from letters, which are then dropped; ß is not decomposed.
-    parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
-    bare = "".join(letter for letter in parted if not unicodedata.combining(letter))
-    kept = "".join(each if each.isascii() and each.isalnum() else " " for each in bare)
-    return "_".join(kept.split())
+    decomposed = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
+    unaccented = "".join(letter for letter in decomposed if not unicodedata.combining(letter))
+    words = "".join(each if each.isascii() and each.isalnum() else " " for each in unaccented)
+    return "_".join(words.split())

@@ -99,10 +99,12 @@ def resolve_options(options: ClipOptions) -> Chosen:
     unknown = options.keys() - ClipOptions.__annotations__.keys()
     if unknown:
         raise TypeError(f"split() got an unexpected keyword argument {min(unknown)!r}")
-    named, loops = options.get("target"), options.get("loops", False)
-    if named is not None and not is_one_of(named, TARGETS):
-        raise ParameterError(f"target is {named!r:.60}: choose from {', '.join(TARGETS)}")
-    target = Target(None, "keep", False, False, None) if named is None else TARGETS[named]
+    target_name, loops = options.get("target"), options.get("loops", False)
+    if target_name is not None and not is_one_of(target_name, TARGETS):
+        raise ParameterError(f"target is {target_name!r:.60}: choose from {', '.join(TARGETS)}")
+    target = (
+        Target(None, "keep", False, False, None) if target_name is None else TARGETS[target_name]
+    )
     shape = Shape(
         loops,
         options.get("best"),
@@ -119,18 +121,18 @@ def resolve_options(options: ClipOptions) -> Chosen:
         if path is not None:
             check_path(path, "split")
     suffix = target.format if options.get("format") is None else options.get("format")
-    found = _find_format(suffix)
-    several = found is not None and found.write_animations is not None and not target.separate
-    return Chosen(shape, suffix, found if several else None, options, name)
+    writer = _find_format(suffix)
+    several = writer is not None and writer.write_animations is not None and not target.separate
+    return Chosen(shape, suffix, writer if several else None, options, name)
 
 
 def _find_format(suffix: str | None) -> Format | None:
     """Return the format of a suffix; raise ParameterError if it cannot write motions."""
     if suffix is None:
         return None
-    found = writer_of(f".{suffix}")
-    if found is None:
+    writer = writer_of(f".{suffix}")
+    if writer is None:
         suffixes = sorted(s for each in supported_formats() if each.write for s in each.suffixes)
         names = ", ".join(name.removeprefix(".") for name in suffixes)
         raise ParameterError(f"format is {suffix!r:.60}: motions are written as {names}")
-    return found
+    return writer

@@ -91,14 +91,14 @@ class Shape:
     @property
     def changes(self) -> tuple[str, ...]:
         """Return the names of the changes in the manifest."""
-        given = (
+        applied = (
             ("in place", self.root_motion == "in-place"),
             ("root bone", self.root_motion == "extract"),
             ("straight", self.straight),
             ("mirror", self.mirror),
             ("close", self.close),
         )
-        return tuple(name for name, done in given if done)
+        return tuple(name for name, done in applied if done)
 
 
 @dataclass(frozen=True)
@@ -142,16 +142,16 @@ def shape_clips(
     if loops is None:
         qualities = measure_loops(motion, spans, feet) if shape.loops else {}
         # Rank all candidates of a cluster, even if only the best are written.
-        places = _rank_candidates(spans, qualities)
+        ranks = _rank_candidates(spans, qualities)
     else:
         qualities = {each.index: each.quality for each in loops}
-        places = {each.index: each.rank for each in loops}
+        ranks = {each.index: each.rank for each in loops}
     for index, (row, span) in enumerate(zip(rows, spans, strict=True)):
-        rank = places.get(index)
+        rank = ranks.get(index)
         wanted = shape.best is None or (rank is not None and rank <= shape.best)
         if wanted and (loops is None or rank is not None):
-            made = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
-            yield replace(made, segment=row, tags=_get_tags(travel, span))
+            clip = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
+            yield replace(clip, segment=row, tags=_get_tags(travel, span))
 
 
 def _resample_rows(
@@ -178,18 +178,18 @@ def _get_tags(travel: Travel | None, row: Segment) -> tuple[Tag, ...]:
 def list_ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
     """Return all possible loops, grouped by cluster and sorted by rank."""
     qualities = measure_loops(motion, rows, find_planted_feet(motion))
-    places = _rank_candidates(rows, qualities)
+    ranks = _rank_candidates(rows, qualities)
     order = [
         index
         for members in _group_candidates(rows).values()
-        for index in sorted(members, key=places.__getitem__)
+        for index in sorted(members, key=ranks.__getitem__)
     ]
-    found = []
+    loops = []
     for index in order:
         clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
         speed = measure_root_motion(clip, find_carry(clip)).speed
-        found.append(RankedLoop(index, places[index], qualities[index], speed))
-    return found
+        loops.append(RankedLoop(index, ranks[index], qualities[index], speed))
+    return loops
 
 
 def make_preview_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
@@ -259,10 +259,10 @@ def _rank_candidates(
     rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]
 ) -> dict[int, int]:
     """Return the rank of each loop in its cluster, by index of its segment."""
-    places: dict[int, int] = {}
+    ranks: dict[int, int] = {}
     for members in _group_candidates(rows).values() if qualities else ():
-        places |= zip(members, rank_qualities([qualities[index] for index in members]), strict=True)
-    return places
+        ranks |= zip(members, rank_qualities([qualities[index] for index in members]), strict=True)
+    return ranks
 
 
 def _shape_clip(

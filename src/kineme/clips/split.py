@@ -143,7 +143,7 @@ def split(
 
 
 def split_all(
-    found: Sequence[tuple[Motion | Signals, Segmentation]],
+    inputs: Sequence[tuple[Motion | Signals, Segmentation]],
     folder: str | PathLike[str],
     *,
     level: Level = "activity",
@@ -156,7 +156,7 @@ def split_all(
     if cluster is not None and not is_number(cluster):
         raise ParameterError(f"a cluster is a number, not {cluster!r:.60}")
     clips: list[Source] = []
-    for recording, segmentation in found:
+    for recording, segmentation in inputs:
         if segmentation.n_frames != recording.n_frames:
             raise MotionError(
                 f"the segments are of a recording of {segmentation.n_frames} frames, "
@@ -165,9 +165,9 @@ def split_all(
         rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
         clips.append((recording, rows))
     if not any(rows for _, rows, *_ in clips):
-        there = {row.cluster for _, segmentation in found for row in segmentation.level(level)}
+        clusters = {row.cluster for _, segmentation in inputs for row in segmentation.level(level)}
         raise ParameterError(
-            f"no {level} is in cluster {cluster}; there are {sorted(there - {-1})}"
+            f"no {level} is in cluster {cluster}; there are {sorted(clusters - {-1})}"
         )
     return write_clips(clips, folder, **options)
 
@@ -195,21 +195,21 @@ def write_clips(
         first, files, names = 0, set[str](), set[str]()
         # Numbers continue over recordings, so that names are unique in the folder.
         for recording, rows, *ranked in clips:
-            run = _Run(recording, first, draft, chosen, names)
+            run = _ClipNamer(recording, first, draft, chosen, names)
             first += len(rows)
             if isinstance(recording, Signals):
                 _refuse_poses(chosen)
                 entries += _write_rows(run, recording, rows)
                 continue
-            made = _make_clips(run, recording, rows, companions, *ranked)
+            shaped = _make_clips(run, recording, rows, companions, *ranked)
             if write_all is not None:
                 file = make_unique_name(run.stem, run.first, files)
                 files.add(file.casefold())
                 path = draft / f"{file}.{chosen.suffix}"
-                entries += _write_animations(run, made, path, write_all)
+                entries += _write_animations(run, shaped, path, write_all)
             else:
                 suffix = chosen.suffix or ("csv" if recording.rotations is None else "bvh")
-                entries += _write_files(run, made, suffix)
+                entries += _write_files(run, shaped, suffix)
         write_manifests(
             entries,
             draft / MANIFEST,
@@ -223,15 +223,15 @@ def write_clips(
 
 
 def _write_one_file(
-    clips: Iterable[Source], target: Path, found: Format, chosen: Chosen
+    clips: Iterable[Source], target: Path, target_format: Format, chosen: Chosen
 ) -> list[Path]:
     """Write all clips to one file, or to a copy of their source file if it has this format.
 
     They must come from one recording, or from takes in one file.
     """
-    given = chosen.given.get("format")
-    if given is not None and f".{given}" != target.suffix.lower():
-        raise ParameterError(f"format is {given!r:.60}, but the file is {target.name!r:.60}")
+    suffix = chosen.given.get("format")
+    if suffix is not None and f".{suffix}" != target.suffix.lower():
+        raise ParameterError(f"format is {suffix!r:.60}, but the file is {target.name!r:.60}")
     sources = list(clips)
     first = sources[0][0]
     if len({recording.provenance.path for recording, *_ in sources}) > 1:
@@ -247,25 +247,28 @@ def _write_one_file(
     for recording, rows, *ranked in sources:
         if isinstance(recording, Signals):
             raise ParameterError(f"signals are no animations of {target.name}: give a folder")
-        run = _Run(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
+        run = _ClipNamer(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
         number += len(rows)
-        made = _make_clips(run, recording, rows, companions, *ranked)
-        entries += _add_animations(run, made, target.name, animations)
+        shaped = _make_clips(run, recording, rows, companions, *ranked)
+        entries += _add_animations(run, shaped, target.name, animations)
     if not animations:
         raise ParameterError(f"there is no clip to write to {target.name}")
     with atomic_write(lists[0]) as table, atomic_write(lists[1]) as list_of_all:
         loops = chosen.shape.loops
         write_manifests(entries, table, list_of_all, loops=loops, animations=True)
-        if found.copy_animations is not None and found.name == first.provenance.format:
-            found.copy_animations(animations, source, target)
-        elif found.write_animations is not None:
-            found.write_animations(animations, target)
+        if (
+            target_format.copy_animations is not None
+            and target_format.name == first.provenance.format
+        ):
+            target_format.copy_animations(animations, source, target)
+        elif target_format.write_animations is not None:
+            target_format.write_animations(animations, target)
     companions.write()
     return [target] * len(entries)
 
 
 def _make_clips(
-    run: _Run,
+    run: _ClipNamer,
     recording: Motion,
     rows: Sequence[Segment],
     companions: Companions,
@@ -274,8 +277,8 @@ def _make_clips(
     """Yield the clips of a recording, passing them through the companions."""
     shape = run.chosen.shape
     motion = mirrored(recording) if shape.mirror else recording
-    made = shape_clips(motion, rows, shape, ranked)
-    return companions.follow(motion, rows, made, run.clip_name)
+    shaped = shape_clips(motion, rows, shape, ranked)
+    return companions.collect(motion, rows, shaped, run.clip_name)
 
 
 def _refuse_poses(chosen: Chosen) -> None:
@@ -295,7 +298,7 @@ def _refuse_poses(chosen: Chosen) -> None:
 
 
 @dataclass(frozen=True)
-class _Run:
+class _ClipNamer:
     """Names the clips of one recording, numbered from ``first`` on.
 
     ``names`` holds the used names in lower case. With ``of_takes``, names start with the take.
@@ -336,9 +339,10 @@ class _Run:
         }
         return fill_template(template, fields)
 
-    def clip_name(self, made: ShapedClip) -> str:
+    def clip_name(self, shaped: ShapedClip) -> str:
         """Return the name of a clip."""
-        return self.named(made.index, made.segment, made.tags, loop=made.carry is not None)[0]
+        is_loop = shaped.carry is not None
+        return self.named(shaped.index, shaped.segment, shaped.tags, loop=is_loop)[0]
 
     def clip(
         self, index: int, segment: Segment, suffix: str, file: str | None = None, **fields: Any
@@ -361,23 +365,23 @@ class _Run:
             **fields,
         )
 
-    def shaped_clip(self, made: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
+    def shaped_clip(self, shaped: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
         """Return the manifest entry of a shaped clip."""
         return self.clip(
-            made.index,
-            made.segment,
+            shaped.index,
+            shaped.segment,
             suffix,
             file,
-            fps=made.motion.fps,
-            n_frames=made.motion.n_frames,
-            carry=made.carry,
-            quality=made.quality,
-            rank=made.rank,
-            root=made.root,
-            planted=made.planted,
-            poses=made.poses,
+            fps=shaped.motion.fps,
+            n_frames=shaped.motion.n_frames,
+            carry=shaped.carry,
+            quality=shaped.quality,
+            rank=shaped.rank,
+            root=shaped.root,
+            planted=shaped.planted,
+            poses=shaped.poses,
             changes=self.chosen.shape.changes,
-            tags=made.tags,
+            tags=shaped.tags,
         )
 
     @property
@@ -385,7 +389,7 @@ class _Run:
         return str(self.recording.provenance.path or "")
 
 
-def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
+def _write_rows(run: _ClipNamer, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
     """Write each clip as rows of the recording's file to its own file."""
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = rows_of(signals, shortest=shortest)
@@ -396,35 +400,35 @@ def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterato
         yield clip
 
 
-def _write_files(run: _Run, made: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
+def _write_files(run: _ClipNamer, clips: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
     """Write each clip to its own file."""
-    for each in made:
-        clip = run.shaped_clip(each, suffix=f".{suffix}")
-        write(each.motion, run.folder / clip.file)
-        yield clip
+    for each in clips:
+        entry = run.shaped_clip(each, suffix=f".{suffix}")
+        write(each.motion, run.folder / entry.file)
+        yield entry
 
 
 def _write_animations(
-    run: _Run,
-    made: Iterable[ShapedClip],
+    run: _ClipNamer,
+    clips: Iterable[ShapedClip],
     path: Path,
     write_all: Callable[[Mapping[str, Motion], Path], object],
 ) -> list[Clip]:
     """Write all clips to one file."""
     animations: dict[str, Motion] = {}
-    clips = _add_animations(run, made, path.name, animations)
+    entries = _add_animations(run, clips, path.name, animations)
     if animations:
         write_all(animations, path)
-    return clips
+    return entries
 
 
 def _add_animations(
-    run: _Run, made: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
+    run: _ClipNamer, clips: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
 ) -> list[Clip]:
     """Add clips to the animations of a file; return their manifest entries."""
-    clips = []
-    for each in made:
-        clip = run.shaped_clip(each, file)
-        clips.append(replace(clip, animation=clip.name))
-        animations[clip.name] = each.motion
-    return clips
+    entries = []
+    for each in clips:
+        entry = run.shaped_clip(each, file)
+        entries.append(replace(entry, animation=entry.name))
+        animations[entry.name] = each.motion
+    return entries

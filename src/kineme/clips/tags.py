@@ -63,8 +63,8 @@ class Travel:
     def velocity(self, start: int, stop: int) -> tuple[float, float]:
         """Return the mean velocity in frames [start, stop), to the left and ahead."""
         # The head looks into a turn, so use the hips then.
-        seen = self.looks if abs(self.turn(start, stop)) < TURN else self.headings
-        (x, z), angles = self.velocities[start:stop].T, seen[start:stop]
+        directions = self.looks if abs(self.turn(start, stop)) < TURN else self.headings
+        (x, z), angles = self.velocities[start:stop].T, directions[start:stop]
         left = np.cos(angles) * x - np.sin(angles) * z
         ahead = np.sin(angles) * x + np.cos(angles) * z
         return float(left.mean()), float(ahead.mean())
@@ -77,18 +77,18 @@ class Travel:
     def tags(self, start: int, stop: int) -> tuple[Tag, ...]:
         """Return the tags of frames [start, stop), in the order of `TAGS`."""
         turn = self.turn(start, stop)
-        found: set[Tag] = {_choose_direction(*self.velocity(start, stop))}
+        tags: set[Tag] = {_choose_direction(*self.velocity(start, stop))}
         if abs(turn) >= TURN:
-            found.add("turn left" if turn > 0 else "turn right")
+            tags.add("turn left" if turn > 0 else "turn right")
         # Speed averaged over a quarter of a second, which reduces sway.
         n = self._frames(stop - start)
         sums = np.cumsum(np.vstack([np.zeros(2), self.velocities[start:stop]]), axis=0)
         speeds = np.linalg.norm(sums[n:] - sums[:-n], axis=1) / n
-        if speeds.max() >= GOING and "in place" not in found:
+        if speeds.max() >= GOING and "in place" not in tags:
             still = min(STILL, STILL_SHARE * float(speeds.max()))
-            found |= {"start"} if speeds[0] < still else set()
-            found |= {"stop"} if speeds[-1] < still else set()
-        return tuple(tag for tag in TAGS if tag in found)
+            tags |= {"start"} if speeds[0] < still else set()
+            tags |= {"stop"} if speeds[-1] < still else set()
+        return tuple(tag for tag in TAGS if tag in tags)
 
     def _frames(self, most: int) -> int:
         return max(1, min(round(END_S * self.fps), most))

@@ -85,7 +85,7 @@ class Run:
         beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
         return inside + beyond * self.period
 
-    def pace(self, border: int, offsets: Floats) -> Floats:
+    def to_seconds(self, border: int, offsets: Floats) -> Floats:
         """Return offsets from a border in cycles as seconds.
 
         Cycle lengths are averaged with the period of the run, so that windows follow the pace but
@@ -256,15 +256,17 @@ def _make_template(
     """Return the mean around all inner borders (window, dims), and explained variance (dims,)."""
     windows = []
     for run in runs:
-        times = [run.borders[i] + run.pace(i, offsets) for i in range(1, len(run.borders) - 1)]
+        times = [
+            run.borders[i] + run.to_seconds(i, offsets) for i in range(1, len(run.borders) - 1)
+        ]
         if times:
             values, rate = features[run.recording], rates[run.recording]
             windows.append(sample_at(values, rate, np.array(times)))
     # (borders, window, dims).
-    every = np.concatenate(windows)
-    template = np.asarray(every.mean(axis=0))
+    all_windows = np.concatenate(windows)
+    template = np.asarray(all_windows.mean(axis=0))
     # Variance of the template in the window, as a share of all: high where repetitions agree.
-    explained, total = template.var(axis=0), every.var(axis=(0, 1))
+    explained, total = template.var(axis=0), all_windows.var(axis=(0, 1))
     shares = np.where(total > 0, explained / np.where(total > 0, total, 1.0), 0.0)
     return template, shares
 
@@ -291,7 +293,7 @@ def _move_borders(
             used &= offsets >= 0
         if i == len(borders) - 1:
             used &= offsets <= 0
-        pace = run.pace(i, offsets[used])
+        pace = run.to_seconds(i, offsets[used])
         # (shifts, window): times of the window for each tried shift.
         times = border + shifts[:, None] * run.period + pace
         # (shifts,): weighted squared difference to the template.

@@ -139,25 +139,25 @@ def channels_of(
     ['knee_l', 'knee_r', 'Head.up']
     """
     if isinstance(recording, Motion):
-        every = make_motion_channels(recording)
+        available = make_motion_channels(recording)
     else:
-        every = _make_signal_channels(recording)
+        available = _make_signal_channels(recording)
     # Contacts follow, unless a channel with this name exists already.
-    every += [
+    available += [
         each
         for each in make_contact_channels(recording)
-        if each.name not in {c.name for c in every}
+        if each.name not in {c.name for c in available}
     ]
     for signals in beside:
-        every += _make_signal_channels(signals)
-    usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
+        available += _make_signal_channels(signals)
+    usual = [channel for channel in available if channel.group in (ANGLE, CHANNEL)]
     if names is None:
-        return usual or [channel for channel in every if channel.group == "speed"]
+        return usual or [channel for channel in available if channel.group == "speed"]
     chosen: dict[str, Channel] = {}
     for pattern in as_texts(names, "names of channels"):
-        matching = [each for each in every if fnmatchcase(each.name, pattern)]
+        matching = [each for each in available if fnmatchcase(each.name, pattern)]
         if not matching:
-            choices = [each.name for each in usual or every]
+            choices = [each.name for each in usual or available]
             more = ", …" if len(choices) > _SHOWN else ""
             raise ParameterError(
                 f"no channel {pattern!r}; there are {', '.join(choices[:_SHOWN])}{more} "

@@ -109,12 +109,15 @@ def _compare_values(
     if n == 0:
         return 0, *[np.nan] * 6
     # Paired: the differences within each cycle are what is averaged.
-    apart = left[both] - right[both]
+    differences = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
-        apart = compute_phase_differences(apart)
+        differences = compute_phase_differences(differences)
         of_left, of_right = compute_mean_phase(left[both]), compute_mean_phase(right[both])
-    mean, half = apart.mean(), compute_half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
+    mean, half = (
+        differences.mean(),
+        compute_half_width(differences.std(ddof=1) if n > 1 else np.nan, n),
+    )
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan

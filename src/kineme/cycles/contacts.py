@@ -206,10 +206,10 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
     # (frames, 3): how far the ground has moved since the start.
-    carried = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
+    ground_shift = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
-        stands |= find_low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
+        stands |= find_low_and_slow(path - ground_shift, fps, height=LOW, speed=SLOW)
     return _join_stands(stands, fps)
 
 

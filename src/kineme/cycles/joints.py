@@ -122,7 +122,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
     marker = {joint: points[0] for joint, points in found.items()}
     places = motion.positions
-    made: dict[str, Floats] = {}
+    new_joints: dict[str, Floats] = {}
     # A skeleton with rotations has its joints at their centres; only markers need this.
     if motion.rotations is not None:
         return motion, dict(joints)
@@ -134,7 +134,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     if len(hips) < len(SIDES):
         return motion, dict(joints)
     to_left = hips["left"] - hips["right"]
-    chosen = dict(joints)
+    result = dict(joints)
     # From here per side: which ankle marker and which knee belong together.
     for side in SIDES:
         ankle = joints.get(f"{side}_ankle")
@@ -144,46 +144,46 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
         if f"{side}_knee" in joints:
             # Only with markers on the skin: knee and ankle are then both at the outer side.
             outer = marker.get(f"{side}_outer_ankle") if centres else None
-            chosen |= {} if outer is None else {f"{side}_ankle": outer}
+            result |= {} if outer is None else {f"{side}_ankle": outer}
         elif ankle is not None and min(map(len, bodies)) >= LEAST:
             ends = hips[side], places[:, ankle]
             knee = _find_knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
-            made |= {} if knee is None else {f"{side}_knee": knee}
-    if not made and not centres:
-        return motion, chosen
+            new_joints |= {} if knee is None else {f"{side}_knee": knee}
+    if not new_joints and not centres:
+        return motion, result
     # Computed hips are added after the knees; `n + place` below relies on this order.
-    made |= {f"{side}_hip": hip for side, hip in hips.items()}
+    new_joints |= {f"{side}_hip": hip for side, hip in hips.items()}
     skeleton, n = motion.skeleton, motion.skeleton.n_joints
     extended = Skeleton(
-        (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in made)),
+        (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in new_joints)),
         # New joints hang on joint 0 with no offset: only their positions are used.
-        (*skeleton.parents, *[0] * len(made)),
-        np.concatenate([skeleton.offsets, np.zeros((len(made), 3))]),
+        (*skeleton.parents, *[0] * len(new_joints)),
+        np.concatenate([skeleton.offsets, np.zeros((len(new_joints), 3))]),
         skeleton.end_sites,
     )
-    positions = np.concatenate([places, np.stack([*made.values()], axis=1)], axis=1)
-    chosen |= {part: n + place for place, part in enumerate(made)}
+    positions = np.concatenate([places, np.stack([*new_joints.values()], axis=1)], axis=1)
+    result |= {part: n + place for place, part in enumerate(new_joints)}
     for side in SIDES:
-        if f"{side}_knee" in chosen:
-            hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
+        if f"{side}_knee" in result:
+            hip, knee = (positions[:, result[f"{side}_{part}"]] for part in ("hip", "knee"))
             markers = [j for j, name in enumerate(names) if name[:1] == side[0].upper()
-                       and "THI" in name[1:] and j not in chosen.values()]  # fmt: skip
+                       and "THI" in name[1:] and j not in result.values()]  # fmt: skip
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
-            other = chosen[f"{OTHER_SIDE[side]}_hip"]
-            chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
-    return replace(motion, skeleton=extended, positions=positions), chosen
+            other = result[f"{OTHER_SIDE[side]}_hip"]
+            result[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
+    return replace(motion, skeleton=extended, positions=positions), result
 
 
 def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
     """Return both hip centres from the file or pelvis markers; empty without these."""
-    given, fronts, backs = (
+    centres, fronts, backs = (
         [marker.get(f"{side}_{part}", -1) for side in SIDES]
         for part in ("hip_centre", "waist_front", "waist_back")
     )
-    if min(given) >= 0:
-        return {side: places[:, j] for side, j in zip(SIDES, given, strict=True)}
+    if min(centres) >= 0:
+        return {side: places[:, j] for side, j in zip(SIDES, centres, strict=True)}
     # A marker on the sacrum replaces the two at the back.
     if min(backs) < 0:
         backs = [marker.get("sacrum", -1)]

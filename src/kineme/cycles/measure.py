@@ -110,14 +110,14 @@ def cycles(
     >>> squats.columns["knee_l.max"][squats.columns["group"] == "squat"].round().tolist()
     [113.0, 102.0, 103.0, 111.0]
     """
-    given, tables = _check_inputs(recordings, segments, beside, points)
+    items, tables = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
     check_one_of(align, ALIGNMENTS, "align")
-    names = _name_files(given)
+    names = _name_files(items)
     # Cluster numbers are not comparable between recordings, unless they are common.
-    groups = [_group_movements(table, "" if common or len(given) == 1 else f"{name}: ")
+    groups = [_group_movements(table, "" if common or len(items) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
-    measured = [channels_of(recording, channels, beside=beside) for recording in given]
+    measured = [channels_of(recording, channels, beside=beside) for recording in items]
     first = [channel.name for channel in measured[0]]
     for each, name in zip(measured, names, strict=True):
         if other := sorted({*first} ^ {channel.name for channel in each}):
@@ -125,14 +125,14 @@ def cycles(
                 f"{names[0]} and {name} do not have the same channels: {', '.join(other[:8])}; "
                 "choose such as both have with channels="
             )
-    found = find_repetitions(given, tables, groups)
+    repetitions = find_repetitions(items, tables, groups)
     if anchor is not None:
-        if not isinstance(anchor, str) and len(given) > 1:
+        if not isinstance(anchor, str) and len(items) > 1:
             raise ParameterError("seconds of events belong to one recording: name them instead")
-        found = anchor_repetitions(found, given, groups, anchor, beside)
-    columns = _make_columns(found, tables, names, groups)
-    provenance = _make_provenance(given, tables, found, columns)
-    spans = [(each.recording, each.start, each.stop) for each in found]
+        repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
+    columns = _make_columns(repetitions, tables, names, groups)
+    provenance = _make_provenance(items, tables, repetitions, columns)
+    spans = [(each.recording, each.start, each.stop) for each in repetitions]
     return mark_excluded(
         _measure_cycles(spans, measured, columns, align, points, provenance), tables
     )
@@ -172,32 +172,32 @@ def _check_inputs(
     points: int,
 ) -> tuple[list[Motion | Signals], list[Segmentation]]:
     """Return recordings and tables as lists; raise ParameterError if they do not match."""
-    given = [recordings] if isinstance(recordings, Motion | Signals) else recordings
-    check_type(given, Sequence, "cycles", "kineme.read(path) gives a recording")
+    items = [recordings] if isinstance(recordings, Motion | Signals) else recordings
+    check_type(items, Sequence, "cycles", "kineme.read(path) gives a recording")
     tables = [segments] if isinstance(segments, Segmentation) else segments
     check_type(tables, Sequence, "cycles", "kineme.segment(recording) gives one")
     check_type(beside, Sequence, "cycles", "beside= takes a list of signals")
-    for recording in given:
+    for recording in items:
         check_type(recording, (Motion, Signals), "cycles", "kineme.read(path) gives one")
     for table in tables:
         check_type(table, Segmentation, "cycles", "kineme.segment(recording) gives one")
     for signals in beside:
         check_type(signals, Signals, "cycles", "beside= takes a list of signals")
-    if not given or len(given) != len(tables):
+    if not items or len(items) != len(tables):
         raise ParameterError(
-            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(given)}"
+            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(items)}"
         )
-    for recording, table in zip(given, tables, strict=True):
+    for recording, table in zip(items, tables, strict=True):
         if (table.n_frames, table.fps) != (recording.n_frames, recording.fps):
             raise ParameterError(
                 f"the segments are of {table.n_frames} frames at {table.fps:g} Hz, "
                 f"the recording has {recording.n_frames} at {recording.fps:g} Hz"
             )
-    if beside and len(given) > 1:
+    if beside and len(items) > 1:
         raise ParameterError("beside= belongs to one recording: measure several one by one")
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
-    return list(given), list(tables)
+    return list(items), list(tables)
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
@@ -233,7 +233,7 @@ def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
 
 
 def _make_columns(
-    found: Sequence[Repetition],
+    repetitions: Sequence[Repetition],
     tables: Sequence[Segmentation],
     names: Sequence[str],
     groups: Sequence[dict[int | str, str]],
@@ -241,18 +241,18 @@ def _make_columns(
     """Return the columns of the table that do not depend on channels."""
 
     def column(kind: type, value: Callable[[Repetition], Any]) -> NDArray[Any]:
-        return np.array([value(each) for each in found], kind)
+        return np.array([value(each) for each in repetitions], kind)
 
     # Number of repetitions of each activity so far.
     counts: Counter[tuple[int, int]] = Counter()
     numbers = []
-    for each in found:
+    for each in repetitions:
         numbers.append(counts[each.recording, each.segment.activity])
         counts[each.recording, each.segment.activity] += 1
     fps = column(float, lambda each: tables[each.recording].fps)
     start, stop = column(float, lambda each: each.start), column(float, lambda each: each.stop)
     return {
-        "row": np.arange(len(found)),
+        "row": np.arange(len(repetitions)),
         "recording": column(str, lambda each: names[each.recording]),
         "activity": column(int, lambda each: each.segment.activity),
         "number": np.array(numbers, int),
@@ -296,8 +296,8 @@ def _measure_cycles(
     # Values of a channel are computed for one channel at a time, so memory stays small.
     for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
-        for number, of_one in enumerate(measured):
-            values, fps = of_one[place].values(), of_one[place].fps
+        for number, channels_of_one in enumerate(measured):
+            values, fps = channels_of_one[place].values(), channels_of_one[place].fps
             for row, (recording, start, stop) in enumerate(spans):
                 if recording == number:
                     curves[row, place], statistics[row] = _measure_cycle(
@@ -351,14 +351,14 @@ def _measure_cycle(
 def _make_provenance(
     recordings: Sequence[Motion | Signals],
     tables: Sequence[Segmentation],
-    found: Sequence[Repetition],
+    repetitions: Sequence[Repetition],
     columns: Columns,
 ) -> dict[str, Any]:
     # One entry for each run: its repetitions were turned by the same share.
     names, groups = columns["recording"].tolist(), columns["group"].tolist()
     moved = {
         (name, each.segment.activity, group): each.turned
-        for each, name, group in zip(found, names, groups, strict=True)
+        for each, name, group in zip(repetitions, names, groups, strict=True)
         if abs(each.turned) >= TURNED
     }
     return {

@@ -90,7 +90,7 @@ def find_repetitions(
     recordings: Sequence[Motion | Signals], tables: Sequence[Segmentation], groups: Groups
 ) -> list[Repetition]:
     """Return the repetitions of all recordings, sorted by recording and time."""
-    fine = [_FineFeatures.of(recording) for recording in recordings]
+    fine = [_FineFeatures.from_recording(recording) for recording in recordings]
     # Runs of one key are shifted to one phase.
     members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
     for number, table in enumerate(tables):
@@ -103,15 +103,15 @@ def find_repetitions(
             # comparable only with others of their recording.
             alone = id(run) if what == "" else -1 if comparable else number
             members[groups[number].get(what, what), dims, alone].append((run, segments))
-    found: list[Repetition] = []
+    repetitions: list[Repetition] = []
     features, rates = [each.values for each in fine], [each.rate for each in fine]
     for runs in members.values():
         aligned = shift_to_common_phase([run for run, _ in runs], features, rates)
         still = _measure_stillness(aligned, fine)
         for run, (_, segments) in zip(aligned, runs, strict=True):
             each = _cut_to_activity(run, segments, tables[run.recording])
-            found += _trim_pauses(each, fine[run.recording], still)
-    return sorted(found, key=lambda each: (each.recording, each.segment.start_frame))
+            repetitions += _trim_pauses(each, fine[run.recording], still)
+    return sorted(repetitions, key=lambda each: (each.recording, each.segment.start_frame))
 
 
 def get_movement_key(segment: Segment) -> int | str:
@@ -131,13 +131,13 @@ class _FineFeatures:
     comparable: bool
 
     @classmethod
-    def of(cls, recording: Motion | Signals) -> _FineFeatures:
+    def from_recording(cls, recording: Motion | Signals) -> _FineFeatures:
         """Return pose features of a body, or distances of its points; or all channels."""
         from scipy.ndimage import gaussian_filter1d, uniform_filter1d
 
         # An odd number of frames, so that each mean is centred on a frame.
-        many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
-        rate, comparable = recording.fps / many, True
+        n_averaged = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
+        rate, comparable = recording.fps / n_averaged, True
         if isinstance(recording, Signals):
             values = recording.values
         else:
@@ -149,8 +149,8 @@ class _FineFeatures:
                 is_point = recording.skeleton.n_joints < 2
                 values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
         # The mean about each frame, of which every n-th is kept.
-        if many > 1:
-            values = uniform_filter1d(values, many, axis=0, mode="nearest")[::many]
+        if n_averaged > 1:
+            values = uniform_filter1d(values, n_averaged, axis=0, mode="nearest")[::n_averaged]
         # Channels have different units: each counts by its own deviation, a constant one is only 0.
         if isinstance(recording, Signals):
             deviation = values.std(axis=0)
@@ -257,19 +257,21 @@ def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> li
     return trimmed
 
 
-def _find_movement(each: Repetition, fine: _FineFeatures, still: float) -> tuple[float, float]:
+def _find_movement(
+    repetition: Repetition, fine: _FineFeatures, still: float
+) -> tuple[float, float]:
     """Return the times at which movement in a repetition begins and ends; its borders if none."""
     # The frames of `speed` that lie within the repetition.
-    first = max(0, int(np.ceil(each.start * fine.rate)))
-    moves = np.flatnonzero(fine.speed[first : int(each.stop * fine.rate) + 1] > still)
+    first = max(0, int(np.ceil(repetition.start * fine.rate)))
+    moves = np.flatnonzero(fine.speed[first : int(repetition.stop * fine.rate) + 1] > still)
     if len(moves) == 0:
-        return each.start, each.stop
+        return repetition.start, repetition.stop
     begins, ends = (first + moves[[0, -1]]) / fine.rate
-    return max(each.start, float(begins)), min(each.stop, float(ends))
+    return max(repetition.start, float(begins)), min(repetition.stop, float(ends))
 
 
 def anchor_repetitions(
-    found: Sequence[Repetition],
+    repetitions: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
     groups: Groups,
     anchor: str | Sequence[float],
@@ -278,23 +280,23 @@ def anchor_repetitions(
     """Return the repetitions between events; for ``anchor`` see `kineme.cycles.cycles`."""
     extreme = _EXTREME.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
     members: dict[Hashable, list[int]] = {}
-    for i, each in enumerate(found):
+    for i, each in enumerate(repetitions):
         what = get_movement_key(each.segment)
         members.setdefault(groups[each.recording].get(what, what), []).append(i)
-    starts = np.full(len(found), np.nan)
+    starts = np.full(len(repetitions), np.nan)
     if extreme is not None:
         sign = 1.0 if extreme["which"] == "max" else -1.0
         curves = [_sample_curve(each, extreme["channel"], beside) for each in recordings]
         # Negative for a minimum, so that the largest value is searched in both cases.
         signed = [(sign * values, fps) for values, fps in curves]
         for rows in members.values():
-            starts[rows] = _find_maxima([found[i] for i in rows], signed)
+            starts[rows] = _find_maxima([repetitions[i] for i in rows], signed)
     else:
         times = [_find_event_times(each, anchor, beside) for each in recordings]
         for rows in members.values():
-            starts[rows] = _find_nearest_events([found[i] for i in rows], times)
+            starts[rows] = _find_nearest_events([repetitions[i] for i in rows], times)
     anchored = []
-    for i, each in enumerate(found):
+    for i, each in enumerate(repetitions):
         # Repetitions are sorted by time, so the next one of the run is the next in the list.
         start, stop = starts[i], starts[i + 1] if each.place in ("first", "inner") else np.nan
         lacking = "no event" if np.isnan(start) else "no event ends it" if np.isnan(stop) else ""
@@ -321,23 +323,23 @@ def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signa
     return channels[0].values(), channels[0].fps
 
 
-def _find_maxima(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
+def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
     """Return the time of a channel's maximum in each repetition, near its usual phase."""
     # Without 100 %, which is 0 % of the next cycle.
     share = np.linspace(0, 1, 101)[:-1]
     sampled = []
-    for each in found:
+    for each in repetitions:
         values, fps = curves[each.recording]
         at = (each.start + share * (each.stop - each.start)) * fps
         sampled.append(np.interp(at, np.arange(len(values)), values))
     usual = np.array(sampled)
     complete = np.isfinite(usual).all(axis=1)
-    times = np.full(len(found), np.nan)
+    times = np.full(len(repetitions), np.nan)
     # A repetition with a gap must not hide the usual phase of the others.
     if not complete.any():
         return times
     phase = share[int(usual[complete].mean(axis=0).argmax())]
-    for i, each in enumerate(found):
+    for i, each in enumerate(repetitions):
         values, fps = curves[each.recording]
         first, last = _find_window(each, phase)
         # Whole frames within the window, limited to the recording.
@@ -351,17 +353,17 @@ def _find_maxima(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats
     return times
 
 
-def _find_nearest_events(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
+def _find_nearest_events(repetitions: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
     """Return the event nearest to the usual phase for each repetition; nan if none is near."""
     phases = [np.empty(0)]
-    for each in found:
+    for each in repetitions:
         events = times[each.recording]
         inside = events[(events >= each.start) & (events < each.stop)]
         phases.append(CYCLE * (inside - each.start) / (each.stop - each.start))
     # nan where there are no events; then no window holds one.
     phase = compute_mean_phase(np.concatenate(phases)) / CYCLE
-    chosen = np.full(len(found), np.nan)
-    for i, each in enumerate(found):
+    chosen = np.full(len(repetitions), np.nan)
+    for i, each in enumerate(repetitions):
         first, last = _find_window(each, phase)
         events = times[each.recording]
         inside = events[(events >= first) & (events < last)]
@@ -371,10 +373,10 @@ def _find_nearest_events(found: Sequence[Repetition], times: Sequence[Floats]) -
     return chosen
 
 
-def _find_window(each: Repetition, phase: float) -> tuple[float, float]:
+def _find_window(repetition: Repetition, phase: float) -> tuple[float, float]:
     """Return the seconds half a cycle before and after a phase of a repetition."""
-    length = each.stop - each.start
-    return each.start + (phase - 0.5) * length, each.start + (phase + 0.5) * length
+    length = repetition.stop - repetition.start
+    return repetition.start + (phase - 0.5) * length, repetition.start + (phase + 0.5) * length
 
 
 def _find_event_times(

@@ -65,7 +65,7 @@ class Cycle:
 
     def angles_at(self, phase: Floats, amplitude: Floats) -> dict[str, Floats]:
         """Return all angles at phases (in cycles), with deviations from standing scaled."""
-        found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
+        result = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
         for name, values in self.angles.items():
             curve = _make_cyclic_curve(self.at, values)
             for full_name in _expand_name(name):
@@ -75,20 +75,20 @@ class Cycle:
                 # Angles that keep turning are not scaled, since whole turns must stay whole.
                 turns = values[0] != values[-1]
                 rest = STANDING[full_name]
-                found[full_name] = angle if turns else rest + amplitude * (angle - rest)
-        return found
+                result[full_name] = angle if turns else rest + amplitude * (angle - rest)
+        return result
 
 
 def mirror_posture(angles: Mapping[str, Floats]) -> dict[str, Floats]:
     """Return the posture with left and right exchanged."""
-    found = {}
+    result = {}
     for name, values in angles.items():
         side, _, limb = name.rpartition(" ")
         if side:
-            found[f"{'right' if side == 'left' else 'left'} {limb}"] = values
+            result[f"{'right' if side == 'left' else 'left'} {limb}"] = values
         else:
-            found[name] = -values if name in _SIDEWAYS else values
-    return found
+            result[name] = -values if name in _SIDEWAYS else values
+    return result
 
 
 def _expand_name(name: str) -> list[str]:

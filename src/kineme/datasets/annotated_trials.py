@@ -98,7 +98,7 @@ def _read_text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
 
 
 def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
-    mended = []
+    corrected = []
     for number, row in enumerate(rows, 1):
         frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])
         # A mean outside its span widens the span.
@@ -109,8 +109,8 @@ def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
                 KinemeWarning,
                 stacklevel=4,
             )
-        mended.append(fixed)
-    return mended
+        corrected.append(fixed)
+    return corrected
 
 
 def _read_text(path: str | PathLike[str]) -> str:

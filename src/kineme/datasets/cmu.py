@@ -50,9 +50,9 @@ class Fetched:
 
 def find_cache_folder() -> Path:
     """Return the folder for recordings: ``KINEME_CACHE``, else the system's cache folder."""
-    named = environ.get("KINEME_CACHE")
-    if named:
-        return Path(named)
+    setting = environ.get("KINEME_CACHE")
+    if setting:
+        return Path(setting)
     with require_extra("pooch", "data"):
         import pooch
     return Path(pooch.os_cache("kineme"))

@@ -97,9 +97,9 @@ def perform(
         angles = cycle.angles_at(phase, size)
         if part.action.side == "left" and not cycle.gait:
             angles = mirror_posture(angles)
-        swaying = {name: angle + sway[name][span] for name, angle in angles.items()}
+        posture = {name: angle + sway[name][span] for name, angle in angles.items()}
         weight = compute_weight(part)
-        turned = compute_joint_rotations(skeleton, swaying, heading[span])
+        turned = compute_joint_rotations(skeleton, posture, heading[span])
         # q and -q are the same rotation: choose the sign nearer to the sum so far.
         nearer = np.sign(np.einsum("fjc,fjc->fj", turned, rotations[span]))
         nearer[nearer == 0] = 1

@@ -83,9 +83,9 @@ def schedule_actions(actions: Sequence[Action], fps: float, rng: np.random.Gener
     for place, action in enumerate(actions):
         seconds = ACTIONS[action.name].seconds / action.speed
         # Random durations around the usual one.
-        lasting = seconds * (1 + rng.normal(0, _PACE_VARIES, action.repetitions))
+        durations = seconds * (1 + rng.normal(0, _PACE_VARIES, action.repetitions))
         # Round cumulative sums, so that rounding errors do not add up.
-        frames = now + np.rint(np.cumsum([0.0, *lasting]) * fps).astype(np.int64)
+        frames = now + np.rint(np.cumsum([0.0, *durations]) * fps).astype(np.int64)
         if np.diff(frames).min() < 3:
             raise ParameterError(
                 f"{action.name!r} at speed {action.speed:g} is too fast for {fps:g} Hz"

@@ -56,10 +56,10 @@ def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
     >>> from_ruptures([40, 100], fps=10).activities.stop_s.tolist()
     [4.0, 10.0]
     """
-    ends = _check_frames(breakpoints, "breakpoints")
-    if not len(ends):
+    stops = _check_frames(breakpoints, "breakpoints")
+    if not len(stops):
         raise ParameterError("breakpoints must hold at least the number of frames")
-    return _make_activities([0, *ends], [""] * len(ends), fps)
+    return _make_activities([0, *stops], [""] * len(stops), fps)
 
 
 def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray[np.int64]:

@@ -89,9 +89,9 @@ def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
         )
         for label in labels
     ]
-    apart, shared = _split_overlaps(spans, path)
+    disjoint, shared = _split_overlaps(spans, path)
     note = f"labels overlap; with the texts of several: {format_count(shared, 'segment')}"
-    return Labels(apart, "seconds", None, length, (note,) if shared else ())
+    return Labels(disjoint, "seconds", None, length, (note,) if shared else ())
 
 
 def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
@@ -103,14 +103,14 @@ def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
 
 def _split_overlaps(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
     """Split overlapping spans into spans with all texts; return also how many have several."""
-    solid = [span for span in spans if span.start < span.stop]
+    valid = [span for span in spans if span.start < span.stop]
     # Keep empty and reversed spans: they are rejected or dropped later.
-    apart = [span for span in spans if not span.start < span.stop]
-    waiting = sorted(solid, key=lambda span: span.start, reverse=True)
+    result = [span for span in spans if not span.start < span.stop]
+    waiting = sorted(valid, key=lambda span: span.start, reverse=True)
     active: list[Span] = []
     shared = 0
     # The set of active labels is constant between successive times.
-    for start, stop in pairwise(sorted({time for span in solid for time in span[:2]})):
+    for start, stop in pairwise(sorted({time for span in valid for time in span[:2]})):
         active = [span for span in active if span.stop > start]
         # The list is sorted backwards: the earliest span is last.
         while waiting and waiting[-1].start <= start:
@@ -119,9 +119,9 @@ def _split_overlaps(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]
             raise ReadError(path, f"has more than {AT_ONCE} labels at once, at {start} s")
         if active:
             texts = dict.fromkeys(span.text for span in active if span.text)
-            apart.append(Span(start, stop, " + ".join(texts)))
+            result.append(Span(start, stop, " + ".join(texts)))
         shared += len(active) > 1
-    return apart, shared
+    return result, shared
 
 
 def _recognises(path: Path) -> bool:

@@ -94,19 +94,19 @@ def find_labels_and_unmatched(
     recordings: Iterable[Path], labels: str | PathLike[str]
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
     """Return the result of `find_labels`, and the names in a table that match no recording."""
-    files, home = list(recordings), Path(labels)
-    named = _find_in_folder(home) if home.is_dir() else _read_table(home)
+    files, folder = list(recordings), Path(labels)
+    sources = _find_in_folder(folder) if folder.is_dir() else _read_table(folder)
     # Tables may name a recording with or without its suffix.
-    pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
+    pairs = ((path, sources.get(path.name) or sources.get(path.stem)) for path in files)
     found = {path: source for path, source in pairs if source is not None}
     if not found:
         first = files[0].stem if files else "none"
-        owners = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
-        of = ", ".join(map(repr, named)) or "none"
-        raise ReadError(labels, f"has no labels of {owners}{first!r}, but of {of:.60}")
+        prefix = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
+        available = ", ".join(map(repr, sources)) or "none"
+        raise ReadError(labels, f"has no labels of {prefix}{first!r}, but of {available:.60}")
     present = {name for path in files for name in (path.name, path.stem)}
-    strays = [] if home.is_dir() else [name for name in named if name not in present]
-    return found, strays
+    unmatched = [] if folder.is_dir() else [name for name in sources if name not in present]
+    return found, unmatched
 
 
 def read_labels(
@@ -153,23 +153,23 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
     # Count spans, in file order, that overlap earlier ones.
-    earlier: defaultdict[Level, _Covered] = defaultdict(_Covered)
+    earlier: defaultdict[Level, _SpanUnion] = defaultdict(_SpanUnion)
     overlaps = sum(
         earlier[span.level].add(span.start, span.stop) != [(span.start, span.stop)]
         for span in forward
     )
     # Go backwards through the file, so that later spans take precedence.
-    later: defaultdict[Level, _Covered] = defaultdict(_Covered)
-    kept: list[Span] = []
+    later: defaultdict[Level, _SpanUnion] = defaultdict(_SpanUnion)
+    result: list[Span] = []
     for span in reversed(forward):
         free = later[span.level].add(span.start, span.stop)
         count = span.repetitions if len(free) == 1 else None  # unknown for parts of a span
-        kept += [
+        result += [
             span._replace(start=start, stop=stop, repetitions=count)
             # Reversed here, since the whole list is reversed below.
             for start, stop in reversed(free)
         ]
-    kept.reverse()
+    result.reverse()
     counts = {
         "overlapping others": overlaps,
         "running backwards, left out": backward,
@@ -178,7 +178,7 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     }
     notes = [f"{what}: {format_count(count, 'label')}" for what, count in counts.items() if count]
     notes += note_lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
-    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
+    return Labels(result, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 
 
 def _find_first_frame(time: float, n_frames: int) -> int:
@@ -187,7 +187,7 @@ def _find_first_frame(time: float, n_frames: int) -> int:
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
-class _Covered:
+class _SpanUnion:
     """Union of spans, stored as sorted disjoint spans."""
 
     def __init__(self) -> None:

@@ -56,13 +56,13 @@ SPANS: dict[Unit, tuple[str, str]] = {
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Write the table to ``path`` and the rest to the provenance file beside it."""
-    beside = name_provenance(path)
+    provenance_path = name_provenance(path)
     head = make_head(segmentation) | {CUTS_KEY: _digest_columns(segmentation.table.columns())}
     more: dict[str, Sequence[Any]] = {**segmentation.more_columns()}
     if any(comments := assign_comments(segmentation)):
         more[COMMENT] = comments
     rows = zip(map(_format_cells, segmentation), *more.values(), strict=True)
-    with atomic_write(beside) as head_draft, open_new_text(path) as file:
+    with atomic_write(provenance_path) as head_draft, open_new_text(path) as file:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         write_rows(file, [*COLUMNS, *more], ([*cells, *others] for cells, *others in rows))
 
@@ -78,27 +78,27 @@ def read(path: Path) -> Segmentation | Labels:
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _list_columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
-    found = _attach_provenance(columns, path)
-    return found if comments is None else from_rows(found, comments)
+    segmentation = _attach_provenance(columns, path)
+    return segmentation if comments is None else from_rows(segmentation, comments)
 
 
 def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
     """Return the table with the content of its provenance file, if there is one."""
-    beside = name_provenance(path)
-    if beside.is_file():
+    provenance_path = name_provenance(path)
+    if provenance_path.is_file():
         # A shortened or extended table does not match its provenance file.
-        head = parse(beside.read_text(encoding="utf-8-sig"), beside)
+        head = parse(provenance_path.read_text(encoding="utf-8-sig"), provenance_path)
         if head.get("n_frames") != max(columns["stop_frame"]):
             raise ReadError(
                 path,
-                f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
+                f"ends at frame {max(columns['stop_frame'])}, but {provenance_path.name} speaks of "
                 f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
             )
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
         table = join_head(columns, rest, path)
         changes = find_differences(
             path,
-            beside,
+            provenance_path,
             head,
             _digest_columns(columns),
             head_rate=table.fps,

@@ -76,15 +76,15 @@ MISSING = "n/a"
 
 def write_bids(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
     """Write the events to ``path`` and the sidecar beside it."""
-    beside = name_sidecar(path)
+    sidecar_path = name_sidecar(path)
     facts = {
         "SamplingFrequency": segmentation.fps,
         "RecordingDuration": segmentation.n_frames / segmentation.fps,
     }
     cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
     digest = {CUTS_KEY: digest_cuts(cuts)}
-    sidecar = {**COLUMNS, **_read_sidecar_to_keep(beside), **facts, **digest}
-    with atomic_write(beside) as side_draft, open_new_text(path) as file:
+    sidecar = {**COLUMNS, **_read_sidecar_to_keep(sidecar_path), **facts, **digest}
+    with atomic_write(sidecar_path) as side_draft, open_new_text(path) as file:
         side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
         write_rows(file, ["onset", "duration", *COLUMNS], map(_format_cells, rows), delimiter="\t")
 
@@ -99,13 +99,13 @@ def read_bids(path: Path) -> Labels:
             spans.append(span)
             rates.append((span.stop, _parse_rate(cells, span.stop)))
             cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
-    beside = name_sidecar(path)
-    sidecar = _read_sidecar(beside)
-    facts = _parse_facts(sidecar, beside)
+    sidecar_path = name_sidecar(path)
+    sidecar = _read_sidecar(sidecar_path)
+    facts = _parse_facts(sidecar, sidecar_path)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
     notes = find_differences(
-        path, beside, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
+        path, sidecar_path, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
     )
     return Labels(spans, "seconds", rate, length, notes)
 
@@ -151,32 +151,32 @@ def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
     return int(text) / stop_s if valid else None
 
 
-def _parse_facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
+def _parse_facts(sidecar: dict[str, Any], path: Path) -> dict[str, float | None]:
     facts: dict[str, float | None] = {}
     for name in ("SamplingFrequency", "RecordingDuration"):
         value = sidecar.get(name)
         if value is not None and (type(value) not in (int, float) or not 0 < value < 1e15):
-            raise ReadError(beside, f"{name} must be a positive number, not {value!r:.60}")
+            raise ReadError(path, f"{name} must be a positive number, not {value!r:.60}")
         facts[name] = value
     return facts
 
 
-def _read_sidecar_to_keep(beside: Path) -> dict[str, Any]:
+def _read_sidecar_to_keep(path: Path) -> dict[str, Any]:
     try:
-        found = _read_sidecar(beside)
+        found = _read_sidecar(path)
     except ReadError as error:
-        raise WriteError(beside, f"is in the way of the sidecar: {error.reason}") from error
+        raise WriteError(path, f"is in the way of the sidecar: {error.reason}") from error
     if "schema" in found:
-        raise WriteError(beside, "is in the way: it is a segment table, and would be the sidecar")
+        raise WriteError(path, "is in the way: it is a segment table, and would be the sidecar")
     return found
 
 
-def _read_sidecar(beside: Path) -> dict[str, Any]:
-    if not beside.is_file():
+def _read_sidecar(path: Path) -> dict[str, Any]:
+    if not path.is_file():
         return {}
-    found = load_json(beside)
+    found = load_json(path)
     if not isinstance(found, dict):
-        raise ReadError(beside, "a sidecar must be a JSON object")
+        raise ReadError(path, "a sidecar must be a JSON object")
     return found
 
 

@@ -149,7 +149,7 @@ def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     for name, value in notes.items():
         if not isinstance(value, dict):
             raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
-    found = Segmentation.from_columns(
+    segmentation = Segmentation.from_columns(
         columns,
         n_frames=n_frames,
         fps=fps,
@@ -158,9 +158,9 @@ def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
         annotation=Annotation.from_json(head.get("annotation", {})),
     )
     if "hierarchy" not in head:
-        return found
+        return segmentation
     try:
-        return replace(found, hierarchy=_parse_hierarchy(head["hierarchy"], found))
+        return replace(segmentation, hierarchy=_parse_hierarchy(head["hierarchy"], segmentation))
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ReadError(path, f'"hierarchy" is none: {error}') from error
 
@@ -282,11 +282,11 @@ def read_parquet(path: Path) -> Segmentation:
     present = [name for name in COLUMNS if name in names]
     table = parquet_columns(content, file, present)
     columns = {name: table.column(name).to_numpy() for name in present}
-    found = join_head(columns, head, path)
+    segmentation = join_head(columns, head, path)
     if COMMENT not in names:
-        return found
+        return segmentation
     comments = parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
-    return from_rows(found, [str(text or "") for text in comments])
+    return from_rows(segmentation, [str(text or "") for text in comments])
 
 
 PARQUET = LabelFormat(

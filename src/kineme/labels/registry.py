@@ -298,11 +298,11 @@ def read_segments(
         if clock is not None and fps is not None and n_frames is not None:
             content = convert_clock_times(content, clock, length_s=n_frames / fps)
         with translate_read_errors(path):
-            content, unusual = as_segmentation(
+            content, warning_texts = as_segmentation(
                 content, Path(path), label_format.name, fps=fps, n_frames=n_frames
             )
-        if unusual:
-            warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
+        if warning_texts:
+            warnings.warn(f"{path}: {'; '.join(warning_texts)}", KinemeWarning, stacklevel=2)
     if fps is not None and rate is not None and not isclose(rate, fps, rel_tol=1e-6):
         raise ReadError(path, f"says {rate:g} frames per second, but fps is {fps:g}")
     if n_frames is not None and content.n_frames != n_frames:
@@ -325,27 +325,27 @@ def find_read_format(path: str | PathLike[str], name: str | None = None) -> Labe
     """Return the format for reading a file: the named one, else by content and suffix."""
     if name is not None:
         return _find_named(name)
-    fitting, suffix = _find_by_suffix(path), Path(path).suffix.lower()
-    if not fitting and not Path(path).exists():
+    candidates, suffix = _find_by_suffix(path), Path(path).suffix.lower()
+    if not candidates and not Path(path).exists():
         raise ReadError(path, "there is no such file")
-    if not fitting:
+    if not candidates:
         every = (known for candidate in FORMATS.values() for known in candidate.suffixes)
         stored = ", ".join(dict.fromkeys(every))
         raise ReadError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
-    fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
-    return next((each for each in fitting if _recognises(each, Path(path))), fitting[0])
+    candidates.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
+    return next((each for each in candidates if _recognises(each, Path(path))), candidates[0])
 
 
 def find_write_format(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
     """Return the format for writing a file: the named one, else the first with its suffix."""
-    fitting = _find_by_suffix(path) if name is None else [_find_named(name)]
-    writers = [candidate for candidate in fitting if candidate.write]
+    candidates = _find_by_suffix(path) if name is None else [_find_named(name)]
+    writers = [candidate for candidate in candidates if candidate.write]
     suffix, stored = Path(path).suffix.lower(), ", ".join(list_written_suffixes())
     if writers:
         # Prefer a format that usually writes this suffix over one that also reads it.
         return min(writers, key=lambda candidate: candidate.written_suffix.lower() != suffix)
-    if fitting:
-        raise WriteError(path, f"{fitting[0].name} is only read: segments go into {stored}")
+    if candidates:
+        raise WriteError(path, f"{candidates[0].name} is only read: segments go into {stored}")
     raise WriteError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
 
 

@@ -149,16 +149,16 @@ def as_segmentation(
         )
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
-    unusual = list(labels.notes)
+    warnings = list(labels.notes)
     # Cut at the end of the recording, and drop spans without a frame.
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
-    full = [row for row in inside if row[2] < row[3]]
-    if len(full) < len(rows):
-        short = format_count(len(rows) - len(full), "label")
-        unusual.append(f"shorter than a frame, left out: {short}")
-    tiled = _fill_levels(full, n_frames, path)
+    nonempty = [row for row in inside if row[2] < row[3]]
+    if len(nonempty) < len(rows):
+        short = format_count(len(rows) - len(nonempty), "label")
+        warnings.append(f"shorter than a frame, left out: {short}")
+    tiled = _fill_levels(nonempty, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
-    level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
+    level = "activity" if any(row[0] == "activity" for row in nonempty) else "primitive"
     if level == "primitive":
         source["level"] = level
     # Keyed by first frame, which is unique within a level.
@@ -174,11 +174,11 @@ def as_segmentation(
             dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
             n_frames=n_frames,
             fps=rate,
-            provenance={"labels": source, "notes": [*notes, *unusual]},
+            provenance={"labels": source, "notes": [*notes, *warnings]},
         )
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
-    return segmentation, tuple(unusual)
+    return segmentation, tuple(warnings)
 
 
 def join_lines(text: str) -> str:
@@ -207,16 +207,16 @@ def _to_frame(value: float, per_unit: float, path: Path) -> int:
     return math.floor(frame + 0.5)
 
 
-def _fill_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
+def _fill_levels(rows: list[Row], n_frames: int, path: Path) -> list[Row]:
     """Return the rows of each level with gaps filled; fillers do not cross activity borders."""
-    if all(row[0] == "primitive" for row in full):
+    if all(row[0] == "primitive" for row in rows):
         activity: Level = "activity"
-        full = [
+        rows = [
             (activity, choose_kind(activity, transition=row[1] == "transition"), *row[2:])
-            for row in full
+            for row in rows
         ]
-    inner = [row for row in full if row[0] == "primitive"]
-    tiled = list(_fill_between([row for row in full if row[0] == "activity"], n_frames, [], path))
+    inner = [row for row in rows if row[0] == "primitive"]
+    tiled = list(_fill_between([row for row in rows if row[0] == "activity"], n_frames, [], path))
     if inner:
         tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
     return tiled
@@ -297,10 +297,10 @@ def _convert_seconds(
     times: Floats, clock: Clock, length_s: float
 ) -> tuple[Floats, tuple[str, ...]]:
     """Return starts and stops in seconds, and a note unless they are times of the clock."""
-    first = f"times counted from the first frame, at which the clock shows {clock.shown(0.0)}"
-    answers: list[tuple[Floats, tuple[str, ...]]] = [
+    first = f"times counted from the first frame, at which the clock shows {clock.format_time(0.0)}"
+    interpretations: list[tuple[Floats, tuple[str, ...]]] = [
         (clock.second(times), ()),
-        (clock.since_first().second(times), (first,)),
+        (clock.make_relative().second(times), (first,)),
         (times, ("times taken as frames over the rate, without pauses",)),
     ]
 
@@ -309,4 +309,4 @@ def _convert_seconds(
         inside = np.clip(answer[0], 0.0, length_s)
         return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)
 
-    return max(answers, key=shared_s)
+    return max(interpretations, key=shared_s)

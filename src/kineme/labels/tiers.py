@@ -133,13 +133,13 @@ def read(path: Path) -> Labels:
 def _add_medium(header: ET.Element, segmentation: Segmentation) -> None:
     """Add the video of the recording to the header, if known."""
     source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
-    given = Path(video.get("path") or "")
-    place = given if given.is_file() else find_video(Path(source.get("path") or ""))
-    if place is None:
+    named = Path(video.get("path") or "")
+    path = named if named.is_file() else find_video(Path(source.get("path") or ""))
+    if path is None:
         return
-    medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=place.absolute().as_uri())
-    medium.set("MIME_TYPE", MEDIA_TYPES.get(place.suffix.lower(), "video/*"))
-    medium.set("RELATIVE_MEDIA_URL", f"./{place.name}")
+    medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=path.absolute().as_uri())
+    medium.set("MIME_TYPE", MEDIA_TYPES.get(path.suffix.lower(), "video/*"))
+    medium.set("RELATIVE_MEDIA_URL", f"./{path.name}")
     origin = round(PER_SECOND * float(video.get("offset_s") or 0))
     if origin:
         medium.set("TIME_ORIGIN", str(origin))
@@ -228,16 +228,18 @@ def read_table(path: Path) -> Labels:
     """Read the annotations of ELAN's tab-delimited text."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(csv.reader(file, delimiter="\t", quoting=csv.QUOTE_NONE))
-    full = [
+    lines = [
         (line, row) for line, row in enumerate(rows, 1) if any(row) and not row[0].startswith('"#')
     ]
-    if not full:
+    if not lines:
         return Labels([])
-    is_named = any(map(_TIMES.fullmatch, full[0][1]))
-    found = list(_read_named_columns(full, path) if is_named else _read_unnamed_columns(full, path))
-    levels = choose_tiers(list(dict.fromkeys(tier for tier, *_ in found)), path)
+    is_named = any(map(_TIMES.fullmatch, lines[0][1]))
+    annotations = list(
+        _read_named_columns(lines, path) if is_named else _read_unnamed_columns(lines, path)
+    )
+    levels = choose_tiers(list(dict.fromkeys(tier for tier, *_ in annotations)), path)
     return Labels(
-        [Span(start, stop, text, levels[t]) for t, start, stop, text in found if t in levels]
+        [Span(start, stop, text, levels[t]) for t, start, stop, text in annotations if t in levels]
     )
 
 

@@ -50,11 +50,11 @@ from kineme.transfer.clusters import CONSTANTS, Spans
 
 Head = Mapping[str, Any]
 """Content of ``library.json``; empty if there is none yet."""
-Former = Mapping[Path, tuple[str, str]]
+FormerRecordings = Mapping[Path, tuple[str, str]]
 """Name and analysis key of the recordings in the library, by path."""
 REMOVED = "left.json"
 """File of the clusters of removed recordings by analysis key, in case they are added again."""
-Kept = tuple[list[float], list[float], list[int]]
+ActivityColumns = tuple[list[float], list[float], list[int]]
 """Starts, stops (seconds) and clusters of activities."""
 DAMAGED = "is damaged: remove it; clusters of recordings that come back get new numbers then"
 
@@ -160,8 +160,8 @@ def build(
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
-    made = ((read_options, ReadOptions), (segment_options, SegmentOptions))
-    for options, kind in made:
+    checked = ((read_options, ReadOptions), (segment_options, SegmentOptions))
+    for options, kind in checked:
         check_type(options, (kind, type(None)), "build", f"{kind.__name__}() makes one")
     with start_processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
@@ -176,18 +176,18 @@ def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progre
     """Update the library, which the caller has locked."""
     progress("looking for recordings")
     before = _read_former_recordings(plan.folder, head)
-    found = list_recordings(
+    recordings = list_recordings(
         plan.sources, recursive=plan.recursive, without=make_absolute(plan.folder)
     )
     missing_sources = [source for source in plan.sources if not source.exists()]
-    not_found = {path: entry for path, entry in before.items() if path not in found}
+    not_found = {path: entry for path, entry in before.items() if path not in recordings}
     absent = _group_missing(plan, not_found, missing_sources)
-    gathered = gather(plan, list(found), executor, progress)
+    gathered = gather(plan, list(recordings), executor, progress)
     failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
     keys = {path: plan.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in absent}
     names = name_recordings(
-        {path: source for path, source in {**found, **absent}.items() if path in keys},
+        {path: source for path, source in {**recordings, **absent}.items() if path in keys},
         {path: name for path, (name, _) in before.items()},
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
@@ -204,7 +204,7 @@ def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progre
     )
 
 
-def _read_former_recordings(folder: Path, head: Head) -> Former:
+def _read_former_recordings(folder: Path, head: Head) -> FormerRecordings:
     """Return the recordings in the library, by path."""
     if not head:
         return {}
@@ -214,7 +214,7 @@ def _read_former_recordings(folder: Path, head: Head) -> Former:
 
 
 def _group_missing(
-    plan: Plan, not_found: Former, missing_sources: Sequence[Path]
+    plan: Plan, not_found: FormerRecordings, missing_sources: Sequence[Path]
 ) -> dict[Path, Path]:
     """Return recordings with a missing source, such as a removed disk, and that source."""
     return {
@@ -228,7 +228,7 @@ def _group_missing(
 def _update_tables(
     plan: Plan,
     head: Head,
-    before: Former,
+    before: FormerRecordings,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
     progress: Progress,
@@ -244,8 +244,8 @@ def _update_tables(
         "clustering": asdict(CONSTANTS),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
-    same = {path: (name, key) for name, path, key in entries} == before
-    if same and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
+    is_unchanged = {path: (name, key) for name, path, key in entries} == before
+    if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
         from kineme.library.compiling import compile_tables, list_activities
@@ -257,24 +257,24 @@ def _update_tables(
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
-        made, following = compile_tables(
+        new_tables, following = compile_tables(
             plan.folder, entries, {**returned, **former}, following, progress
         )
         keys = dict(before.values())
         by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
         _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
-        tables = write_tables(plan.folder, made)
-        write_index(plan.folder, tables, made["recordings"].to_pydict())
-    now = {**content, "following": following, "tables": tables}
-    if now != head:
-        write_json(plan.folder / HEAD, now)
+        tables = write_tables(plan.folder, new_tables)
+        write_index(plan.folder, tables, new_tables["recordings"].to_pydict())
+    head_now = {**content, "following": following, "tables": tables}
+    if head_now != head:
+        write_json(plan.folder / HEAD, head_now)
     return str(tables)
 
 
 def _read_removed(folder: Path) -> dict[str, Spans]:
     """Return the activities of removed recordings, by analysis key."""
     try:
-        content = read_json(folder / REMOVED, Kept)
+        content = read_json(folder / REMOVED, ActivityColumns)
     except ReadError as error:
         raise ReadError(folder / REMOVED, DAMAGED) from error
     for starts, stops, clusters in content.values():

@@ -74,8 +74,8 @@ class Coverage(NamedTuple):
 
 def measure_coverage(tables: OpenTables) -> list[Coverage]:
     """Return the coverage of each cluster in each direction; reads all recordings of bodies."""
-    found: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
-    found, labels = defaultdict(list), dict[int, str]()
+    facts_by_group: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
+    facts_by_group, labels = defaultdict(list), dict[int, str]()
     for motion, rows in _read_bodies(tables):
         travel = measure_travel(motion)
         for row in rows if travel is not None else ():
@@ -84,11 +84,11 @@ def measure_coverage(tables: OpenTables) -> list[Coverage]:
             span, labels[row.cluster] = (row.start_frame, row.stop_frame), row.label
             tags, speed = travel.tags(*span), float(np.hypot(*travel.velocity(*span)))
             fact = row.duration_s, speed, travel.turn(*span), "start" in tags, "stop" in tags
-            found[row.cluster, tags[0]].append(fact)
-    covered = []
-    for (cluster, direction), facts in found.items():
+            facts_by_group[row.cluster, tags[0]].append(fact)
+    coverages = []
+    for (cluster, direction), facts in facts_by_group.items():
         seconds, speeds, turns, starts, stops = zip(*facts, strict=True)
-        covered.append(
+        coverages.append(
             Coverage(
                 cluster,
                 labels[cluster],
@@ -104,7 +104,7 @@ def measure_coverage(tables: OpenTables) -> list[Coverage]:
             )
         )
     directions: list[str] = [*DIRECTIONS]
-    return sorted(covered, key=lambda each: (each.cluster, directions.index(each.direction)))
+    return sorted(coverages, key=lambda each: (each.cluster, directions.index(each.direction)))
 
 
 def write_best_loops(
@@ -163,7 +163,7 @@ class _Candidate:
     seconds: float
     poses: Floats | None
 
-    def is_like(self, other: _Candidate) -> bool:
+    def is_near_duplicate(self, other: _Candidate) -> bool:
         """Return whether both are nearly equal, whatever phase they begin at."""
         if self.poses is None or other.poses is None:
             return False
@@ -200,13 +200,13 @@ def _list_candidates(
 
 def _choose_best(candidates: Sequence[_Candidate], most: int | None) -> list[_Candidate]:
     """Return the best candidates without near duplicates."""
-    kept: list[_Candidate] = []
+    chosen: list[_Candidate] = []
     for each in sorted(candidates, key=lambda each: each.quality.cost):
-        if len(kept) == most:
+        if len(chosen) == most:
             break
-        if not any(each.is_like(other) for other in kept):
-            kept.append(each)
-    return kept
+        if not any(each.is_near_duplicate(other) for other in chosen):
+            chosen.append(each)
+    return chosen
 
 
 def _list_repeated(tables: OpenTables) -> set[int]:

@@ -65,8 +65,8 @@ def compile_tables(
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     keys = [key for _, _, key in entries]
-    local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
-    shared = _assign_clusters(analyses, local, found.cluster)
+    local, assignment = _join_clusters(analyses, keys, folder / ANALYSES, progress)
+    shared = _assign_clusters(analyses, local, assignment.cluster)
     new = {
         name: list_spans(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
@@ -76,7 +76,7 @@ def compile_tables(
     tables = {
         "recordings": _tabulate_recordings(entries, analyses),
         "segments": _tabulate_segments(entries, analyses, [renumbered[each] for each in shared]),
-        "local_clusters": _tabulate_local_clusters(entries, local, found, renumbered),
+        "local_clusters": _tabulate_local_clusters(entries, local, assignment, renumbered),
         "embeddings": _tabulate_embeddings(entries, analyses),
     }
     return {name: make_table(name, columns) for name, columns in tables.items()}, max(
@@ -111,28 +111,28 @@ def _join_clusters(
     ``keys`` name the analyses in ``folder``.
     """
     none = np.empty(0, np.int64)
-    every, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
+    all_clusters, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
     for kind in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
         # Sorted by content key, so that rounding errors of sums do not depend on file names.
-        numbers = [i for i, each in enumerate(analyses) if each.facts["vocabulary"] == kind]
+        numbers = [i for i, cluster in enumerate(analyses) if cluster.facts["vocabulary"] == kind]
         numbers.sort(key=keys.__getitem__)
         groups = [find_local_clusters(analyses[number].table, number) for number in numbers]
-        local = [each for group in groups for each in group]
+        local = [cluster for group in groups for cluster in group]
         if not local:
             continue
         if kind == BODIES or len(numbers) == 1:
             clusters = _make_cluster_set(local, analyses, keys, folder)
-            found = link_clusters(clusters, keys, CONSTANTS, progress=progress)
+            assignment = link_clusters(clusters, keys, CONSTANTS, progress=progress)
         else:
-            found = assign_to_centres(
+            assignment = assign_to_centres(
                 [partial(read_channel_samples, folder, keys[number]) for number in numbers],
                 [analyses[number].facts["moments"] for number in numbers],
-                [[each.spans for each in group] for group in groups],
+                [[cluster.spans for cluster in group] for group in groups],
             )
-        parts.append(found.shift(count))
-        every += local
-        count += int(found.cluster.max()) + 1
-    return every, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
+        parts.append(assignment.shift(count))
+        all_clusters += local
+        count += int(assignment.cluster.max()) + 1
+    return all_clusters, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def _make_cluster_set(
@@ -199,16 +199,16 @@ def _tabulate_segments(
 
 
 def _tabulate_local_clusters(
-    entries: Sequence[Entry], local: Sequence[LocalCluster], found: Assignment, numbers: Ints
+    entries: Sequence[Entry], local: Sequence[LocalCluster], assignment: Assignment, numbers: Ints
 ) -> Columns:
     names = ("start_s", "stop_s", "seconds")
     return {
         "recording": [entries[each.recording][0] for each in local],
         "own_cluster": [each.cluster for each in local],
-        "cluster": numbers[found.cluster],
-        "next_cluster": numbers[found.next_cluster],
-        "confidence": found.confidence,
-        "spread": found.spread,
+        "cluster": numbers[assignment.cluster],
+        "next_cluster": numbers[assignment.next_cluster],
+        "confidence": assignment.confidence,
+        "spread": assignment.spread,
         **{name: [getattr(each, name) for each in local] for name in names},
     }
 
@@ -235,5 +235,5 @@ def _count_rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Colum
 
 def _concatenate(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
     """Concatenate arrays; return an empty one if there are none."""
-    given = list(parts)
-    return np.concatenate(given) if given else np.empty(0)
+    arrays = list(parts)
+    return np.concatenate(arrays) if arrays else np.empty(0)

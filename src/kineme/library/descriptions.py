@@ -56,7 +56,7 @@ class Description:
     reason: str = ""
     poses: Floats | None = None
 
-    def between(self, start_s: float, stop_s: float) -> Float32s:
+    def select(self, start_s: float, stop_s: float) -> Float32s:
         """Return the samples between two times, at least one."""
         return self.features[self._samples(start_s, stop_s)]
 
@@ -103,18 +103,18 @@ def compute_signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
         scaled, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
     )
     unit = UNIT * np.sqrt(scaled.shape[1])
-    found: Float32s = (statistics / unit).astype(np.float32)
+    samples: Float32s = (statistics / unit).astype(np.float32)
     if not signals.gaps:
-        return found
+        return samples
     n = int((signals.n_frames - 1) / signals.fps * preset.rate + 1e-9) + 1
-    features = np.full((n, found.shape[1]), IN_GAP, np.float32)
+    features = np.full((n, samples.shape[1]), IN_GAP, np.float32)
     first = 0.0  # recorded seconds before the span, without gaps
     for start, stop in spans:
         # Samples of the whole recording that lie in the span, and their row in `found`.
         at = np.arange(np.ceil(start / signals.fps * preset.rate), n)
         at = at[at / preset.rate < stop / signals.fps].astype(np.int64)
         sample = np.rint((at / preset.rate - start / signals.fps + first) * preset.rate)
-        features[at] = found[np.minimum(sample.astype(np.int64), len(found) - 1)]
+        features[at] = samples[np.minimum(sample.astype(np.int64), len(samples) - 1)]
         first += (stop - start) / signals.fps
     return features
 
@@ -128,10 +128,10 @@ def make_analysis(
     """
     from kineme.transfer.channel_samples import compute_channel_samples
 
-    found, _ = segment_with_options(recording, options)
+    segmentation, _ = segment_with_options(recording, options)
     described = describe(recording, options)
-    embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
-    for row, each in enumerate(found.table):
+    embeddings = np.zeros((len(segmentation.table), EMBEDDED), np.float32)
+    for row, each in enumerate(segmentation.table):
         if each.kind != "transition":
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
     samples = None
@@ -147,6 +147,6 @@ def make_analysis(
         "features_fps": described.fps,
         "samples": len(described.features),
         "moments": 0 if samples is None else len(samples),
-        "notes": [*found.provenance["notes"], *filter(None, [reason])],
+        "notes": [*segmentation.provenance["notes"], *filter(None, [reason])],
     }
-    return Analysis(facts, found.table, embeddings), described.features, samples
+    return Analysis(facts, segmentation.table, embeddings), described.features, samples

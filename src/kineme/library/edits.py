@@ -95,14 +95,14 @@ class Edits:
         splits = tuple(Split(part, into, tuple(recordings)) for part in sorted(parts))
         return replace(self, splits=(*self.splits, *splits))
 
-    def applied(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
+    def apply(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
         """Return cluster numbers of rows after the edits, given their recordings."""
-        now = clusters.copy()
+        result = clusters.copy()
         for split in self.splits:
-            now[(now == split.cluster) & np.isin(recordings, split.recordings)] = split.into
+            result[(result == split.cluster) & np.isin(recordings, split.recordings)] = split.into
         for old, new in self.merged.items():
-            now[now == old] = new
-        return now
+            result[result == old] = new
+        return result
 
     def write(self, folder: Path) -> None:
         """Write the edits to the folder of a library."""
@@ -160,7 +160,7 @@ def apply_edits(table: Any, edits: Edits) -> Any:
     for name, label in (("cluster", "label"), ("next_cluster", None), ("action", "action_label")):
         if name not in table.column_names:
             continue
-        clusters = edits.applied(as_array(table.column(name)), recordings)
+        clusters = edits.apply(as_array(table.column(name)), recordings)
         table = table.set_column(table.column_names.index(name), name, as_column(clusters, int))
         if label is not None:
             column = _list_names(clusters, edits)

@@ -52,10 +52,10 @@ def run_query(tables: OpenTables, sql: str) -> Any:
         for name in (*DESCRIBED, CLUSTERS):
             connection.register(name, get_table(tables, name))
         try:
-            found = connection.sql(sql)
-            if found is None:
+            relation = connection.sql(sql)
+            if relation is None:
                 raise ParameterError("this asks for no rows: begin it with select")
-            return found.to_arrow_table()
+            return relation.to_arrow_table()
         except duckdb.Error as error:
             raise ParameterError(" ".join(str(error).split())[:400]) from error
 
@@ -129,7 +129,7 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
-    drawn: list[tuple[Cluster, Motion | Signals]] = []
+    strips: list[tuple[Cluster, Motion | Signals]] = []
     written = []
     for cluster in list_clusters(tables):
         try:
@@ -137,12 +137,12 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
         except KinemeError:  # missing file: go on with the others
             continue
         recording = recording.seconds(cluster.start_s, cluster.stop_s)
-        drawn.append((cluster, recording))
+        strips.append((cluster, recording))
         path = folder / f"{_make_file_name(cluster)}.png"
         write_sheet([_make_strip(cluster, recording)], path)
         written.append(path)
-    if drawn:
-        write_sheet([_make_strip(*each) for each in drawn[:MOST_STRIPS]], folder / ALL)
+    if strips:
+        write_sheet([_make_strip(*each) for each in strips[:MOST_STRIPS]], folder / ALL)
         written.insert(0, folder / ALL)
     return written
 

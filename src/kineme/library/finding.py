@@ -69,19 +69,19 @@ def find_hits(
     if mirror and check_one_vocabulary(described) == BODIES:
         described += [(BODIES, mirror_features(part)) for _, part in described]
     vocabulary = check_one_vocabulary(described)
-    refused = [
+    counter_features = [
         part for kind, part in describe_examples(tables, counterexamples) if kind == vocabulary
     ]
     features = [part for _, part in described]
-    query = Query(features, refused, threshold, None if max_per_recording else top)
+    query = Query(features, counter_features, threshold, None if max_per_recording else top)
     parts = _list_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
         parts = _find_likely_parts(tables, features, top) or parts
-    found = find_matches_in_parts(
+    matches = find_matches_in_parts(
         tables.folder / ANALYSES, tables.recordings["piece"], parts, query, executor
     )
-    rows = list(found)
-    chosen = choose_best(list(found.values()), top=top, most=max_per_recording)
+    rows = list(matches)
+    chosen = choose_best(list(matches.values()), top=top, most=max_per_recording)
     return [_make_hit(tables, rows[i], *span) for i, span in chosen]
 
 
@@ -177,9 +177,9 @@ def as_examples(
         return []
     if isinstance(like, str | PathLike | Motion | Signals):
         return [Example(like, start_s, stop_s)]
-    given = list(like) if isinstance(like, Iterable) and not isinstance(like, Hit) else [like]
+    items = list(like) if isinstance(like, Iterable) and not isinstance(like, Hit) else [like]
     examples = []
-    for example in given:
+    for example in items:
         if isinstance(example, Hit):
             examples.append(Example(Named(example.recording), example.start_s, example.stop_s))
         elif isinstance(example, Example):
@@ -196,7 +196,7 @@ def describe_examples(
     tables: OpenTables, examples: Sequence[Example]
 ) -> list[tuple[str, Float32s]]:
     """Return the vocabulary and features of each example."""
-    found = []
+    descriptions = []
     for example in examples:
         described = _describe_recording(tables, example.recording)
         lasts = len(described.features) / described.fps
@@ -210,8 +210,8 @@ def describe_examples(
             raise ParameterError(
                 f"the example starts at {example.start_s:g} s, its recording lasts {lasts:.2f} s"
             )
-        found.append((described.vocabulary, described.between(example.start_s, stop_s)))
-    return found
+        descriptions.append((described.vocabulary, described.select(example.start_s, stop_s)))
+    return descriptions
 
 
 def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:

@@ -114,17 +114,17 @@ def _make_analyses(
     if not isinstance(executor, InProcess):  # import the next step while other processes work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
     done = track_progress(progress, len(tasks), sum(task.size for task in tasks))
-    alone: list[Task] = []
+    remaining: list[Task] = []
     for task, outcome in run_tasks(list(groups), executor):
         _record_outcome(plan, task, outcome, into)
         (_, *others), digest = groups[task]
         if outcome.digest == digest:
             into.digests.update((other.path, digest) for other in others)
         else:  # it failed, or the file has changed: analyse each one on its own
-            alone += others
+            remaining += others
             others = []
         done(1 + len(others), task.size * (1 + len(others)))
-    for task, outcome in run_tasks(alone, executor):
+    for task, outcome in run_tasks(remaining, executor):
         _record_outcome(plan, task, outcome, into)
         done(1, task.size)
 

@@ -46,7 +46,7 @@ class OpenTables:
         except ReadError:  # a build may have ended between the head and the tables
             self.head = read_head(folder)
             self._computed = self._read()
-        self._take(read_edits(folder))
+        self._use_edits(read_edits(folder))
 
     @property
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
@@ -101,15 +101,15 @@ class OpenTables:
     def editing(self) -> Iterator[None]:
         """Lock the edits against other processes during the block, with `edits` up to date."""
         with lock_for_writing(self.folder, "try again", LOCK_EDITS):
-            self._take(read_edits(self.folder))
+            self._use_edits(read_edits(self.folder))
             yield
 
     def write(self, edits: Edits) -> None:
         """Write edits to disk and use them."""
         edits.write(self.folder)
-        self._take(edits)
+        self._use_edits(edits)
 
-    def _take(self, edits: Edits) -> None:
+    def _use_edits(self, edits: Edits) -> None:
         self.edits = edits
         self._edited: dict[str, Any] = {}
         self._arrays: dict[str, Columns] = {}
@@ -170,7 +170,7 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
     lasts = segments["stop_s"] - segments["start_s"]
     active = segments["kind"] != "transition"
     finer = segments["level"] == "primitive"
-    found = []
+    clusters = []
     for number in sorted(set(local["cluster"].tolist())):
         members = np.flatnonzero(local["cluster"] == number)
         typical = members[np.argmin(local["spread"][members])]
@@ -178,7 +178,7 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
         repeated = rows & finer
         typically = lasts[repeated if repeated.any() else rows]
         recording = str(local["recording"][typical])
-        found.append(
+        clusters.append(
             Cluster(
                 number,
                 tables.edits.name(number),
@@ -193,7 +193,7 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
                 float(local["stop_s"][typical]),
             )
         )
-    return sorted(found, key=lambda cluster: (-cluster.seconds, cluster.cluster))
+    return sorted(clusters, key=lambda cluster: (-cluster.seconds, cluster.cluster))
 
 
 def tabulate_clusters(clusters: Sequence[Cluster]) -> Any:
@@ -213,10 +213,10 @@ def find_cluster_numbers(tables: OpenTables, cluster: int | str) -> list[int]:
     numbers = sorted(set(tables.columns("local_clusters")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
     named = isinstance(cluster, str)  # an int never matches a name of digits
-    found = [number for number in numbers if named and edits.name(number) == text]
-    if not found and text.isdecimal():
-        found = [number for number in numbers if number == edits.number(int(text))]
-    if not found:
+    matches = [number for number in numbers if named and edits.name(number) == text]
+    if not matches and text.isdecimal():
+        matches = [number for number in numbers if number == edits.number(int(text))]
+    if not matches:
         names = ", ".join(edits.name(number) or str(number) for number in numbers[:20])
         raise ParameterError(f"no cluster is called {text:.60}; there are {names or 'none'}")
-    return found
+    return matches

@@ -73,15 +73,15 @@ def make_plan(
     segment_options: SegmentOptions | None,
 ) -> Plan:
     """Return the plan of a build; arguments that are None are taken from the last build."""
-    every = change_sources(folder, sources, remove)
-    if not every and not head:
+    all_sources = change_sources(folder, sources, remove)
+    if not all_sources and not head:
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
-    missing = [each for each in every if not each.exists() and str(each) not in before]
+    missing = [each for each in all_sources if not each.exists() and str(each) not in before]
     former = read_kept_options(folder, head) if head else (ReadOptions(), SegmentOptions())
     return Plan(
         folder,
-        tuple(each for each in every if each not in missing),
+        tuple(each for each in all_sources if each not in missing),
         tuple(missing),
         bool(head.get("recursive")) if recursive is None else recursive,
         read_options or former[0],
@@ -159,13 +159,13 @@ def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
     return folder
 
 
-def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
+def as_paths(paths: AnyPath | Iterable[AnyPath]) -> list[Path]:
     """Return one or several paths as a list; raise ParameterError for anything else."""
-    if isinstance(given, str | PathLike):
-        return [make_path(given)]
-    if not isinstance(given, Iterable):
-        raise ParameterError(f"build needs paths of recordings or folders, not {given!r:.60}")
-    return [make_path(path, "build") for path in given]
+    if isinstance(paths, str | PathLike):
+        return [make_path(paths)]
+    if not isinstance(paths, Iterable):
+        raise ParameterError(f"build needs paths of recordings or folders, not {paths!r:.60}")
+    return [make_path(path, "build") for path in paths]
 
 
 def make_absolute(path: Path) -> Path:
@@ -326,6 +326,6 @@ def read_recording(path: Path, options: ReadOptions) -> Motion | Signals:
     """Read a local or remote recording; warn like `kineme.read`."""
     if not is_remote(path):
         return read(path, **vars(options))
-    with fetch(path, options.skeleton) as here:
-        found = read(here, **vars(options))
-    return replace(found, provenance=replace(found.provenance, path=str(path)))
+    with fetch(path, options.skeleton) as local:
+        recording = read(local, **vars(options))
+    return replace(recording, provenance=replace(recording.provenance, path=str(path)))

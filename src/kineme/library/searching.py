@@ -116,16 +116,16 @@ def find_matches(
 
     Spans that are nearer to a counter-example are rejected.
     """
-    found = _merge_matches(features, examples, threshold, None if counterexamples else top)
-    if counterexamples and len(found.starts):
+    matches = _merge_matches(features, examples, threshold, None if counterexamples else top)
+    if counterexamples and len(matches.starts):
         others = _merge_matches(features, counterexamples, threshold, None)
-        first = np.maximum(found.starts[:, None], others.starts[None])
-        shared = np.minimum(found.stops[:, None], others.stops[None]) - first
-        covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
-        nearer = others.distances[None] < found.distances[:, None]
+        first = np.maximum(matches.starts[:, None], others.starts[None])
+        shared = np.minimum(matches.stops[:, None], others.stops[None]) - first
+        covers = shared >= REFUSED * (matches.stops - matches.starts)[:, None]
+        nearer = others.distances[None] < matches.distances[:, None]
         rows = np.flatnonzero(~(covers & nearer).any(axis=1))
-        found = _select_rows(found, rows)
-    return _select_rows(found, slice(top))
+        matches = _select_rows(matches, rows)
+    return _select_rows(matches, slice(top))
 
 
 def choose_best(
@@ -147,21 +147,21 @@ def _merge_matches(
     features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
 ) -> Matches:
     """Return disjoint spans that are similar to any example, the best first."""
-    found = [search(example, features, threshold=threshold, top=top) for example in examples]
-    if len(found) == 1:
-        return found[0]
-    every = _order_matches(found)
+    several = [search(example, features, threshold=threshold, top=top) for example in examples]
+    if len(several) == 1:
+        return several[0]
+    ordered = _order_matches(several)
     covered = np.zeros(len(features), np.bool_)
     chosen = []
-    for i, span in enumerate(map(slice, every.starts.tolist(), every.stops.tolist())):
+    for i, span in enumerate(map(slice, ordered.starts.tolist(), ordered.stops.tolist())):
         if not covered[span].any():
             covered[span] = True
             chosen.append(i)
-    return _select_rows(every, np.array(chosen, np.int64))
+    return _select_rows(ordered, np.array(chosen, np.int64))
 
 
-def _select_rows(found: Matches, rows: slice | Ints) -> Matches:
-    return Matches(found.starts[rows], found.stops[rows], found.distances[rows])
+def _select_rows(matches: Matches, rows: slice | Ints) -> Matches:
+    return Matches(matches.starts[rows], matches.stops[rows], matches.distances[rows])
 
 
 SHARE = 0.01
@@ -208,9 +208,9 @@ class Task:
 
 def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
     """Return the parts of recordings around the windows that are nearest to an example."""
-    near = _find_nearest(windows, describe_at_speeds(example), top)
-    rows = np.searchsorted(windows.firsts, near, side="right") - 1
-    middles = (near - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
+    nearest = _find_nearest(windows, describe_at_speeds(example), top)
+    rows = np.searchsorted(windows.firsts, nearest, side="right") - 1
+    middles = (nearest - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
     reach = compute_step(windows.length) + len(example)  # a match may be twice as long
     lasts = windows.samples[rows]
     return merge_overlapping(
@@ -246,13 +246,13 @@ def find_matches_in_parts(
     ]
     if executor is None:
         with threadpool_limits(1):  # tasks use all cores already
-            found = map_threads(search_parts, tasks)
+            outcomes = map_threads(search_parts, tasks)
     else:
-        found = [
+        outcomes = [
             _require_outcome(outcome) for _, outcome in executor.completed(search_parts, tasks)
         ]
     by_row: dict[int, list[Matches]] = {}
-    for each in found:
+    for each in outcomes:
         for row, matches in each.items():
             by_row.setdefault(row, []).append(matches)
     return {row: _order_matches(several) for row, several in sorted(by_row.items())}

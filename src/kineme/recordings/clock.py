@@ -55,17 +55,17 @@ class Clock:
 
     def __post_init__(self) -> None:
         for name in ("seconds", "times"):
-            given = getattr(self, name)
-            if not isinstance(given, Sequence) or not all(map(is_number, given)):
-                raise ParameterError(f"{name} of a clock are numbers, not {given!r:.60}")
-            object.__setattr__(self, name, tuple(map(float, given)))
-        begin = self.seconds
-        rising = bool(begin) and begin[0] == 0 and all(a < b for a, b in pairwise(begin))
-        if len(begin) != len(self.times) or not rising:
+            values = getattr(self, name)
+            if not isinstance(values, Sequence) or not all(map(is_number, values)):
+                raise ParameterError(f"{name} of a clock are numbers, not {values!r:.60}")
+            object.__setattr__(self, name, tuple(map(float, values)))
+        starts = self.seconds
+        rising = bool(starts) and starts[0] == 0 and all(a < b for a, b in pairwise(starts))
+        if len(starts) != len(self.times) or not rising:
             raise ParameterError("a clock has as many times as seconds, which rise from 0")
 
     @classmethod
-    def of(cls, times: ArrayLike, fps: float) -> Clock | None:
+    def from_times(cls, times: ArrayLike, fps: float) -> Clock | None:
         """Return the clock of frames with these times in seconds.
 
         None if the times are those of frames counted from 0.
@@ -100,7 +100,7 @@ class Clock:
         return {"seconds": list(self.seconds), "times": list(self.times)}
 
     @property
-    def tells_dates(self) -> bool:
+    def shows_dates(self) -> bool:
         """Return whether the times count from 1970, judging by their size."""
         return is_unix_time(self.times[0])
 
@@ -129,20 +129,20 @@ class Clock:
         found: Floats = begin[k] + np.where(k > 0, np.maximum(since, 0.0), since)
         return found
 
-    def since_first(self) -> Clock:
+    def make_relative(self) -> Clock:
         """Return the clock relative to the beginning of the recording."""
         return Clock(self.seconds, [time - self.times[0] for time in self.times])
 
-    def between(self, start: float, stop: float) -> Clock:
+    def cut(self, start: float, stop: float) -> Clock:
         """Return the clock of the part between two seconds of the recording."""
         later = [second for second in self.seconds if start < second < stop]
         seconds = [start, *later]
         return Clock([second - start for second in seconds], self.time(seconds).tolist())
 
-    def shown(self, second: float) -> str:
+    def format_time(self, second: float) -> str:
         """Return the time at a second of the recording as text: a number, or an ISO date in UTC."""
         time = float(self.time(second))
-        if not self.tells_dates:
+        if not self.shows_dates:
             return repr(round(time, 6))
         return datetime.fromtimestamp(time, UTC).isoformat(timespec="milliseconds")
 

@@ -282,15 +282,17 @@ def _choose(
     lines: Sequence[str], letters: Mapping[str, str], at: Mapping[str, int]
 ) -> dict[str, tuple[int, ...]]:
     """Return the points of the first line found on both sides, else the first found on each."""
-    made = {
+    candidates = {
         joint: [_find_points(line.replace("*", letter), at) for line in lines]
         for joint, letter in letters.items()
     }
     # Left and right are compared with each other, so both use the same markers.
-    shared = next((i for i, each in enumerate(zip(*made.values(), strict=True)) if all(each)), None)
+    shared = next(
+        (i for i, each in enumerate(zip(*candidates.values(), strict=True)) if all(each)), None
+    )
     chosen = {
         joint: next(filter(None, choices), ()) if shared is None else choices[shared]
-        for joint, choices in made.items()
+        for joint, choices in candidates.items()
     }
     return {joint: points for joint, points in chosen.items() if points}
 

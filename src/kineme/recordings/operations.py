@@ -151,10 +151,10 @@ def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
     """
     if not recording.gaps:
         return [(0, recording)]
-    found = [(start, recording[start:stop]) for start, stop in recording.spans()]
-    if not found:
+    parts = [(start, recording[start:stop]) for start, stop in recording.spans()]
+    if not parts:
         raise MotionError("the body is not seen in any frame of this motion")
-    return found
+    return parts
 
 
 def scale(motion: Motion, factor: float) -> Motion:

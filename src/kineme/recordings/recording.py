@@ -193,6 +193,6 @@ def _cut_provenance(provenance: Provenance, start: int, stop: int, fps: float) -
     events: Iterable[tuple[float, str]] = (
         (at - first, name) for at, name in provenance.events if first <= at < last
     )
-    clock = provenance.clock and provenance.clock.between(first, last)
+    clock = provenance.clock and provenance.clock.cut(first, last)
     rows = None if provenance.rows is None else provenance.rows - first
     return provenance.noted(f"cut to frames {start} to {stop}").marked(events).timed(clock, rows)

@@ -104,13 +104,13 @@ class Timing:
         values : (rows, channels) array_like
             In file order; NaN or infinite if missing.
         """
-        given = np.asarray(values, np.float64)
+        rows = np.asarray(values, np.float64)
         if self.order is None or self.at is None:
-            frames, at, n_frames = given, np.arange(len(given), dtype=np.float64), len(given)
+            frames, at, n_frames = rows, np.arange(len(rows), dtype=np.float64), len(rows)
         else:
             # avoid a copy of all rows if they are sorted already
-            sorted_rows = len(self.order) == len(given) and (np.diff(self.order) > 0).all()
-            at, frames = _average_duplicates(self.at, given if sorted_rows else given[self.order])
+            sorted_rows = len(self.order) == len(rows) and (np.diff(self.order) > 0).all()
+            at, frames = _average_duplicates(self.at, rows if sorted_rows else rows[self.order])
             n_frames = self.n_frames
         on_grid = bool((at == np.rint(at)).all())
         present = np.isfinite(frames)
@@ -186,7 +186,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         duration = float(shown[-1] - shown[0])
         doubt = 2 * np.spacing(np.abs(shown).max()) / duration
         fps = _round_rate(len(steps) / duration, max(1e-6, float(doubt)))
-        return Timing(fps, clock=Clock.of(shown, fps))
+        return Timing(fps, clock=Clock.from_times(shown, fps))
     rows = np.flatnonzero(known)
     shown, taken = shown[rows], None if taken is None else taken[rows]
     at, was_set, notes = _correct_clock(shown, taken)
@@ -214,9 +214,9 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     frames = _snap_to_grid((at - at[0]) * rate, rate)
     if not fps and (frames != np.rint(frames)).any():
         # rows are resampled anyway, and a whole rate is most likely the sensor's
-        whole = max(1.0, np.rint(rate))
-        if abs(whole - rate) <= _WHOLE * rate:
-            rate, frames = whole, _snap_to_grid((at - at[0]) * whole, whole)
+        whole_rate = max(1.0, np.rint(rate))
+        if abs(whole_rate - rate) <= _WHOLE * rate:
+            rate, frames = whole_rate, _snap_to_grid((at - at[0]) * whole_rate, whole_rate)
     elif not fps:
         rate = _round_rate(rate, max(1e-6, UNEVEN / max(1.0, float(frames[-1]))))
     exact = bool((frames == np.rint(frames)).all())
@@ -274,21 +274,21 @@ def fill_gaps_in_channels(
     A frame lies in a gap if any channel is missing for long. Raise ParameterError if a channel
     has no number, or nothing is left between the gaps.
     """
-    found = timing.resample(values)
-    doubts = find_faulty_channels(found, timing.fps, names)
+    resampled = timing.resample(values)
+    doubts = find_faulty_channels(resampled, timing.fps, names)
     notes: list[Note | str] = []
-    if found.filled:
-        values_filled = format_count(found.filled, "missing value")
+    if resampled.filled:
+        values_filled = format_count(resampled.filled, "missing value")
         notes.append(f"{values_filled} filled in a straight line")
-    if found.missing is None:
-        return found.values, list(timing.gaps), [*notes, *doubts]
-    jumps = np.zeros(len(found.values), np.bool_)
+    if resampled.missing is None:
+        return resampled.values, list(timing.gaps), [*notes, *doubts]
+    jumps = np.zeros(len(resampled.values), np.bool_)
     for start, stop in timing.gaps:
         jumps[start:stop] = True
-    if found.missing.all(axis=0).any():
-        name = names[int(found.missing.all(axis=0).argmax())]
+    if resampled.missing.all(axis=0).any():
+        name = names[int(resampled.missing.all(axis=0).argmax())]
         raise ParameterError(f"column {name!r} holds no number at all: name the others (--columns)")
-    long = found.missing.any(axis=1)
+    long = resampled.missing.any(axis=1)
     if (long | jumps).all():
         raise ParameterError("in every frame some channel is missing for long: choose columns")
     # gaps where the clock was reset are reported already
@@ -297,7 +297,7 @@ def fill_gaps_in_channels(
         frames = format_count(int((long & ~jumps).sum()), "frame")
         notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
     gaps = [(start, stop) for start, stop in find_spans(long | jumps).tolist()]
-    return found.values, gaps, [*notes, *doubts]
+    return resampled.values, gaps, [*notes, *doubts]
 
 
 FROZEN_S = 3.0
@@ -309,14 +309,16 @@ _COARSE = 5  # sensor steps by which values jump to the limit if clipped
 _LEVELS = 50  # a sensor has at least so many different values
 
 
-def find_faulty_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[Note | str]:
+def find_faulty_channels(
+    resampled: Resampled, fps: float, names: Sequence[str]
+) -> list[Note | str]:
     """Return warnings about channels that freeze for seconds or are clipped."""
     frozen, clipped = [], []
     least = max(2, round(FROZEN_S * fps))
     for channel, name in enumerate(names):
-        track = found.values[:, channel]
-        if found.missing is not None:
-            track = track[~found.missing[:, channel]]
+        track = resampled.values[:, channel]
+        if resampled.missing is not None:
+            track = track[~resampled.missing[:, channel]]
         if len(track) < 2:
             continue
         same = np.diff(track) == 0
@@ -382,9 +384,9 @@ def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
         return at[starts], sums / counts
 
 
-def _find_holes(known: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
+def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
     """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
-    apart = np.diff(known)
+    apart = np.diff(known_frames)
     most = LONGEST_S * fps + 1e-9
     # A channel may be slower than the others but regular.
     usual = float(np.median(apart)) if len(apart) >= 10 else 1.0
@@ -392,7 +394,7 @@ def _find_holes(known: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
     if 1.5 < usual <= _SLOWEST_S * fps and even.mean() > _MOST:
         most = max(most, 2.5 * usual)
     # frames within half a frame of a known one count as known
-    ends = np.concatenate([[-1.0], known, [float(n_frames)]])
+    ends = np.concatenate([[-1.0], known_frames, [float(n_frames)]])
     starts = np.floor(ends[:-1] + 0.5).astype(np.int64) + 1
     stops = np.minimum(np.ceil(ends[1:] - 0.5).astype(np.int64), n_frames)
     long = np.diff(ends) - 1 > most
@@ -519,9 +521,9 @@ def _measure_rate(moments: Floats) -> float:
     ordinary = counted[np.abs(counted - median) <= _ORDINARY * median * (1 + 1e-9)]
     if len(ordinary) >= _MOST * len(counted):
         period = float(ordinary.mean())
-        whole = float(np.maximum(np.rint(counted / period), 1).sum())
-        if abs(period * whole - counted.sum()) <= _ADDS_UP * counted.sum():
-            return whole / float(counted.sum())
+        n_periods = float(np.maximum(np.rint(counted / period), 1).sum())
+        if abs(period * n_periods - counted.sum()) <= _ADDS_UP * counted.sum():
+            return n_periods / float(counted.sum())
     return len(counted) / float(counted.sum())
 
 
@@ -574,5 +576,7 @@ def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) ->
 
 def _round_rate(fps: float, share: float) -> float:
     """Return the rate rounded to hertz or thousandths if within this fraction of it."""
-    near = (round(fps, digits) for digits in (0, 3))
-    return next((rate for rate in near if rate > 0 and abs(fps - rate) <= share * fps), fps)
+    rounded_rates = (round(fps, digits) for digits in (0, 3))
+    return next(
+        (rate for rate in rounded_rates if rate > 0 and abs(fps - rate) <= share * fps), fps
+    )

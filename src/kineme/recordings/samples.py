@@ -108,9 +108,9 @@ def _find_rate_and_frames(
             raise ParameterError(f"the times are none: {error}") from None
         if seconds.shape != (n,):
             raise ParameterError(f"there are {n} rows and times of shape {seconds.shape}")
-        remark = guessed and f"times are taken in {UNITS_NAMED[guessed]}, by their steps"
+        guess = guessed and f"times are taken in {UNITS_NAMED[guessed]}, by their steps"
         timing = place_rows(seconds, samples.values, fps=0.0 if fps is None else as_rate(fps))
-        return timing, [Note(remark, "warning")] if remark else []
+        return timing, [Note(guess, "warning")] if guess else []
     notes: list[Note | str] = []
     rate = samples.rate if fps is None else as_rate(fps)
     if rate is None:
@@ -252,18 +252,18 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     >>> kineme.join_signals(one, other, offsets=[0, 0]).values.tolist()
     [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 3.0], [4.0, 4.0]]
     """
-    for each in signals:
-        check_type(each, Signals, "join_signals", "kineme.as_signals(array, fps=...) gives some")
+    for sensor in signals:
+        check_type(sensor, Signals, "join_signals", "kineme.as_signals(array, fps=...) gives some")
     if not signals:
         raise ParameterError("join_signals takes one or more signals")
     clocks, notes = _compare_clocks(signals, offsets)
     begins = [float(clock.time(0.0)) for clock in clocks]
     ends = [
-        float(clock.time((each.n_frames - 1) / each.fps))
-        for clock, each in zip(clocks, signals, strict=True)
+        float(clock.time((sensor.n_frames - 1) / sensor.fps))
+        for clock, sensor in zip(clocks, signals, strict=True)
     ]
-    fps = max(each.fps for each in signals)
-    first = next(k for k, each in enumerate(signals) if each.fps == fps)
+    fps = max(sensor.fps for sensor in signals)
+    first = next(k for k, sensor in enumerate(signals) if sensor.fps == fps)
     # frames of the fastest sensor are kept
     start = begins[first] + np.ceil((max(begins) - begins[first]) * fps - 1e-3) / fps
     n_frames = int(np.floor((min(ends) - start) * fps + 1e-3)) + 1
@@ -277,18 +277,18 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         notes.append(f"{lost:.4g} s in which not all sensors recorded left out")
     times = start + np.arange(n_frames) / fps
     columns, missing = [], np.zeros(n_frames, np.bool_)
-    for clock, each in zip(clocks, signals, strict=True):
+    for clock, sensor in zip(clocks, signals, strict=True):
         seconds = clock.second(times)
-        at = np.clip(seconds * each.fps, 0, each.n_frames - 1)
-        columns.append(interpolate_frames(each.values, at))
-        hidden = np.zeros(each.n_frames + 1, np.bool_)
-        for begin, stop in each.gaps:
+        at = np.clip(seconds * sensor.fps, 0, sensor.n_frames - 1)
+        columns.append(interpolate_frames(sensor.values, at))
+        hidden = np.zeros(sensor.n_frames + 1, np.bool_)
+        for begin, stop in sensor.gaps:
             hidden[begin:stop] = True
         missing |= hidden[np.rint(at).astype(np.intp)]
         missing |= np.abs(clock.time(seconds) - times) > LONGEST_S  # times within a pause
     names = _make_names_unique(signals)
     source = signals[0].provenance
-    notes = [*(note for each in signals for note in each.provenance.notes), *notes]
+    notes = [*(note for sensor in signals for note in sensor.provenance.notes), *notes]
     joined = Provenance(source.path, source.format, source.sha256).noted(*dict.fromkeys(notes))
     begun = Clock([0.0], [start]) if abs(start) > 0.5 / fps else None
     gaps = [(begin, stop) for begin, stop in find_spans(missing).tolist()]
@@ -304,9 +304,9 @@ def _compare_clocks(
             raise ParameterError(f"offsets are {len(signals)} numbers, not {offsets!r:.60}")
         clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
         started = zip(clocks, offsets, strict=True)
-        return [_shift_clock(c.since_first(), offset) for c, offset in started], []
+        return [_shift_clock(c.make_relative(), offset) for c, offset in started], []
     clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
-    if all(clock.tells_dates for clock in clocks):
+    if all(clock.shows_dates for clock in clocks):
         return clocks, []
     lasts = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
     overlap = min(lasts) - max(clock.times[0] for clock in clocks)
@@ -316,7 +316,7 @@ def _compare_clocks(
         "the clocks of the sensors have nothing in common: taken to begin at once; give offsets"
     )
     warn(remark)
-    return [clock.since_first() for clock in clocks], [Note(remark, "warning")]
+    return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 
 
 def _shift_clock(clock: Clock, seconds: float) -> Clock:

@@ -146,7 +146,7 @@ class Skeleton:
         --------
         >>> legs = ("root", "hips", "knee_l", "foot_l", "toe_l", "knee_r", "foot_r", "toe_r")
         >>> parents = (-1, 0, 1, 2, 3, 1, 5, 6)
-        >>> Skeleton(legs, parents, np.zeros((8, 3))).carrier
+        >>> Skeleton(legs, parents, [[0, 0, 0]] * 8).carrier
         1
         """
         below, depth = [1] * self.n_joints, [0] * self.n_joints

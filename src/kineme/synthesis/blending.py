@@ -256,10 +256,10 @@ def plant_feet(motion: Motion) -> Motion:
     120
     """
     try:
-        found = end_effectors(motion)
+        effectors = end_effectors(motion)
     except EndEffectorError:
         return motion
-    for ankle in (found.left_ankle, found.right_ankle):
+    for ankle in (effectors.left_ankle, effectors.right_ankle):
         knee = motion.skeleton.parents[ankle]
         hip = motion.skeleton.parents[knee] if knee >= 0 else -1
         if hip < 0:
@@ -354,10 +354,10 @@ def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Mo
     # A triangle needs its third side between the difference and the sum of the others.
     length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
     # Angle between the directions of thigh and shin, 0 for a straight leg.
-    now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
+    bent = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
     # Law of cosines for the length wanted.
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _rotate_about(_find_hinge(thigh, shin, world[:, leg[0]]), angle - now)
+    bend = _rotate_about(_find_hinge(thigh, shin, world[:, leg[0]]), angle - bent)
     reached = thigh + rot.rotate(bend, shin)
     # The bent leg turns about the hip so that the ankle points to the target.
     swing = _rotate_onto(reached, target - hip)

@@ -44,7 +44,7 @@ POSES = KINEME.replace(offsets=(-0.2, -0.1, 0.0, 0.1, 0.2))
 
 
 @dataclass(frozen=True)
-class _Ends:
+class _EndFrames:
     """Frames at which nodes may be left or entered, and their nodes."""
 
     frames: Ints
@@ -81,10 +81,10 @@ def find_jumps(
         points, ends.frames[leave], starts.frames[enter], half=half
     )
     # Of the measured pairs below the threshold, the best of each pair of nodes becomes an edge.
-    below = np.flatnonzero(distances <= threshold)
-    key = ends.nodes[leave[below]] * len(nodes) + starts.nodes[enter[below]]
+    accepted = np.flatnonzero(distances <= threshold)
+    key = ends.nodes[leave[accepted]] * len(nodes) + starts.nodes[enter[accepted]]
     edges = []
-    for i in below[_find_nearest(key, distances[below], 1)].tolist():
+    for i in accepted[_find_nearest(key, distances[accepted], 1)].tolist():
         tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
         at = (
             # Frames are counted within their own recording again, at its own rate.
@@ -98,7 +98,7 @@ def find_jumps(
 
 def _sample_ends(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
-) -> _Ends:
+) -> _EndFrames:
     """Return frames near the ends (side 1) or starts (side 0) of all nodes.
 
     Only frames with a full window inside their recording, and close enough to the border that a
@@ -117,7 +117,7 @@ def _sample_ends(
         )
         frames.append(frames_of_node + firsts[node.source])
         owners.append(np.full(len(frames_of_node), number))
-    return _Ends(np.concatenate(frames), np.concatenate(owners))
+    return _EndFrames(np.concatenate(frames), np.concatenate(owners))
 
 
 def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
@@ -128,8 +128,8 @@ def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> 
     # Index at which the group of each entry begins.
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
     # The rank within the group.
-    kept: Ints = order[np.arange(len(order)) - starts < count]
-    return kept
+    chosen: Ints = order[np.arange(len(order)) - starts < count]
+    return chosen
 
 
 def _convert_to_source(frame: int, ratio: float) -> int:
@@ -189,21 +189,21 @@ def motion_graph(
     _check_inputs(motions, threshold, window)
     if segmentations is not None:
         check_type(segmentations, Iterable, "motion_graph", "give one segmentation per motion")
-    found = [segment(m) for m in motions] if segmentations is None else list(segmentations)
-    for each in found:
+    tables = [segment(m) for m in motions] if segmentations is None else list(segmentations)
+    for each in tables:
         check_type(each, Segmentation, "motion_graph", "kineme.segment(motion) gives one")
-    if [s.n_frames for s in found] != [m.n_frames for m in motions]:
+    if [s.n_frames for s in tables] != [m.n_frames for m in motions]:
         raise ParameterError(
-            f"segments of {[s.n_frames for s in found]} frames do not belong to motions "
+            f"segments of {[s.n_frames for s in tables]} frames do not belong to motions "
             f"of {[m.n_frames for m in motions]}"
         )
-    if len(found) > 1:
+    if len(tables) > 1:
         # Give matching clusters of different recordings the same number.
-        found = share_clusters(motions, found)
-    nodes, natural = _make_nodes(found)
+        tables = share_clusters(motions, tables)
+    nodes, successors = _make_nodes(tables)
     best = {(e.tail, e.head): e for e in find_jumps(motions, nodes, threshold, window)}
     # The recording's own successor replaces a jump between the same nodes.
-    best |= {(e.tail, e.head): e for e in natural}
+    best |= {(e.tail, e.head): e for e in successors}
     graph = MotionGraph(
         tuple(Source(m.provenance.path, m.provenance.sha256, m.n_frames) for m in motions),
         tuple(nodes),
@@ -263,11 +263,11 @@ def check_source(motion: Motion, first: Motion) -> None:
         )
 
 
-def _make_nodes(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
+def _make_nodes(segmentations: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
     """Return all primitives as nodes, and the edges to their successors in the recording."""
     nodes: list[Node] = []
     edges: list[Edge] = []
-    for source, segmentation in enumerate(found):
+    for source, segmentation in enumerate(segmentations):
         rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
         first = len(nodes)
         nodes += [

@@ -202,8 +202,8 @@ class MotionGraph:
     def nodes_of(self, name: str) -> list[int]:
         """Return the nodes of a super-node; raise ParameterError if it does not exist."""
         if name not in self.names:
-            listing = ", ".join(f"{name} ({n})" for name, n in self.names.items())
-            raise ParameterError(f"no node is called {name!r}; there are {listing or 'no names'}")
+            available = ", ".join(f"{name} ({n})" for name, n in self.names.items())
+            raise ParameterError(f"no node is called {name!r}; there are {available or 'no names'}")
         return [i for i, node in enumerate(self.nodes) if node.name == name]
 
     def core(self) -> Ints:
@@ -225,19 +225,19 @@ class MotionGraph:
 
     def pruned(self) -> MotionGraph:
         """Return the graph reduced to its core; raise ParameterError if there is none."""
-        kept = self.core().tolist()
-        if not kept:
+        nodes = self.core().tolist()
+        if not nodes:
             raise ParameterError(
                 f"no node can be reached again with jumps of at most {self.threshold:g} m; "
                 "raise the threshold, or give recordings that repeat an action"
             )
-        number = {node: i for i, node in enumerate(kept)}
+        number = {node: i for i, node in enumerate(nodes)}
         edges = [
             replace(edge, tail=number[edge.tail], head=number[edge.head])
             for edge in self.edges
             if edge.tail in number and edge.head in number
         ]
-        return replace(self, nodes=tuple(self.nodes[i] for i in kept), edges=tuple(edges))
+        return replace(self, nodes=tuple(self.nodes[i] for i in nodes), edges=tuple(edges))
 
     def _adjacency(self) -> Any:
         from scipy.sparse import csr_array

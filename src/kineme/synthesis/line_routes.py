@@ -274,14 +274,14 @@ def _measure_progress(
         if now.point < len(points) - 1:
             # Only search ahead, so that progress never decreases.
             apart = np.abs(points[now.point : now.point + ahead] - place)
-            near = int(apart.argmin())
-            off = float(apart[near])
+            nearest = int(apart.argmin())
+            off = float(apart[nearest])
             # Integral of the squared distance plus the price of time.
             now = _Progress(
-                now.point + near,
+                now.point + nearest,
                 now.cost + (off**2 + TIME) * seconds,
                 # Tuples compare by distance first and keep the point of the largest one.
-                *max((now.worst, now.worst_at), (off, now.point + near)),
+                *max((now.worst, now.worst_at), (off, now.point + nearest)),
             )
         reached.append(now)
     return reached

@@ -43,13 +43,13 @@ class Windows(NamedTuple):
     samples: Ints
 
 
-def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
+def write_index(folder: Path, tables: str, recordings: dict[str, list[Any]]) -> None:
     """Write an index beside the tables of that name, if the library is large enough."""
     samples = _list_samples(recordings)
     rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
         return
-    home = folder / TABLES / named
+    home = folder / TABLES / tables
     if all(_make_path(home, length).is_file() for length in LENGTHS):
         return
     with ExitStack() as stack:
@@ -73,10 +73,10 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
 
 
 def open_index(
-    folder: Path, named: str, recordings: dict[str, list[Any]], length: int
+    folder: Path, tables: str, recordings: dict[str, list[Any]], length: int
 ) -> Windows | None:
     """Return the windows of one length, or None if the library has no index."""
-    path = _make_path(folder / TABLES / named, length)
+    path = _make_path(folder / TABLES / tables, length)
     try:
         embedded: Bytes = np.load(copy_nearby(path), mmap_mode="r", allow_pickle=False)
     except FileNotFoundError:

@@ -28,7 +28,7 @@ EXTRA = "remote"
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
-def make_path(given: str | PathLike[str], caller: str = "make_path") -> Path:
+def make_path(path: str | PathLike[str], caller: str = "make_path") -> Path:
     """Return a path object for a path or URL.
 
     Examples
@@ -36,21 +36,21 @@ def make_path(given: str | PathLike[str], caller: str = "make_path") -> Path:
     >>> make_path("file:///tmp/takes").name
     'takes'
     """
-    if is_remote(given):
-        return cast("Path", given)
-    check_path(given, caller)
-    if not isinstance(given, str) or not _URL.match(given):
-        return Path(given)
-    if given.lower().startswith("file://"):
-        return Path(url2pathname(urlparse(given).path))
+    if is_remote(path):
+        return cast("Path", path)
+    check_path(path, caller)
+    if not isinstance(path, str) or not _URL.match(path):
+        return Path(path)
+    if path.lower().startswith("file://"):
+        return Path(url2pathname(urlparse(path).path))
     with require_extra("universal_pathlib", EXTRA):
         from upath import UPath
     try:
-        found = UPath(given)
-        _ = found.fs
+        remote = UPath(path)
+        _ = remote.fs
     except (ImportError, ValueError) as error:  # e.g. "Install s3fs to access S3"
-        raise ParameterError(f"{given:.200} cannot be reached: {error}") from error
-    return cast("Path", found)
+        raise ParameterError(f"{path:.200} cannot be reached: {error}") from error
+    return cast("Path", remote)
 
 
 def is_remote(path: str | PathLike[str]) -> bool:

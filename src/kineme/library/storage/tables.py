@@ -118,14 +118,14 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
             with atomic_write(draft / f"{name}.parquet") as file:
                 parquet.write_table(table, file, compression="zstd")
             digest.update((draft / f"{name}.parquet").read_bytes())
-        named = digest.hexdigest()[:16]
-        if not OwnedFolder(folder).path(TABLES, named).is_dir():
-            draft.rename(home / named)
+        folder_name = digest.hexdigest()[:16]
+        if not OwnedFolder(folder).path(TABLES, folder_name).is_dir():
+            draft.rename(home / folder_name)
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(draft, ignore_errors=True)
-    return named
+    return folder_name
 
 
 def _upload_tables(home: Path, tables: Mapping[str, Any]) -> str:
@@ -133,18 +133,18 @@ def _upload_tables(home: Path, tables: Mapping[str, Any]) -> str:
 
     This is safe because the head names the tables only after all files exist.
     """
-    with TemporaryDirectory(prefix="kineme-") as near:
-        named = write_tables(Path(near), tables)
-        for file in sorted((Path(near) / TABLES / named).iterdir()):
-            with write_locally(home / named / file.name) as draft:
+    with TemporaryDirectory(prefix="kineme-") as local_folder:
+        folder_name = write_tables(Path(local_folder), tables)
+        for file in sorted((Path(local_folder) / TABLES / folder_name).iterdir()):
+            with write_locally(home / folder_name / file.name) as draft:
                 shutil.copy(file, draft)
-    return named
+    return folder_name
 
 
-def read_table(folder: Path, named: str, name: str) -> Any:
+def read_table(folder: Path, folder_name: str, name: str) -> Any:
     """Read a table from the folder of tables ``named``, as a pyarrow.Table."""
     pa, parquet = import_arrow()
-    path = folder / TABLES / named / f"{name}.parquet"
+    path = folder / TABLES / folder_name / f"{name}.parquet"
     with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
