@@ -1,1 +1,1 @@
-"""Helpers that any room may import; none of them knows what a recording is."""
+"""General helpers that any package of kineme may import; they do not depend on recordings."""

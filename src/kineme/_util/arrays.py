@@ -1,4 +1,4 @@
-"""Types of arrays, and values between frames."""
+"""Array types and interpolation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Masks = NDArray[np.bool_]
 
 
 def interpolate_frames(values: ArrayLike, at: ArrayLike) -> Floats:
-    """Values (frames, ...) at fractional frames; beyond the last frame the line is carried on.
+    """Interpolate values (frames, ...) linearly at fractional frames; extrapolate at the end.
 
     Examples
     --------
@@ -23,19 +23,19 @@ def interpolate_frames(values: ArrayLike, at: ArrayLike) -> Floats:
     [5.0, 20.0]
     """
     rows, places = np.asarray(values, np.float64), np.asarray(at, np.float64)
-    # The last frame but one at most, so that a place beyond the end has a line to follow.
+    # At most the last frame but one, so that positions beyond the end are extrapolated.
     before = np.minimum(places.astype(np.intp), max(0, len(rows) - 2))
     after = np.minimum(before + 1, len(rows) - 1)
-    # New axes, so that the share applies to all further axes of the values.
+    # Add axes to broadcast over the remaining axes of the values.
     share = (places - before)[(..., *[None] * (rows.ndim - 1))]
     mixed: Floats = (1 - share) * rows[before] + share * rows[after]
     return mixed
 
 
 def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:
-    """Fill the hidden frames of one coordinate, in place, from the frames around them.
+    """Interpolate the hidden frames of one coordinate in place.
 
-    Before the first and after the last frame that is not hidden its value is kept.
+    The first and last visible values are repeated at the ends.
     """
     present = np.flatnonzero(~hidden)
     track[hidden] = np.interp(np.flatnonzero(hidden), present, track[present])

@@ -1,4 +1,4 @@
-"""Check arguments, count in sentences, and register named objects."""
+"""Check arguments, format lists and counts, and register named objects."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from numpy.typing import ArrayLike, NDArray
 from kineme.errors import KinemeWarning, MissingDependencyError, MotionError, ParameterError
 
 MOST_FRAMES_MORE = 1000
-"""Frames at a new rate for one of the old, at most; beyond that the old one is wrong."""
+"""Largest ratio of a new to an old frame rate; above it the old rate is probably wrong."""
 
 
 @contextmanager
 def require_extra(package: str, extra: str) -> Iterator[None]:
-    """MissingDependencyError where the imports in it fail; the extra installs the package."""
+    """Raise MissingDependencyError if imports in the block fail; ``extra`` installs the package."""
     try:
         yield
     except ImportError as error:
@@ -33,7 +33,7 @@ def require_extra(package: str, extra: str) -> Iterator[None]:
 
 
 def check_rates(old: float, new: float) -> None:
-    """ParameterError where the frames at a new rate would be beyond all measure."""
+    """Raise ParameterError if resampling to a new rate would create too many frames."""
     if new > MOST_FRAMES_MORE * old:
         raise ParameterError(
             f"frames {1 / old:g} s apart are too far for {new:g} a second: is the frame rate right?"
@@ -41,7 +41,7 @@ def check_rates(old: float, new: float) -> None:
 
 
 def is_number(value: object) -> bool:
-    """Return whether it is one finite number, as large as a float can be."""
+    """Return whether a value is a finite number in the range of floats."""
     try:
         return isinstance(value, Real) and math.isfinite(value)
     except OverflowError:
@@ -49,23 +49,23 @@ def is_number(value: object) -> bool:
 
 
 def is_text(name: str) -> bool:
-    """Whether a name can be written as UTF-8; that of a file or a joint may hold half a pair."""
+    """Return whether a name can be encoded as UTF-8, that is, has no lone surrogates."""
     return not any("\ud800" <= letter <= "\udfff" for letter in name)
 
 
 def check_flag(value: object, name: str) -> None:
-    """ParameterError unless the value is True or False."""
+    """Raise ParameterError unless the value is True or False."""
     if not isinstance(value, bool | np.bool_):
         raise ParameterError(f"{name} must be True or False, not {value!r:.60}")
 
 
 def is_one_of(value: object, choices: Collection[str]) -> bool:
-    """Return whether it is one of the known texts; anything at all may be asked about."""
+    """Return whether a value of any type is one of the texts."""
     return isinstance(value, str) and value in choices
 
 
 def check_one_of(value: object, choices: Collection[str], what: str) -> None:
-    """ParameterError unless it is one of the known texts."""
+    """Raise ParameterError unless the value is one of the texts."""
     if not is_one_of(value, choices):
         raise ParameterError(f"{what} must be one of {', '.join(choices)}, not {value!r:.60}")
 
@@ -78,22 +78,22 @@ def check_type(
     *,
     error: type[ParameterError | MotionError] = ParameterError,
 ) -> None:
-    """``error`` with advice where a public function was given something else."""
+    """Raise ``error`` with advice if an argument of a public function has another type."""
     if not isinstance(value, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
         expected = " or ".join(kind.__name__ for kind in kinds)
-        if not expected.endswith("s"):  # Signals are many
+        if not expected.endswith("s"):  # no article before "Signals"
             expected = f"{'an' if expected[0] in 'AEIOU' else 'a'} {expected}"
         raise error(f"{caller} takes {expected}, not {type(value).__name__}: {advice}")
 
 
 def check_path(path: object, caller: str) -> None:
-    """ParameterError where a public function was given no path."""
+    """Raise ParameterError if an argument of a public function is not a path."""
     check_type(path, (str, PathLike), caller, "give the path of a file")
 
 
 def check_suffixes(suffixes: object, name: str) -> None:
-    """ParameterError unless a format's suffixes are as paths are compared with them."""
+    """Raise ParameterError unless suffixes are a tuple of lower-case texts with a dot."""
     if not (
         isinstance(suffixes, tuple)
         and suffixes
@@ -106,7 +106,7 @@ def check_suffixes(suffixes: object, name: str) -> None:
 
 
 def as_indices(values: Any, name: str) -> list[int]:
-    """Return the values as whole numbers; ParameterError where they are not."""
+    """Return the values as integers; raise ParameterError if they are not."""
     try:
         return [index(value) for value in values]
     except TypeError:
@@ -116,18 +116,18 @@ def as_indices(values: Any, name: str) -> list[int]:
 def as_texts(
     values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> tuple[str, ...]:
-    """Return the values as texts; ``error`` where they are one text or something else."""
+    """Return the values as a tuple of texts; raise ``error`` for a single text or other types."""
     if isinstance(values, Iterable) and not isinstance(values, str):
-        found = tuple(values)
-        if all(isinstance(value, str) for value in found):
-            return found
+        texts = tuple(values)
+        if all(isinstance(value, str) for value in texts):
+            return texts
     raise error(f"{name} must be a list of texts, not {values!r:.60}")
 
 
 def as_spans(
     gaps: Any, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> tuple[tuple[int, int], ...]:
-    """Return the gaps as pairs of frames (start, stop); ``error`` where they are not."""
+    """Return gaps as pairs of frames (start, stop); raise ``error`` if they are not."""
     try:
         return tuple((index(start), index(stop)) for start, stop in gaps)
     except (TypeError, ValueError):
@@ -137,25 +137,25 @@ def as_spans(
 def as_floats(
     values: Any, name: str, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> NDArray[np.float64]:
-    """Return the values as a float64 array, of any shape; ``error`` where they are not numbers."""
+    """Return the values as a float64 array of any shape; raise ``error`` if not numbers."""
     try:
-        given = np.asarray(values)
-        if given.dtype.kind != "c":  # numpy would drop the imaginary parts
-            return np.asarray(given, np.float64)
+        array = np.asarray(values)
+        if array.dtype.kind != "c":  # numpy would drop the imaginary parts
+            return np.asarray(array, np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
-    shown = repr(values) if isinstance(values, str) else type(values).__name__
+    description = repr(values) if isinstance(values, str) else type(values).__name__
     if isinstance(values, np.ndarray):
-        shown = f"{values.dtype} values"
-    raise error(f"{name} must be an array of numbers, not {shown:.60}") from None
+        description = f"{values.dtype} values"
+    raise error(f"{name} must be an array of numbers, not {description:.60}") from None
 
 
 def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64]:
-    """Return the values as float64 (frames, dims) without gaps in memory.
+    """Return the values as a C-contiguous float64 array (frames, dims).
 
-    ParameterError unless finite.
+    Raise ParameterError unless finite.
     """
-    # Compiled code is typed for arrays that may be written to, whether it does or not.
+    # Compiled code is typed for writeable arrays.
     array = np.require(as_floats(values, name), requirements=("C", "W"))
     if array.ndim != 2 or 0 in array.shape:
         raise ParameterError(
@@ -168,10 +168,11 @@ def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64
 
 
 MANY = {"activity": "activities", "person": "people"}
+"""Irregular plurals."""
 
 
 def format_count(n: int, one: str) -> str:
-    """Return a number and a noun, which is given for one.
+    """Return a number and a noun, in the plural if needed.
 
     Examples
     --------
@@ -182,7 +183,7 @@ def format_count(n: int, one: str) -> str:
 
 
 def join_names(names: Sequence[str], most: int = 8) -> str:
-    """Return the first names, and how many more there are.
+    """Join the first names, and add the number of the others.
 
     Examples
     --------
@@ -194,9 +195,9 @@ def join_names(names: Sequence[str], most: int = 8) -> str:
 
 
 def make_unique(names: Iterable[str], *, allow_empty: bool = False) -> list[str]:
-    """Return the names, those that repeat an earlier one with a number behind them.
+    """Make names unique by appending a number to duplicates.
 
-    An empty name gets a number, too, unless it is allowed.
+    Empty names get a number, too, unless they are allowed.
 
     Examples
     --------
@@ -204,18 +205,18 @@ def make_unique(names: Iterable[str], *, allow_empty: bool = False) -> list[str]
     ['hip', 'knee', 'hip_2', '_2']
     """
     distinct: dict[str, None] = {}
-    tried: dict[str, int] = {}  # the last number behind each name
+    last_numbers: dict[str, int] = {}  # the last number behind each name
     for name in names:
         new = name
         while new in distinct or not (new or allow_empty):
-            tried[name] = tried.get(name, 1) + 1
-            new = f"{name}_{tried[name]}"
+            last_numbers[name] = last_numbers.get(name, 1) + 1
+            new = f"{name}_{last_numbers[name]}"
         distinct[new] = None
     return list(distinct)
 
 
 class Named(Protocol):
-    """What a registry holds: anything with a name."""
+    """Any object with a name."""
 
     @property
     def name(self) -> str: ...
@@ -227,24 +228,24 @@ T = TypeVar("T", bound=Named)
 class Registry(Mapping[str, T]):
     """Objects of one kind by their names.
 
-    A name that is taken stays with the object that has it, unless another is to replace it.
+    A name cannot be registered twice unless the new object replaces the old one.
 
     Parameters
     ----------
     kind : type
-        Of the objects.
+        Type of the objects.
     what : str
-        What one of them is called in messages.
+        Noun for an object in messages.
     group : str
-        Entry points by which other packages name theirs, such as ``kineme.scores``. Each stands
-        for one object or a tuple of them. What cannot be loaded or taken is left out, and a
-        `KinemeWarning` names it.
+        Group of entry points for objects of other packages, such as ``kineme.scores``. Each entry
+        point names one object or a tuple. Those that fail to load are skipped with a
+        `KinemeWarning`.
     home : str
-        The package that the names of ``builtins`` are relative to; a dot leads out of it.
+        Package that the names in ``builtins`` are relative to.
     builtins : sequence of str
-        The package's own, as ``module:NAME`` of one object or a tuple of them.
+        Built-in objects as ``module:NAME`` of one object or a tuple.
     newest_first : bool
-        Whether objects that are added later stand ahead of the others.
+        Whether objects that are added later come before the others.
 
     Examples
     --------
@@ -283,12 +284,12 @@ class Registry(Mapping[str, T]):
         self._loading = self._loaded = False
 
     def register(self, new: T, *, replace: bool = False) -> None:
-        """Add an object under its name; ParameterError where it is taken, or of another kind."""
+        """Add an object; raise ParameterError if its name is taken or it has another type."""
         self._load()
         self._add(new, replace=replace)
 
     def remove(self, name: str) -> None:
-        """Take an object out again; KeyError where there is none of this name."""
+        """Remove an object; raise KeyError if there is none with this name."""
         self._load()
         del self._objects[name]
 
@@ -324,39 +325,41 @@ class Registry(Mapping[str, T]):
             self._objects[new.name] = new
 
     def _load(self) -> None:
-        """Look up the package's own and those of other packages, once.
+        """Load built-in objects and plugins once.
 
-        What is loaded may ask for this registry in turn: it then sees what is there so far.
+        Modules that access the registry while they are loaded see the objects so far.
         """
         if self._loaded:
             return
         with self._lock:
-            if self._loading:  # further up by this thread, or by another that is done by now
+            if self._loading:  # a recursive call, or loaded meanwhile by another thread
                 return
             self._loading = True
             try:
                 builtins = [
                     new for path in self._builtins for new in _load_objects(path, self._home)
                 ]
-                # Each is put in front, so the reversed order comes out right.
+                # Each is inserted at the front, so load them in reverse order.
                 for new in reversed(builtins) if self._newest_first else builtins:
                     self._add(new)
                 self._add_plugins()
                 self._loaded = True
             except BaseException:
-                # A failed load leaves nothing behind, so that the next one starts anew.
+                # Reset after a failure, so that the next access tries again.
                 self._objects, self._loading = {}, False
                 raise
 
     def _add_plugins(self) -> None:
-        from importlib.metadata import entry_points  # slow to load: not before it is asked for
+        from importlib.metadata import entry_points  # slow to import
 
         for point in sorted(entry_points(group=self._group), key=lambda point: point.name):
             try:
                 for new in _as_sequence(point.load()):
-                    if self._objects.get(getattr(new, "name", "")) is not new:  # else by itself
+                    if (
+                        self._objects.get(getattr(new, "name", "")) is not new
+                    ):  # may register itself
                         self._add(new)
-            except Exception as error:  # noqa: BLE001 (whatever a stranger's module raises)
+            except Exception as error:  # noqa: BLE001 (plugins may raise anything)
                 reason = f"{type(error).__name__}: {error}"
                 warnings.warn(
                     f"{point.name!r} of {self._group} is left out, it cannot be loaded: {reason}",
@@ -366,17 +369,17 @@ class Registry(Mapping[str, T]):
 
 
 def _load_objects(path: str, home: str) -> Iterable[Any]:
-    """Return the objects that ``module:NAME`` names."""
+    """Import the objects named by ``module:NAME``."""
     module, _, name = path.partition(":")
     return _as_sequence(getattr(import_module(f".{module}", home), name))
 
 
-def _as_sequence(found: Any) -> Iterable[Any]:
-    return found if isinstance(found, tuple | list) else (found,)
+def _as_sequence(objects: Any) -> Iterable[Any]:
+    return objects if isinstance(objects, tuple | list) else (objects,)
 
 
 def warn(message: str) -> None:
-    """Warn (`KinemeWarning`) at the line outside the package from which it was called."""
+    """Issue a `KinemeWarning` attributed to the calling line outside of kineme."""
     level, frame = 1, sys._getframe()  # noqa: SLF001
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("kineme."):
         level, frame = level + 1, frame.f_back

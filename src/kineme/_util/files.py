@@ -1,4 +1,4 @@
-"""Files and folders: made whole or not at all, known by their ends, read to one kind of error."""
+"""Write files and folders atomically, convert read errors, and derive file names."""
 
 from __future__ import annotations
 
@@ -21,64 +21,63 @@ from kineme.errors import FileError, KinemeError, LinkError, ReadError, WriteErr
 
 AnyPath = str | os.PathLike[str]
 HEAD = 4096
-"""Bytes by which a file is known without reading it whole."""
+"""Bytes at the start of a file that identify its format."""
 TAIL = 1 << 16
-"""Bytes at the end of a Parquet file, where it names its columns."""
+"""Bytes at the end of a Parquet file that hold its column names."""
 CORRECTED = ".segments.json"
-"""How the name of a table ends that somebody corrected in the studio."""
+"""End of the name of a table that was corrected in the studio."""
 LONGEST_PERSON = 60
-"""Bytes of a person's name in that of a file, which may have 255 in all."""
+"""Longest person's name in a file name, in bytes; file names are limited to 255."""
 VIDEOS = (
     ".mp4", ".webm", ".m4v", ".mov", ".ogv", ".mkv", ".avi", ".3gp", ".mts", ".mpg", ".wmv",
 )  # fmt: skip
-"""Suffixes of videos; those that browsers play come first."""
+"""Suffixes of videos; those that browsers can play come first."""
 POSES = ".poses.parquet"
-"""Behind the name of a video in that of the table of its poses."""
-if sys.platform != "win32":  # where an open file cannot be removed anyway
+"""Suffix of the table of poses, appended to the name of the video."""
+if sys.platform != "win32":  # Windows does not delete open files anyway
     import fcntl
 
 PIPE = "is a pipe or a device: save what comes from it in a file"
 ABANDONED_S = 3600.0
-"""Age from which a draft that no writer holds is that of one that was killed."""
+"""Age in seconds after which an unlocked draft counts as left by a killed process."""
 
 _DRAFT = re.compile(r"\.kineme-[0-9a-f]{12}(\.\w+)?")
-_swept: set[Path] = set()  # folders whose drafts this process has looked at
+_cleaned: set[Path] = set()  # folders whose abandoned drafts this process has removed
 
 
 @contextmanager
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A path to write to; what is there when the block ends becomes ``path``.
+    """Provide a draft to write to, which replaces ``path`` when the block ends.
 
-    It lies in the same folder and keeps the suffix. A link at ``path`` is refused: whoever
-    made it would say which file is overwritten. If the block raises, the draft
-    is removed and what was at ``path`` before stays as it was. Once the block has
-    ended the file is on the disk under its name, should the machine go down.
-    Drafts of killed writers are removed when they are an hour old.
+    The draft is in the same folder and has the same suffix. A link at ``path`` is rejected, since
+    it would redirect the write. If the block raises, the draft is removed and ``path`` stays
+    unchanged. After the block the file is flushed to disk. Drafts of killed processes are removed
+    after an hour.
 
     Raises
     ------
     WriteError
-        The folder is missing, the file cannot be written, or is a link to elsewhere.
+        The folder is missing, or the file cannot be written or is a link.
     """
     final, draft = _find_paths(path)
     with _write_draft(draft, final, path):
         yield draft
-        # On the disk before it takes the name: a crash leaves the old file or the new one.
+        # Flush before renaming: a crash leaves either the old file or the new one.
         _flush_to_disk(draft)
         draft.replace(final)
 
 
 @contextmanager
 def atomic_folder(target: Path) -> Iterator[Path]:
-    """A folder to fill; what is in it when the block ends is in ``target``.
+    """Provide a draft folder to fill, which replaces ``target`` when the block ends.
 
-    It lies beside ``target``, which is new or empty, and takes its place. If the block
-    raises, it is removed. Drafts of killed writers are removed when they are an hour old.
+    The draft is beside ``target``, which must be new or empty. If the block raises, the draft is
+    removed. Drafts of killed processes are removed after an hour.
 
     Raises
     ------
     WriteError
-        Something is there already, or the folder cannot be made or written.
+        ``target`` exists and is not empty, or the folder cannot be created or written.
     """
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         raise WriteError(target, "is there already: name a new folder, or empty this one")
@@ -91,7 +90,7 @@ def atomic_folder(target: Path) -> Iterator[Path]:
         raise WriteError(target, reason) from error
     with _write_draft(draft, target, target):
         yield draft
-        # A folder can only replace an empty one that is gone.
+        # A rename onto an existing folder fails on some systems.
         if target.is_dir():
             target.rmdir()
         draft.rename(target)
@@ -99,9 +98,9 @@ def atomic_folder(target: Path) -> Iterator[Path]:
 
 @contextmanager
 def _write_draft(draft: Path, final: Path, path: AnyPath) -> Iterator[None]:
-    """Hold a draft until the block has given it its final name; remove it if that fails.
+    """Lock a draft until the block has renamed it; remove it if that fails.
 
-    Errors name the ``path`` that was asked for.
+    Errors name the requested ``path``.
     """
     descriptor = None
     try:
@@ -116,13 +115,13 @@ def _write_draft(draft: Path, final: Path, path: AnyPath) -> Iterator[None]:
     finally:
         if descriptor is not None:
             os.close(descriptor)
-        with suppress(OSError):  # a place that may not be written any more
+        with suppress(OSError):  # the folder may have become read-only
             draft.unlink(missing_ok=True)
         shutil.rmtree(draft, ignore_errors=True)
 
 
 def _rename_error(error: FileError, draft: Path, final: Path) -> FileError:
-    """Return the error of a draft, or of a file in one, by the name that people know."""
+    """Return the error with the final path instead of that of the draft."""
     path = Path(error.path)
     if not path.is_relative_to(draft):
         return error
@@ -131,16 +130,15 @@ def _rename_error(error: FileError, draft: Path, final: Path) -> FileError:
 
 @contextmanager
 def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
-    """A block that reads a file: it ends well, or in an error of the package.
+    """Convert any exception in a block that reads a file to an error of kineme.
 
-    Readers check what they can say something useful about; this is for the rest.
-    Numbers too large to compute with are refused by what is made of them, so numpy
-    need not warn of them.
+    Readers raise specific errors themselves; this handles the rest. Warnings of numpy about too
+    large numbers are suppressed, since such numbers are rejected later.
 
     Raises
     ------
     ReadError
-        In place of any exception but the package's own; the cause is kept.
+        Replaces any exception of other packages, with the original as its cause.
     """
     import numpy as np
 
@@ -150,7 +148,7 @@ def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
             warnings.simplefilter("ignore", RuntimeWarning)
             yield
     except KinemeError as error:
-        # A ValueError of the package says what is wrong with the content of the file.
+        # A ValueError of kineme describes an error in the content of the file.
         if isinstance(error, FileError | ImportError) or not isinstance(error, ValueError):
             raise
         raise ReadError(path, str(error)) from error
@@ -177,8 +175,8 @@ def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
 class OwnedFolder:
     """A folder in which kineme writes and deletes files.
 
-    Nothing below `root` is written or deleted through a link, and only files with names that
-    kineme gives are deleted. The root itself may be a link: a person named it.
+    Nothing below `root` is written or deleted through a link, and only files with kineme's names
+    are deleted. The root itself may be a link, since the user chose it.
     """
 
     root: Path
@@ -192,7 +190,7 @@ class OwnedFolder:
         return path
 
     def make(self, *names: str) -> Path:
-        """Make a folder below this one, with the folders around it, and return its path."""
+        """Create a folder below this one, with missing parents, and return its path."""
         path = self.path(*names)
         try:
             path.mkdir(parents=True, exist_ok=True)
@@ -201,9 +199,9 @@ class OwnedFolder:
         return path
 
     def delete(self, *names: str, is_ours: Callable[[str], object]) -> None:
-        """Delete the files in a folder below this one whose names are kineme's.
+        """Delete the files in a folder below this one for whose names ``is_ours`` is true.
 
-        Links, folders and other people's files stay. Nothing is deleted through a link.
+        Links, folders and other files stay. Nothing is deleted through a link.
         """
         with suppress(OSError, WriteError):
             for path in [*self.path(*names).iterdir()]:
@@ -213,60 +211,60 @@ class OwnedFolder:
 
 
 def is_draft(name: str) -> bool:
-    """Return whether `atomic_write` gives such names to what is not written to its end yet."""
+    """Return whether a file name is that of a draft of `atomic_write` or `atomic_folder`."""
     return _DRAFT.fullmatch(name) is not None
 
 
 def refuse_link(path: Path) -> None:
-    """Raise LinkError if a file or folder is a link: others would choose where it leads."""
-    if hasattr(path, "protocol"):  # of universal_pathlib: there are no links
+    """Raise LinkError if a file or folder is a link, which could redirect a write."""
+    if hasattr(path, "protocol"):  # universal_pathlib has no links
         return
     try:
-        found = path.lstat()
+        status = path.lstat()
     except (FileNotFoundError, NotADirectoryError):
         return
-    except (OSError, ValueError) as error:  # a folder closed to us; a null byte in the name
+    except (OSError, ValueError) as error:  # no permission; a null byte in the name
         reason = getattr(error, "strerror", None) or error
         raise WriteError(path, f"cannot be written: {reason}") from error
-    if stat.S_ISLNK(found.st_mode):
+    if stat.S_ISLNK(status.st_mode):
         raise LinkError(path, "is a link, which could lead out of the folder: remove it")
 
 
 def refuse_pipe(path: str | os.PathLike[str]) -> None:
-    """ReadError where a path of this machine is a pipe or a device, which might be waited for."""
+    """Raise ReadError if a local path is a pipe or device, since reading could block."""
     if _is_pipe(path):
         raise ReadError(path, PIPE)
 
 
 def _is_pipe(path: str | os.PathLike[str]) -> bool:
-    if hasattr(path, "protocol"):  # of universal_pathlib
+    if hasattr(path, "protocol"):  # a path of universal_pathlib
         return False
     try:
-        mode = os.stat(path).st_mode  # noqa: PTH116 (a text serves as well)
-    except (OSError, ValueError):  # reading will say what is wrong
+        mode = os.stat(path).st_mode  # noqa: PTH116 (path may be a str)
+    except (OSError, ValueError):  # reading will report the error
         return False
     return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
 def find_video(recording: Path) -> Path | None:
-    """Return the video of a recording: itself, or a file of its name beside it; None without one.
+    """Return the video of a recording: itself or a file with its name beside it, or None.
 
-    The table ``squats.mp4.poses.parquet`` has ``squats.mp4``.
+    For ``squats.mp4.poses.parquet`` it is ``squats.mp4``.
     """
     if not recording.name:
         return None
-    own = recording.with_name(recording.name.removesuffix(POSES) or recording.name)
-    beside = [own.with_suffix(end) for suffix in VIDEOS for end in (suffix, suffix.upper())]
-    for path in [own, *beside] if own.suffix.lower() in VIDEOS else beside:
+    video = recording.with_name(recording.name.removesuffix(POSES) or recording.name)
+    beside = [video.with_suffix(end) for suffix in VIDEOS for end in (suffix, suffix.upper())]
+    for path in [video, *beside] if video.suffix.lower() in VIDEOS else beside:
         if path.is_file() and not path.is_symlink():
             return path
     return None
 
 
 def add_person(path: Path, person: str) -> Path:
-    """What is called after one of the people in a recording: ``walk_anna.csv`` for ``walk.csv``.
+    """Return a path with a person's name added: ``walk_anna.csv`` for ``walk.csv``.
 
-    The same path where nobody is named.
+    Return the same path if ``person`` is empty.
     """
     if not person:
         return path
@@ -275,7 +273,7 @@ def add_person(path: Path, person: str) -> Path:
 
 
 def as_display_name(name: str | os.PathLike[str]) -> str:
-    r"""Return the name of a file as text that every output can hold.
+    r"""Return a file name as valid Unicode text.
 
     Bytes that are not UTF-8 become the replacement character.
 
@@ -288,13 +286,13 @@ def as_display_name(name: str | os.PathLike[str]) -> str:
 
 
 def make_person_suffix(person: str) -> str:
-    """What the names of files end in that are of one person: ``_anna``; nothing for nobody."""
+    """Return the suffix of file names of one person, such as ``_anna``; empty for no person."""
     name = re.sub(r"[^\w.-]+", "_", person).encode(errors="ignore")[:LONGEST_PERSON]
     return f"_{name.decode(errors='ignore').strip('._') or 'person'}" if person else ""
 
 
 def read_head(path: Path) -> bytes:
-    """Return the first bytes of a file; OSError if it cannot be opened."""
+    """Return the first bytes of a file; raise OSError if it cannot be opened."""
     if _is_pipe(path):
         raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
@@ -302,7 +300,7 @@ def read_head(path: Path) -> bytes:
 
 
 def read_tail(path: Path) -> bytes:
-    """Return the last bytes of a file; OSError if it cannot be opened."""
+    """Return the last bytes of a file; raise OSError if it cannot be opened."""
     if _is_pipe(path):
         raise OSError(errno.EINVAL, PIPE)
     with path.open("rb") as file:
@@ -311,12 +309,12 @@ def read_tail(path: Path) -> bytes:
 
 
 def shorten_error(error: Exception) -> str:
-    """Return what an exception of another package says, on one line."""
+    """Return the message of an exception on one line, shortened."""
     return " ".join(str(error).split())[:120]
 
 
 def _find_paths(path: str | os.PathLike[str]) -> tuple[Path, Path]:
-    """Where the file goes in the end, and where it is written."""
+    """Return the final path of a file and the path of its draft."""
     target = Path(path)
     refuse_link(target)
     try:
@@ -324,16 +322,16 @@ def _find_paths(path: str | os.PathLike[str]) -> tuple[Path, Path]:
             raise WriteError(path, "cannot be written: it is a folder; name a file in it")
         if not target.parent.is_dir():
             raise WriteError(path, f"cannot be written: the folder {target.parent} does not exist")
-        # The folder's own name outlives links on the way to it that are changed meanwhile.
+        # Resolve links now, in case they change during the write.
         final = Path(os.path.realpath(target.parent)) / target.name
-    except OSError as error:  # a folder closed to us
+    except OSError as error:  # no permission
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
     _remove_abandoned_drafts(final.parent)
     return final, final.with_name(f".kineme-{secrets.token_hex(6)}{final.suffix}")
 
 
 def _open_locked(draft: Path) -> int | None:
-    """Make the draft, unless it is a folder, and lock it as long as it is written."""
+    """Create the draft, unless it is a folder, and lock it; return its descriptor."""
     if sys.platform == "win32":
         return None
     descriptor = _open_draft(draft)
@@ -342,7 +340,7 @@ def _open_locked(draft: Path) -> int | None:
 
 
 def lock_shared(file: int) -> None:
-    """Lock an open file as one that is being written, until it is closed; see `is_locked`."""
+    """Mark an open file as being written, by a shared lock until it is closed."""
     if sys.platform != "win32":
         with suppress(OSError):  # file systems without locks
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -354,7 +352,7 @@ def _open_draft(draft: Path) -> int:
 
 
 def is_locked(draft: Path) -> bool:
-    """Return whether a writer still has a draft open."""
+    """Return whether a writer still holds a draft."""
     if sys.platform == "win32":
         return False
     file = _open_draft(draft)
@@ -370,9 +368,9 @@ def is_locked(draft: Path) -> bool:
 
 def _remove_abandoned_drafts(folder: Path) -> None:
     """Remove drafts of killed writers, once per folder and process."""
-    if folder in _swept:
+    if folder in _cleaned:
         return
-    _swept.add(folder)
+    _cleaned.add(folder)
     with suppress(OSError), os.scandir(folder) as entries:
         drafts = [Path(entry) for entry in entries if _DRAFT.fullmatch(entry.name)]
         for draft in drafts:
@@ -387,24 +385,24 @@ def _remove_abandoned_drafts(folder: Path) -> None:
 
 
 def _flush_to_disk(place: Path) -> None:
-    """Have a file, or the names in a folder, on the disk."""
-    if sys.platform == "win32" and place.is_dir():  # where folders cannot be opened
+    """Flush a file, or the entries of a folder, to disk."""
+    if sys.platform == "win32" and place.is_dir():  # folders cannot be opened
         return
     file = os.open(place, os.O_RDONLY | getattr(os, "O_CLOEXEC", 0))
     try:
         os.fsync(file)
     except OSError as error:
-        if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # file systems that cannot
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # not supported by the file system
             raise
     finally:
         os.close(file)
 
 
 class NoEntities:
-    """A target of `xml.etree.ElementTree.XMLParser` whose documents define no entities."""
+    """Target of `xml.etree.ElementTree.XMLParser` that rejects entities."""
 
     def doctype(self, *_: Any) -> None:
-        """Refuse: entities are defined here, and could grow a small file without bounds."""
+        """Reject document types, which could define entities that expand without bounds."""
         from xml.etree.ElementTree import ParseError
 
         raise ParseError("it has a document type")

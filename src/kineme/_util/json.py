@@ -1,8 +1,8 @@
-"""JSON that lies beside recordings, which people edit, copy and damage: the one reader of it.
+"""Read JSON files safely, since people edit, copy and damage them.
 
-What comes out is no deeper than `DEEPEST`, has finite numbers that a float can hold, and is of the
-shape that was asked for. Everything else is a ReadError. So what uses it need not expect that a
-number overflows or a walk through it recurses too far.
+Parsed content is nested at most `DEEPEST` levels, has only finite numbers in the range of floats,
+and matches the requested type. Everything else raises ReadError. So callers need not handle
+overflows or deep recursion.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from kineme._util.files import AnyPath, refuse_pipe
 from kineme.errors import ParameterError, ReadError
 
 DEEPEST = 64
-"""Lists and objects inside one another."""
+"""Largest nesting depth of lists and objects."""
 LARGEST = sys.float_info.max
-"""Of any number; whole ones beyond are none that can be computed with."""
+"""Largest absolute value of a number, also of integers."""
 TOO_DEEP = f"holds more than {DEEPEST} lists and objects inside one another"
 
 Shape = TypeVar("Shape")
@@ -33,7 +33,7 @@ def load_json(path: Path) -> Any: ...
 @overload
 def load_json(path: Path, shape: type[Shape]) -> Shape: ...
 def load_json(path: Path, shape: Any = Any) -> Any:
-    """Return what a JSON file holds, as `decode_json`; ReadError where it cannot be read."""
+    """Read a JSON file, see `decode_json`; raise ReadError if it cannot be read."""
     try:
         refuse_pipe(path)
         text = path.read_text(encoding="utf-8-sig")
@@ -50,10 +50,10 @@ def decode_json(text: str | bytes, path: AnyPath) -> Any: ...
 @overload
 def decode_json(text: str | bytes, path: AnyPath, shape: type[Shape]) -> Shape: ...
 def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
-    """What a JSON text of this path holds, in a shape that msgspec knows; other names are left out.
+    """Parse JSON and convert it to a type that msgspec supports; unknown names are dropped.
 
-    ReadError where it is no JSON, holds too much inside one another, or numbers that are none or
-    too large, or is of another shape.
+    Raise ReadError for ``path`` if it is invalid JSON, nested too deeply, has nan or too large
+    numbers, or does not match the type.
 
     Examples
     --------
@@ -61,45 +61,45 @@ def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
     {'offset_s': 2.0}
     """
     try:
-        found = json.loads(text)
+        content = json.loads(text)
     except RecursionError as error:
         raise ReadError(path, TOO_DEEP) from error
     except ValueError as error:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
         raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
-    if fault := find_fault(found):
+    if fault := find_fault(content):
         raise ReadError(path, fault)
     if shape is Any:
-        return found
+        return content
     try:
-        return convert_json(found, shape)
+        return convert_json(content, shape)
     except ValueError as error:
         raise ReadError(path, f"is not as it was written: {error}") from error
 
 
-def convert_json(found: Any, shape: type[Shape]) -> Shape:
-    """What JSON holds, in a shape that msgspec knows; ValueError in words where it has another."""
-    import msgspec  # which `import kineme` does without
+def convert_json(content: Any, shape: type[Shape]) -> Shape:
+    """Convert parsed JSON to a type that msgspec supports; raise ValueError on mismatch."""
+    import msgspec  # not needed by `import kineme`
 
     try:
-        return msgspec.convert(found, shape, str_keys=True)  # as JSON has them
+        return msgspec.convert(content, shape, str_keys=True)  # keys of JSON are texts
     except msgspec.ValidationError as error:
         raise ValueError(format_problem(str(error))) from error
-    except ValueError as error:  # half of a pair of surrogates for a name
+    except ValueError as error:  # a lone surrogate in a name
         raise ValueError("a name is no text") from error
 
 
 def format_problem(problem: str, everything: str = "the whole of it") -> str:
-    """Return what msgspec says of a shape, with the place first and no signs of its own."""
+    """Rewrite a message of msgspec: location first, without backticks."""
     what, _, place = problem.partition(" - at ")
     where = re.sub(r"^`(key in )?\$\.?|`$", "", place) or everything
     return f"{where}: {what[:1].lower()}{what[1:].replace('`', '')}"
 
 
 def options_to_json(options: object) -> dict[str, Any]:
-    """Return the options of a dataclass that differ from their defaults, as JSON holds them.
+    """Return the options in a dataclass that differ from their defaults, for JSON.
 
-    ParameterError for a value that JSON cannot hold, such as an array or a preset of one's own.
+    Raise ParameterError for values that JSON cannot hold, such as arrays or custom presets.
 
     Examples
     --------
@@ -107,16 +107,16 @@ def options_to_json(options: object) -> dict[str, Any]:
     >>> options_to_json(ReadOptions(fps=30.0, columns=("acc_*",)))
     {'fps': 30.0, 'columns': ['acc_*']}
     """
-    given, defaults = (
+    values, defaults = (
         json.loads(json.dumps(vars(each), default=_as_plain)) for each in (options, type(options)())
     )
-    return {name: value for name, value in given.items() if value != defaults[name]}
+    return {name: value for name, value in values.items() if value != defaults[name]}
 
 
 def options_from_json(kind: type[Options], content: object) -> Options:
-    """Return the options that `options_to_json` gave, checked as all others of their kind.
+    """Return the options from the output of `options_to_json`, validated by their class.
 
-    ParameterError where there is no such option, or it does not take this value.
+    Raise ParameterError for an unknown option or an invalid value.
 
     Examples
     --------
@@ -148,10 +148,10 @@ def _as_tuples(value: Any) -> Any:
     return tuple(map(_as_tuples, value)) if isinstance(value, list) else value
 
 
-def find_fault(found: Any) -> str:
-    """Return what of JSON no reader takes, in words; empty where it is sound."""
-    level: list[Any] = [[found]]
-    # Level by level instead of by recursion, which deep content would exhaust.
+def find_fault(content: Any) -> str:
+    """Return why parsed JSON is unacceptable; empty if it is valid."""
+    level: list[Any] = [[content]]
+    # Go level by level, since recursion would fail on deep content.
     for _ in range(DEEPEST + 1):
         inner: list[Any] = []
         for container in level:

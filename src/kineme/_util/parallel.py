@@ -1,12 +1,11 @@
-"""Compile kernels, and run work in threads and processes.
+"""Options for compiled kernels, and helpers to run work in threads and processes.
 
-Kernels release the interpreter's lock. They copy, add and sort with loops: an array assigned to a
-slice, an array added to another or `numpy.sort` in one of them makes the first run ever a second
-longer.
+Kernels release the GIL. They copy, add and sort with loops, because slice assignments, array
+additions or `numpy.sort` in a kernel make its first compilation a second slower.
 
-numba keeps compiled functions beside the sources, else in the user's cache folder. It refuses to
-load a function that it can keep in neither, as in a container whose packages belong to another
-user. A folder among the temporary ones will do then (`choose_numba_cache`).
+numba caches compiled functions beside the sources, or else in the user's cache folder. It fails if
+it can write to neither, as in a container with packages of another user. `choose_numba_cache` sets
+a temporary folder then.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 
 
 SHORT = 50
-"""Rows that take no longer than to hand them to a thread."""
+"""Number of rows below which starting a thread takes longer than the work."""
 
 _here = local()
 _ask: ContextVar[Callable[[], None] | None] = ContextVar("ask", default=None)
@@ -42,7 +41,7 @@ Result = TypeVar("Result")
 
 @contextmanager
 def cancellable(ask: Callable[[], None] | None) -> Iterator[None]:
-    """While the block lasts, its work asks now and then; what ``ask`` raises ends it."""
+    """Call ``ask`` regularly during the block; an exception that it raises cancels the work."""
     before = _ask.set(ask)
     try:
         yield
@@ -51,14 +50,14 @@ def cancellable(ask: Callable[[], None] | None) -> Iterator[None]:
 
 
 def check_cancelled() -> None:
-    """Ask whether to go on, where somebody wants to be asked."""
+    """Call the function set by `cancellable`, if any."""
     if (ask := _ask.get()) is not None:
         ask()
 
 
 @contextmanager
 def announce_to(say: Callable[[str], None]) -> Iterator[None]:
-    """While the block lasts, what its work announces goes to ``say``."""
+    """Pass messages of `announce` to ``say`` during the block."""
     before = _say.set(say)
     try:
         yield
@@ -67,40 +66,40 @@ def announce_to(say: Callable[[str], None]) -> Iterator[None]:
 
 
 def announce(progress: str) -> None:
-    """Say how far long work is, where somebody wants to know."""
+    """Report progress to the function set by `announce_to`, if any."""
     if (say := _say.get()) is not None:
         say(progress)
 
 
 def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
-    """``[function(item) for item in items]`` over the available cores, in the same order.
+    """Return ``[function(item) for item in items]``, computed by all available cores.
 
-    Before each it is asked whether to go on. What a function maps in its turn, it does alone: all
-    cores are at work.
+    Checks for cancellation before each item. Nested calls run in the calling thread, since all
+    cores are busy.
     """
     items, ask = list(items), _ask.get()
 
-    def one(item: Item) -> Result:
-        with cancellable(ask):  # in whichever thread
+    def run(item: Item) -> Result:
+        with cancellable(ask):  # context variables are not inherited by threads
             check_cancelled()
             return function(item)
 
-    # A thread of the pool must not wait for other threads of the pool.
+    # A thread of the pool must not wait for others of the pool: deadlock.
     if count_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
-        return [one(item) for item in items]
+        return [run(item) for item in items]
     pool = _get_pool()
     try:
-        return list(pool.map(one, items))
+        return list(pool.map(run, items))
     except KeyboardInterrupt:
-        # A thread that was just being started would wait for work, and the program for it.
+        # Discard the pool: a thread that was just starting would keep the program alive.
         _get_pool.cache_clear()
         pool.shutdown(wait=False, cancel_futures=True)
         raise
 
 
 def make_even_slices(n: int, short: int = SHORT) -> list[slice]:
-    """``range(n)`` in slices of like size, a few for each core; fewer where these were short."""
-    # A few parts for each core even out rows that take longer; division rounded up.
+    """Split ``range(n)`` into equal slices, a few per core, with at least ``short`` rows."""
+    # A few parts per core balance uneven work; `-(-n // short)` rounds up.
     parts = min(2 * count_threads(), -(-n // short))
     edges = [n * part // parts for part in range(parts + 1)] if parts else []
     return [slice(a, b) for a, b in pairwise(edges)]
@@ -108,7 +107,7 @@ def make_even_slices(n: int, short: int = SHORT) -> list[slice]:
 
 @cache
 def count_threads() -> int:
-    """Cores this process may use; ``KINEME_THREADS`` sets another number."""
+    """Return the number of cores for this process; ``KINEME_THREADS`` overrides it."""
     setting = os.environ.get("KINEME_THREADS", "")
     if setting.isdigit() and int(setting):
         return int(setting)
@@ -120,10 +119,10 @@ def count_threads() -> int:
 def _get_pool() -> ThreadPoolExecutor:
     from concurrent.futures import ThreadPoolExecutor
 
-    def begin() -> None:
+    def initialize() -> None:
         _here.of_pool = True
 
-    return ThreadPoolExecutor(count_threads(), thread_name_prefix="kineme", initializer=begin)
+    return ThreadPoolExecutor(count_threads(), thread_name_prefix="kineme", initializer=initialize)
 
 
 if hasattr(os, "register_at_fork"):
@@ -131,7 +130,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def make_process_pool(processes: int, imports: Sequence[str] = ()) -> ProcessPoolExecutor:
-    """So many processes, which share the cores, import these modules and end when this one does."""
+    """Return a pool of processes that share the cores, preload modules and exit with this one."""
     from concurrent.futures import ProcessPoolExecutor
 
     # All processes together use as many threads as there are cores.
@@ -145,31 +144,31 @@ def make_process_pool(processes: int, imports: Sequence[str] = ()) -> ProcessPoo
 
 
 def make_process_context(imports: Sequence[str] = ()) -> BaseContext:
-    """How processes are started.
+    """Return the multiprocessing context: fork server on Linux, else spawn.
 
-    A copy of this one could wait forever for threads that it lacks. Where that can be, they are
-    copies of one that has none, and has imported what all need. Ctrl+C is left to this one, which
-    ends the others: they would each say where they were.
+    A plain fork could deadlock on locks of threads that the child lacks. The fork server has no
+    threads, and preloads modules for all processes. It ignores Ctrl+C, which this process handles,
+    so that not every child prints a traceback.
     """
     from multiprocessing import forkserver, get_context, resource_tracker
 
     if sys.platform != "linux":
         return get_context("spawn")
-    started = get_context("forkserver")
-    started.set_forkserver_preload([*imports])
-    resource_tracker.ensure_running()  # lets signals through again, so it comes first
-    let_through = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    context = get_context("forkserver")
+    context.set_forkserver_preload([*imports])
+    resource_tracker.ensure_running()  # unblocks signals, so it must come first
+    old_mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         forkserver.ensure_running()
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, let_through)
-    return started
+        signal.pthread_sigmask(signal.SIG_SETMASK, old_mask)
+    return context
 
 
 @contextmanager
 def defer_interrupt() -> Iterator[None]:
-    """Leave Ctrl+C until after the block, in which a process is started: half of one complains."""
-    if threading.current_thread() is not threading.main_thread():  # it is not told of any
+    """Delay Ctrl+C until the end of the block, in which a process is started."""
+    if threading.current_thread() is not threading.main_thread():  # receives no signals
         yield
         return
     signals: list[int] = []
@@ -183,7 +182,7 @@ def defer_interrupt() -> Iterator[None]:
 
 
 def _prepare_worker(threads: int) -> None:
-    """Make a worker one of several, which ends when the process that started it is gone."""
+    """Limit a worker's threads; exit when the parent process dies."""
     from multiprocessing import parent_process
     from multiprocessing.connection import wait
 
@@ -194,7 +193,7 @@ def _prepare_worker(threads: int) -> None:
         sentinel = parent.sentinel
 
         def watch() -> None:
-            # Ready when the parent has ended, however it did.
+            # The sentinel becomes ready when the parent ends for any reason.
             wait([sentinel])
             os._exit(1)
 
@@ -204,16 +203,16 @@ def _prepare_worker(threads: int) -> None:
 OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 VARIABLE = "NUMBA_CACHE_DIR"
 COMPILING = "compiling, the first time only"
-"""How people are told why nothing seems to go on, for half a minute on a slow machine."""
+"""Message during the first compilation, which takes up to half a minute."""
 
 
 @contextmanager
 def announce_compilation(say: Callable[[str], None]) -> Iterator[None]:
-    """While the block lasts, say so before the first kernel is compiled that was never before."""
-    import numba  # noqa: F401 (waits for another thread that imports it; the next line would not)
+    """Call ``say`` once before the first uncached compilation in the block."""
+    import numba  # noqa: F401 (waits for imports in other threads, unlike the next line)
     from numba.core.event import Event, Listener, install_listener
 
-    class Once(Listener):
+    class FirstCompilation(Listener):
         before = False
 
         def on_start(self, _: Event) -> None:
@@ -222,16 +221,16 @@ def announce_compilation(say: Callable[[str], None]) -> Iterator[None]:
                 say(COMPILING)
 
         def on_end(self, _: Event) -> None:
-            """Nothing is to be said."""
+            """Ignore the end of a compilation."""
 
-    with install_listener("numba:compile", Once()):
+    with install_listener("numba:compile", FirstCompilation()):
         yield
 
 
 def choose_numba_cache() -> None:
-    """Name a folder for compiled functions where numba would find none."""
+    """Set a temporary cache folder for numba if it has no writable one."""
     beside = Path(__file__).parent / "__pycache__"
-    beside = beside if beside.is_dir() else beside.parent  # in which it is made
+    beside = beside if beside.is_dir() else beside.parent  # where it would be created
     if (
         VARIABLE in os.environ
         or os.access(beside, os.W_OK)
@@ -240,12 +239,12 @@ def choose_numba_cache() -> None:
         return
     os.environ[VARIABLE] = folder = _make_temporary_cache()
     loaded: Any = sys.modules.get("numba")
-    if loaded is not None:  # it has looked already
+    if loaded is not None:  # it has read the variable already
         loaded.config.CACHE_DIR = folder
 
 
 def _is_writable(folder: Path) -> bool:
-    """Return whether a file can be left in a folder, which is made if it is not there."""
+    """Return whether files can be created in a folder; create the folder if missing."""
     probe = folder / f".kineme-{os.getpid()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -257,7 +256,7 @@ def _is_writable(folder: Path) -> bool:
 
 
 def find_user_cache() -> Path:
-    """Return the folder in which applications keep what they can make again."""
+    """Return the user's cache folder of the system."""
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA", "~")).expanduser()
     if sys.platform == "darwin":
@@ -266,17 +265,17 @@ def find_user_cache() -> Path:
 
 
 def _make_temporary_cache() -> str:
-    """Return a folder of this user alone: what lies there is run."""
+    """Return a temporary folder that only this user can write, since its content is executed."""
     import stat
     import tempfile
 
-    # One folder for each user; what others could write to is not run.
+    # One folder per user.
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = Path(tempfile.gettempdir(), f"kineme-{user}")
     folder.mkdir(mode=0o700, exist_ok=True)
-    found = folder.lstat()
-    private = stat.S_ISDIR(found.st_mode) and found.st_uid == user
-    # The folder may be somebody else's trap: only one of this user, closed to others, is taken.
-    if private and not found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+    status = folder.lstat()
+    private = stat.S_ISDIR(status.st_mode) and status.st_uid == user
+    # Another user may have planted the folder: use it only if owned by this user and private.
+    if private and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
         return str(folder)
     return tempfile.mkdtemp(prefix="kineme-")

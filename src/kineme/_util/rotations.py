@@ -1,10 +1,8 @@
-"""Unit quaternions ``(w, x, y, z)`` on whole arrays.
+"""Operations on arrays of unit quaternions ``(w, x, y, z)``.
 
-scipy's ``Rotation`` is right but several times slower on the long thin arrays
-of a recording (one quaternion per joint and frame); the tests hold these few
-functions against it. Every function takes and gives arrays whose last axis is
-the quaternion's or vector's; arrays that are contiguous per component run
-fastest.
+scipy's ``Rotation`` is several times slower on the arrays of a recording (one quaternion per
+joint and frame); tests compare these functions with it. The last axis of all arrays holds the
+components; arrays that are contiguous per component are fastest.
 """
 
 from __future__ import annotations
@@ -18,7 +16,7 @@ IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 def multiply(a: Floats, b: Floats) -> Floats:
-    """Rotation ``b`` followed by ``a``: the Hamilton product."""
+    """Return the Hamilton product: rotation ``b`` followed by ``a``."""
     aw, ax, ay, az = split_components(a)
     bw, bx, by, bz = split_components(b)
     return join_components(
@@ -36,7 +34,7 @@ def conjugate(q: Floats) -> Floats:
 
 
 def rotate(q: Floats, v: Floats) -> Floats:
-    """Vectors ``v`` turned by ``q``: v + 2 u x (u x v + w v), with q = (w, u)."""
+    """Rotate vectors ``v`` by ``q``: v + 2 u x (u x v + w v), with q = (w, u)."""
     # Twice the cross product of the vector part with v, as in the docstring.
     w, x, y, z = split_components(q)
     vx, vy, vz = split_components(v)
@@ -60,7 +58,7 @@ def from_euler(angles: Floats, axes: str) -> Floats:
     angles : ndarray of shape (frames, len(axes))
         Radians.
     axes : str
-        Any word of the letters x, y and z.
+        Any sequence of the letters x, y and z.
     """
     half = np.asarray(angles, dtype=np.float64).T / 2
     product = np.zeros((4, half.shape[1]))
@@ -81,15 +79,15 @@ def from_euler(angles: Floats, axes: str) -> Floats:
 
 
 def to_euler_zyx(q: Floats) -> Floats:
-    """Angles (z, y, x) in radians with Rz Ry Rx equal to the rotation, (..., 3).
+    """Return angles (z, y, x) in radians with Rz Ry Rx equal to the rotation, (..., 3).
 
-    Each angle is taken from what the ones before it leave over. So the product is exact at y = 90
-    degrees, too, where z and x are not unique.
+    Each angle is computed from the rotation that the previous ones leave. So the product is exact
+    even at y = 90 degrees, where z and x are not unique.
     """
     w, x, y, z = split_components(q)
     cz_cy, sz_cy = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     about_z = np.arctan2(sz_cy, cz_cy)
-    # What is left once the turn about z is taken off has only cos y and sin y in these places.
+    # After removing the rotation about z, these entries contain only cos y and sin y.
     sin, cos = np.sin(about_z), np.cos(about_z)
     about_y = np.arctan2(2 * (w * y - x * z), cos * cz_cy + sin * sz_cy)
     about_x = np.arctan2(
@@ -100,15 +98,15 @@ def to_euler_zyx(q: Floats) -> Floats:
 
 
 def rotate_about_y(angle: ArrayLike) -> Floats:
-    """Rotations about the vertical, by angles in radians."""
+    """Return rotations about the vertical by angles in radians."""
     half = np.asarray(angle, np.float64) / 2
-    still = np.zeros_like(half)
-    return join_components(np.cos(half), still, np.sin(half), still)
+    zero = np.zeros_like(half)
+    return join_components(np.cos(half), zero, np.sin(half), zero)
 
 
 def to_rotation_vectors(q: Floats) -> Floats:
-    """Rotations as vectors: axis times radians, along the shorter arc."""
-    # As q and -q are one rotation: w >= 0 is the shorter arc.
+    """Return rotation vectors: axis times radians, along the shorter arc (the logarithm)."""
+    # q and -q are the same rotation; w >= 0 selects the shorter arc.
     q = np.where(q[..., :1] < 0, -q, q)
     norm = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
     # The arctangent is exact for small angles, where an arccosine of w is not.
@@ -119,34 +117,34 @@ def to_rotation_vectors(q: Floats) -> Floats:
 
 
 def from_rotation_vectors(vectors: Floats) -> Floats:
-    """Return the inverse of `to_rotation_vectors`."""
+    """Return the rotations of rotation vectors; inverse of `to_rotation_vectors`."""
     half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
     # `sinc(half / pi)` is sin(half) / half, which is 1 at the identity: no division by 0.
     return np.concatenate([np.cos(half), vectors * np.sinc(half / np.pi) / 2], axis=-1)
 
 
 def slerp(a: Floats, b: Floats, share: Floats) -> Floats:
-    """So large a share of the way from rotations ``a`` to ``b``, along the shorter arc."""
+    """Interpolate rotations from ``a`` (share 0) to ``b`` (share 1) along the shorter arc."""
     return multiply(
         a, from_rotation_vectors(share * to_rotation_vectors(multiply(conjugate(a), b)))
     )
 
 
 def normalize(q: Floats) -> Floats:
-    """Return the quaternions at length one; no rotation where they have none."""
+    """Return unit quaternions; those of length 0 become the identity."""
     norm = np.linalg.norm(q, axis=-1, keepdims=True)
     return np.where(norm > 0, q / np.where(norm > 0, norm, 1.0), IDENTITY)
 
 
 def to_matrices(rotations: Floats) -> Floats:
-    """Unit quaternions (..., 4) as matrices (..., 3, 3)."""
+    """Convert unit quaternions (..., 4) to matrices (..., 3, 3)."""
     # The rotated unit vectors are the columns.
     axes = [rotate(rotations, axis) for axis in np.eye(3)]
     return np.stack(axes, axis=-1)
 
 
 def from_matrices(axes: Floats) -> Floats:
-    """Rotation matrices (frames, 3, 3) as unit quaternions: the largest component first.
+    """Convert rotation matrices (frames, 3, 3) to unit quaternions.
 
     Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1, 1978.
     """
@@ -154,7 +152,7 @@ def from_matrices(axes: Floats) -> Floats:
     trace = np.trace(axes, axis1=1, axis2=2)
     diagonal = np.diagonal(axes, axis1=1, axis2=2)
     squares = np.column_stack([1 + trace, *(1 + 2 * diagonal - trace[:, None]).T])
-    # The largest component divides best: small ones would lose digits.
+    # Divide by the largest component: small ones would lose digits.
     largest = squares.argmax(axis=1)
     x = axes[:, 2, 1] - axes[:, 1, 2], axes[:, 0, 2] - axes[:, 2, 0], axes[:, 1, 0] - axes[:, 0, 1]
     xy, yz, zx = (axes[:, i, j] + axes[:, j, i] for i, j in ((0, 1), (1, 2), (2, 0)))
@@ -167,20 +165,20 @@ def from_matrices(axes: Floats) -> Floats:
             np.column_stack([x[2], zx, yz, z2]),
         ]
     )
-    # The row that belongs to the largest component of each rotation.
-    found = rows[largest, np.arange(len(axes))]
-    return np.asarray(found / np.linalg.norm(found, axis=1, keepdims=True), np.float64)
+    # Select the row for the largest component of each rotation.
+    chosen = rows[largest, np.arange(len(axes))]
+    return np.asarray(chosen / np.linalg.norm(chosen, axis=1, keepdims=True), np.float64)
 
 
 def split_components(array: Floats) -> tuple[Floats, ...]:
-    """Return the slices of the last axis."""
+    """Return the components along the last axis as a tuple."""
     return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
 def join_components(*parts: Floats) -> Floats:
-    """Return the inverse of `split_components`, contiguous per component."""
-    # Stored with components first, so that each is contiguous; then seen with components last.
-    # For a few rotations this takes half the time of `np.stack` and `np.moveaxis`.
+    """Join components along a new last axis, contiguous per component."""
+    # Store with components first, so that each is contiguous, and transpose the view.
+    # For few rotations this takes half the time of `np.stack` and `np.moveaxis`.
     joined = np.empty((len(parts), *np.broadcast(*parts).shape), np.result_type(*parts))
     for number, part in enumerate(parts):
         joined[number] = part

@@ -1,9 +1,9 @@
-"""Recordings cut into clips: a file per segment, loops that close, a manifest."""
+"""Cut recordings into clips: one file per segment, seamless loops, and a manifest."""
 
 from typing import Literal
 
 RootMotionMode = Literal["keep", "extract", "in-place"]
-"""What becomes of the root motion of clips: see `kineme.clips.root_motion`."""
+"""How to treat the root motion of clips: see `kineme.clips.root_motion`."""
 
 TargetName = Literal["unreal", "unity", "blender", "godot"]
-"""Programs that clips are made for: see `kineme.clips.options.TARGETS`."""
+"""Target programs of clips: see `kineme.clips.options.TARGETS`."""

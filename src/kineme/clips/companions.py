@@ -1,4 +1,4 @@
-"""What is written beside clips: a contact sheet, and a database for motion matching."""
+"""Write a contact sheet and a motion matching database beside clips."""
 
 from __future__ import annotations
 
@@ -17,35 +17,35 @@ from kineme.segments.table import Segment
 
 PICTURES = (".png", ".pdf", ".svg")
 SHOWN = 24
-"""Frames of a clip that its strip is drawn from."""
+"""Number of frames of a clip used for its strip."""
 
 
 class Companions:
-    """Collect what a contact sheet and a database need while clips are made.
+    """Collects data for a contact sheet and a database while clips are made.
 
-    `write` then writes those that were asked for.
+    `write` writes those that were requested.
     """
 
-    def __init__(self, given: ClipOptions) -> None:
-        self.sheet, self.matching = given.get("sheet"), given.get("motion_matching")
-        # Before any work is done, so that nothing is left half written.
+    def __init__(self, options: ClipOptions) -> None:
+        self.sheet, self.matching = options.get("sheet"), options.get("motion_matching")
+        # Check before any work is done.
         for path, suffixes in ((self.sheet, PICTURES), (self.matching, SUFFIXES)):
             if path is not None:
                 check_target(Path(path), suffixes)
         self.strips: list[tuple[str, Motion, int]] = []
         self.database = Database()
 
-    def follow(
+    def collect(
         self,
         motion: Motion,
         rows: Sequence[Segment],
-        made: Iterable[ShapedClip],
-        name_of: Callable[[ShapedClip], str],
+        clips: Iterable[ShapedClip],
+        get_name: Callable[[ShapedClip], str],
     ) -> Iterator[ShapedClip]:
-        """Yield the clips of a recording unchanged, and collect what is needed of each."""
+        """Yield the clips of a recording unchanged, and collect data from each."""
         ranges = []
-        for clip in made:
-            name = name_of(clip)
+        for clip in clips:
+            name = get_name(clip)
             if self.sheet is not None:
                 title = "   ".join(filter(None, [name, ", ".join(clip.tags)]))
                 self.strips.append((title, _thin_frames(clip.motion), clip.segment.cluster))
@@ -55,7 +55,7 @@ class Companions:
             self.database.add(motion, ranges)
 
     def write(self) -> None:
-        """Write the database and the sheet, if they were asked for."""
+        """Write the database and the sheet, if requested."""
         if self.matching is not None:
             self.database.write(self.matching)
         if self.sheet is not None:
@@ -65,7 +65,7 @@ class Companions:
 
 
 def check_target(path: Path, suffixes: Sequence[str]) -> None:
-    """WriteError where a file has none of these suffixes, or no folder to lie in."""
+    """Raise WriteError if a file has none of these suffixes, or its folder is missing."""
     if path.suffix.lower() not in suffixes:
         raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
     if not path.parent.is_dir():
@@ -73,6 +73,6 @@ def check_target(path: Path, suffixes: Sequence[str]) -> None:
 
 
 def _thin_frames(motion: Motion) -> Motion:
-    """Return few frames of a motion, evenly apart."""
+    """Return a motion with at most `SHOWN` evenly spaced frames."""
     at = np.linspace(0, motion.n_frames - 1, min(SHOWN, motion.n_frames)).round().astype(int)
     return replace(motion, positions=motion.positions[at], rotations=None, gaps=())

@@ -1,22 +1,22 @@
-"""A clip as a cycle: its end blended into its beginning.
+"""Make clips loop seamlessly by blending the end into the beginning.
 
-Played in a circle, the frame after the last is the first again, but further on and turned. A
-`Carry` says how: a turn about the vertical and a shift on the floor, as in a player with root
-motion. The seam lies half a frame after the last frame, which is half a frame before the first.
+When a loop repeats, the first frame follows the last one, moved on and turned. A `Carry` describes
+this motion: a turn about the vertical and a shift on the floor, as in a player with root motion.
+The seam lies half a frame after the last frame, which is half a frame before the first.
 
-1. Pose, speed and acceleration on both sides of the seam are those of a parabola
-   through the frames of the last 0.035 s (four at least), and one through those of the first.
-2. The carry is the rigid motion on the floor that brings the pose after the seam closest to
-   the one before it: Kovar, Gleicher, Pighin, Motion Graphs, SIGGRAPH 2002,
-   section 3.1, all joints weighing the same.
-3. The step of pose that remains is spread evenly over the clip, half of it on either side:
-   the ends move least, and no joint changes its speed by more than a constant.
-4. The steps of speed and of acceleration are spread over 0.4 s on either side, by curves
-   that leave the pose at the seam where it is. So position, speed and acceleration meet.
-5. Rotations close along the shorter arc, roots after the carry; translations
-   and positions without rotations in a line.
+1. Position, speed and acceleration on both sides of the seam come from parabolas fitted to the last
+   and the first 0.035 s (at least four frames).
+2. The carry is the rigid motion on the floor that brings the pose after the seam closest to the one
+   before it: Kovar, Gleicher, Pighin, Motion Graphs, SIGGRAPH 2002, section 3.1, with equal weights
+   of all joints.
+3. The remaining step of the pose is spread linearly over the clip, half of it on either side. This
+   moves the ends least and changes speeds by a constant only.
+4. The steps of speed and acceleration are spread over 0.4 s on either side, by curves that are zero
+   at the seam. So position, speed and acceleration become continuous.
+5. Rotations are corrected along the shorter arc, those of roots after applying the carry;
+   translations, and positions without rotations, linearly.
 
-Frame rate and number of frames stay.
+Frame rate and number of frames do not change.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ from kineme.recordings.kinematics import (
 )
 
 NEAR_S = 0.035
-"""Seconds of a clip that tell how it ends and begins."""
+"""Seconds at either end of a clip used to fit the parabolas."""
 FEWEST = 4
-"""Frames through which a parabola is laid; of fewer a line."""
+"""Least number of frames for a parabola; a line is fitted to fewer."""
 BLEND_S = 0.4
-"""Seconds before and after a seam over which steps of speed and acceleration are spread."""
+"""Seconds on either side of a seam over which steps of speed and acceleration are spread."""
 
 
 @dataclass(frozen=True)
 class Carry:
-    """From one round to the next: turn about the vertical axis, then shift, on the floor.
+    """Motion on the floor from one round of a loop to the next: a turn, then a shift.
 
     ``turn`` in radians, ``x`` and ``z`` in metres, as `kineme.recordings.operations.turn`
     and `kineme.recordings.operations.move` take them.
@@ -66,14 +66,14 @@ class Carry:
         return np.array([self.x, 0.0, self.z])
 
     def apply(self, positions: Floats) -> Floats:
-        """Positions one round later."""
+        """Return positions one round later."""
         return rot.rotate(self.rotation, positions) + self.shift
 
 
 def make_loop(motion: Motion) -> tuple[Motion, Carry]:
-    """Return the motion as a seamless cycle, and what carries one round to the next.
+    """Return the motion as a seamless loop, and its carry.
 
-    A motion of fewer than two frames stays as it is.
+    A motion of fewer than two frames is returned unchanged.
     """
     if motion.n_frames < 2:
         return motion, Carry(0.0, 0.0, 0.0)
@@ -81,7 +81,7 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
     note = "ends blended into a loop"
     provenance = motion.provenance.noted(note)
     if motion.rotations is None:
-        # Without rotations no joint hangs on another: all of them are carried.
+        # Without rotations no joint depends on another: the carry applies to all.
         free = np.ones(motion.positions.shape[1], bool)
         positions = _close_translations(motion.positions, fps, carry, free)
         return replace(motion, positions=positions, provenance=provenance), carry
@@ -91,7 +91,7 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
     rotations = np.array(motion.rotations)
     translations = compute_local_translations(skeleton, motion.positions, motion.rotations)
     # The rotation of the hips in world axes, as the carry needs it.
-    if above >= 0:  # root bones stay where they are: the carry is of the hips, in world axes
+    if above >= 0:  # root bones stay; the carry applies to the hips in world axes
         free = np.arange(skeleton.n_joints) == hips
         around = compute_world_rotations(skeleton, rotations)[:, above]
         rotations[:, hips] = rot.multiply(around, rotations[:, hips])
@@ -109,7 +109,7 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
 
 
 def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
-    """Return the loop and, after its last frame, its first one carried on, as engines want it."""
+    """Append the first frame of a loop, moved by the carry, as game engines expect."""
     again, rotations = carry.apply(motion.positions[:1]), motion.rotations
     if rotations is not None:
         first = np.array(rotations[:1])
@@ -127,7 +127,7 @@ def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
 
 
 def find_carry(motion: Motion) -> Carry:
-    """Return what brings the pose half a frame before the first closest to that after the last."""
+    """Return the carry that best aligns the pose after the seam with the one before it."""
     if motion.n_frames < 2:
         return Carry(0.0, 0.0, 0.0)
     before, after = compute_seam_sides(motion.positions[:, motion.skeleton.body], motion.fps)
@@ -145,34 +145,34 @@ def find_carry(motion: Motion) -> Carry:
 
 
 def compute_seam_sides(values: Floats, fps: float) -> tuple[Floats, Floats]:
-    """Value, speed and acceleration (3, ...) before and after the seam, per frame.
+    """Return value, speed and acceleration (3, ...) before and after the seam, per frame.
 
-    ``values`` (frames, ...) are two frames at least.
+    ``values`` (frames, ...) needs at least two frames.
     """
-    near = min(len(values), max(FEWEST, round(NEAR_S * fps)))
+    n_fit = min(len(values), max(FEWEST, round(NEAR_S * fps)))
     # The seam is at 0: half a frame after the last frame and half a frame before the first.
-    return _extrapolate_seam(values[-near:], 0.5 - near), _extrapolate_seam(values[:near], 0.5)
+    return _extrapolate_seam(values[-n_fit:], 0.5 - n_fit), _extrapolate_seam(values[:n_fit], 0.5)
 
 
 def _extrapolate_seam(values: Floats, first: float) -> Floats:
-    """Value, speed and acceleration at 0 of the parabola nearest to values from ``first`` on."""
+    """Fit a parabola to values at frames from ``first`` on; return its derivatives at 0."""
     frames = first + np.arange(len(values))
     degree = 2 if len(frames) >= FEWEST else 1
     # Least-squares fit: the columns of the Vandermonde matrix are 1, t, t².
     fit = np.linalg.pinv(np.vander(frames, degree + 1, increasing=True))
-    found = np.zeros((3, *values.shape[1:]))
-    found[: degree + 1] = np.tensordot(fit, values, axes=1)
+    derivatives = np.zeros((3, *values.shape[1:]))
+    derivatives[: degree + 1] = np.tensordot(fit, values, axes=1)
     # The second derivative of a parabola is twice its coefficient.
-    found[2] *= 2
-    return found
+    derivatives[2] *= 2
+    return derivatives
 
 
 def _close_rotations(
     rotations: Floats, fps: float, carry: Carry, roots: NDArray[np.bool_]
 ) -> Floats:
-    """Each rotation turned by what is added to it, in its own frame."""
+    """Return rotations corrected so that they are continuous over the seam."""
     first, last = rotations[0], rotations[-1]
-    # Logarithms relative to the nearest frame: small rotations, which add up like vectors.
+    # Rotation vectors relative to the nearest frame are small, so they add up like vectors.
     before, _ = compute_seam_sides(
         rot.to_rotation_vectors(rot.multiply(rot.conjugate(last), rotations)), fps
     )
@@ -196,11 +196,10 @@ def _close_rotations(
 def _close_translations(
     places: Floats, fps: float, carry: Carry, free: NDArray[np.bool_]
 ) -> Floats:
-    """Return the same for places.
+    """Return translations corrected so that they are continuous over the seam.
 
-    Those that are ``free`` are carried on, the others hang on a parent.
-
-    What is added to the free ones turns with the carry, so that it fits at both ends.
+    The carry applies to ``free`` joints; the others are relative to a parent. Corrections of free
+    joints turn along with the carry, so that they fit at both ends.
     """
     before, after = compute_seam_sides(places, fps)
     # Value, speed and acceleration are turned, and only the value is shifted as well.
@@ -217,7 +216,7 @@ def _close_translations(
 
 
 def _compute_shares(n: int, fps: float) -> Floats:
-    """(frames, 3): how much each frame takes of a step of pose, of speed and of acceleration.
+    """Return corrections (frames, 3) for unit steps of pose, speed and acceleration.
 
     With t frames from the seam, negative before it, and k = (1 - |t| / width)^3: the share of the
     step of speed is -|t| k / 2, that of the step of acceleration -t |t| k / 4.

@@ -1,10 +1,10 @@
-"""Lists of clips that lie beside them: ``manifest.json`` for programs, ``manifest.csv`` for tables.
+"""Write lists of clips beside them: ``manifest.json`` and ``manifest.csv``.
 
-``manifest.json`` follows the JSON Schema ``manifest.schema.json`` beside this module, which says
-what each name means. Loops come first, those of a cluster together and the best first; what plays
-once follows in the order of time.
+``manifest.json`` follows the JSON Schema ``manifest.schema.json`` beside this module, which
+documents all names. Loops come first, grouped by cluster and sorted by rank; other clips follow in
+time order.
 
-What clips are called is told in `kineme.clips.names`.
+`kineme.clips.names` defines the names of clips.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ RANKED = ("rank", "cost")
 CARRY = ("turn_deg", "x_m", "z_m")
 ANIMATION, TAGGED = "animation", "tags"
 DIGITS = 6
-"""After the point, in JSON."""
+"""Decimal places in JSON."""
 
 
 @dataclass(frozen=True)
 class Clip:
-    """What the lists say of one clip."""
+    """Entry of one clip in the manifests."""
 
     name: str
     file: str
@@ -59,7 +59,7 @@ class Clip:
 
 
 def name_manifests(file: Path) -> tuple[Path, Path]:
-    """Return the places of both lists of clips that are in one file."""
+    """Return the paths of both manifests for clips in a single file."""
     stem = file.with_suffix("").name
     return file.with_name(f"{stem}.{MANIFEST}"), file.with_name(f"{stem}.{MANIFEST_JSON}")
 
@@ -73,9 +73,9 @@ def write_manifests(
     animations: bool,
     together: bool = False,
 ) -> None:
-    """Leave both lists; clusters are those of all recordings ``together``, or of each alone."""
+    """Write both manifests; with ``together``, clusters are shared between recordings."""
     _write_csv(clips, table, loops=loops, animations=animations)
-    # Stable: clips of equal order stay in the order of time.
+    # The stable sort keeps equal clips in time order.
     loops_first = sorted(clips, key=lambda clip: _make_sort_key(clip, together=together))
     head = f'{{\n"schema": "{SCHEMA}",\n"kineme": "{__version__}",\n"clips": ['
     body = ",".join(f"\n{_as_text(clip)}" for clip in loops_first)
@@ -83,7 +83,7 @@ def write_manifests(
 
 
 def _as_text(clip: Clip) -> str:
-    """Return a clip as JSON, a line for each name."""
+    """Return a clip as JSON with one line per name."""
     lines = (
         f" {json.dumps(name)}: {json.dumps(value, ensure_ascii=False, allow_nan=False)}"
         for name, value in _as_json(clip).items()
@@ -92,7 +92,7 @@ def _as_text(clip: Clip) -> str:
 
 
 def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, int]:
-    """Loops of a cluster together, the best first; then the others as they are."""
+    """Return a sort key: loops by cluster and rank, then other clips."""
     if clip.rank is None:
         return True, "", 0, "", 0
     return (
@@ -106,7 +106,7 @@ def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, 
 
 def _as_json(clip: Clip) -> dict[str, Any]:
     row, carry = clip.segment, clip.carry
-    # A round ends one frame after its last pose, which a closed loop has twice.
+    # A round ends one frame after its last pose; a closed loop has an extra frame.
     round_s = (clip.n_frames - ("close" in clip.changes)) / clip.fps
     content = {
         "name": clip.name,
@@ -151,7 +151,7 @@ def _format_root(root: RootMotion) -> dict[str, float]:
 
 
 def _round_numbers(value: Any) -> Any:
-    """JSON with `DIGITS` after the point; null for what is not a number."""
+    """Round all floats to `DIGITS` decimal places; replace nan and infinity by None."""
     if isinstance(value, Mapping):
         return {name: _round_numbers(each) for name, each in value.items()}
     if isinstance(value, tuple | list | np.ndarray):

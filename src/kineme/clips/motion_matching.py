@@ -1,13 +1,13 @@
-"""A database for motion matching: features of each frame as published, and the poses themselves.
+"""Write a database for motion matching with the published features of each frame, and poses.
 
-All is at 60 Hz, in metres with y up. A root bone is put above the skeleton, at the place of the
-hips on the floor and turned as they face, both smoothed. Relative to it, a frame has 27 features:
-place and velocity of both ankles, velocity of the hips, and where the root bone is and faces in 20,
-40 and 60 frames. Beyond the end of a clip these are those of its recording. To compare frames,
-subtract ``features_offset`` and divide by ``features_scale``, which holds the published weights.
+Data is at 60 Hz, in metres with y up. A root bone is added above the skeleton, with the smoothed
+floor position and heading of the hips. Relative to it, a frame has 27 features: position and
+velocity of both ankles, velocity of the hips, and position and direction of the root bone in 20, 40
+and 60 frames. These may lie after the end of the clip in its recording. To compare frames, subtract
+``features_offset`` and divide by ``features_scale``, which includes the published weights.
 
-``.npz`` has features, poses, feet on the ground and the ranges of clips by name. ``.bin`` has
-poses, ranges and contacts as the public example reads them; it expects the bones of LAFAN1.
+``.npz`` holds features, poses, foot contacts and the named ranges of clips. ``.bin`` holds poses,
+ranges and contacts in the format of the public example, which expects the bones of LAFAN1.
 
 Source: Holden, Kanoun, Perepichka, Popa, "Learned Motion Matching", SIGGRAPH 2020, section 3;
 ``database.bin`` of https://github.com/orangeduck/Motion-Matching.
@@ -39,9 +39,9 @@ from kineme.segments.table import Segment
 RATE = 60.0
 """Frames per second."""
 AHEAD = (20, 40, 60)
-"""Frames after which the trajectory is told."""
+"""Frames ahead at which the trajectory is sampled."""
 SMOOTH_PLACE, SMOOTH_FACING = 31, 61
-"""Frames over which the root bone is smoothed by cubic polynomials."""
+"""Window lengths in frames for smoothing the root bone by cubic polynomials."""
 GROUPS = (
     *((f"{side}_foot_position", 3, 0.75) for side in ("left", "right")),
     *((f"{side}_foot_velocity", 3, 1.0) for side in ("left", "right")),
@@ -49,7 +49,7 @@ GROUPS = (
     ("trajectory_position", 6, 1.0),
     ("trajectory_direction", 6, 1.5),
 )
-"""Name, size and weight of the parts of a feature."""
+"""Name, size and weight of each group of features."""
 SUFFIXES = (".npz", ".bin")
 
 Range = tuple[str, Segment, Sequence[str]]
@@ -57,7 +57,7 @@ Range = tuple[str, Segment, Sequence[str]]
 
 
 class Database:
-    """Gathers clips of recordings of one skeleton; `write` leaves them in a file."""
+    """Collects clips of recordings with one skeleton; `write` saves them."""
 
     def __init__(self) -> None:
         self.skeleton: tuple[Any, ...] = ()
@@ -70,7 +70,7 @@ class Database:
         Raises
         ------
         ParameterError
-            It has no rotations, no feet, or other bones than those before.
+            The recording has no rotations or feet, or other bones than the first one.
         """
         bones = [j for j in range(motion.skeleton.n_joints) if j not in motion.skeleton.end_sites]
         numbers = {joint: bone for bone, joint in enumerate(bones, 1)}
@@ -93,13 +93,13 @@ class Database:
             at += stop - start
 
     def write(self, path: str | PathLike[str]) -> None:
-        """Write all clips; ParameterError where there are none."""
+        """Write all clips; raise ParameterError if there are none."""
         if not self.parts:
             raise ParameterError("there is no clip for motion_matching")
-        found = {key: np.concatenate([part[key] for part in self.parts]) for key in self.parts[0]}
+        arrays = {key: np.concatenate([part[key] for part in self.parts]) for key in self.parts[0]}
         names, tags, starts, stops = zip(*self.ranges, strict=True)
         bone_names, parents = self.skeleton
-        found |= {
+        arrays |= {
             "bone_parents": np.array(parents, np.int32),
             "range_starts": np.array(starts, np.int32),
             "range_stops": np.array(stops, np.int32),
@@ -107,33 +107,33 @@ class Database:
         with atomic_write(path) as draft, draft.open("wb") as file:
             if Path(path).suffix.lower() == ".bin":
                 for key in LAYOUT:
-                    # The size of each dimension goes before an array; three or four is a vector.
-                    shape = found[key].shape[:2]
-                    file.write(struct.pack(f"<{len(shape)}I", *shape) + found[key].tobytes())
+                    # The shape precedes each array, without the dimension of vector components.
+                    shape = arrays[key].shape[:2]
+                    file.write(struct.pack(f"<{len(shape)}I", *shape) + arrays[key].tobytes())
                 return
-            offset, scale = _compute_normalization(found["features"])
-            names_of = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
-            found |= {
+            offset, scale = _compute_normalization(arrays["features"])
+            feature_names = [f"{name}_{i}" for name, size, _ in GROUPS for i in range(size)]
+            arrays |= {
                 "features_offset": offset,
                 "features_scale": scale,
-                "feature_names": np.array(names_of),
+                "feature_names": np.array(feature_names),
                 "bone_names": np.array(bone_names),
                 "range_names": np.array(names),
                 "range_tags": np.array([", ".join(each) for each in tags]),
                 "fps": np.array(RATE),
             }
-            np.savez_compressed(file, allow_pickle=False, **found)
+            np.savez_compressed(file, allow_pickle=False, **arrays)
 
 
 LAYOUT = (
     *("bone_positions", "bone_velocities", "bone_rotations", "bone_angular_velocities"),
     *("bone_parents", "range_starts", "range_stops", "contact_states"),
 )
-"""Arrays of a ``.bin``, little-endian, in this order."""
+"""Order of the little-endian arrays in a ``.bin``."""
 
 
 def _describe_motion(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:
-    """Return features, poses and contacts of each frame, float32 but for the contacts."""
+    """Return features, poses and contacts of each frame; float32 except for contacts."""
     try:
         ends = end_effectors(motion)
         pelvis, angles = compute_heading(motion, effectors=ends)
@@ -162,8 +162,8 @@ def _describe_motion(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[
         "bone_rotations": rotations,
         "bone_angular_velocities": _compute_angular_velocities(rotations),
     }
-    found: dict[str, NDArray[Any]] = {key: part.astype("<f4") for key, part in arrays.items()}
-    return found | {"contact_states": np.stack(contacts, axis=1).astype(np.uint8)}
+    described: dict[str, NDArray[Any]] = {key: part.astype("<f4") for key, part in arrays.items()}
+    return described | {"contact_states": np.stack(contacts, axis=1).astype(np.uint8)}
 
 
 def _compute_features(
@@ -182,17 +182,17 @@ def _compute_features(
 
 
 def _compute_normalization(features: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Return means, and the mean deviation of each group over its weight, (27,) each."""
+    """Return means, and the mean deviation of each group divided by its weight, (27,) each."""
     deviations, scale, at = features.std(axis=0), np.empty(features.shape[1], np.float32), 0
     for _, size, weight in GROUPS:
-        # A group that never changes tells nothing: any scale will do.
+        # A constant group has no deviation; any scale will do.
         scale[at : at + size] = (float(deviations[at : at + size].mean()) or 1.0) / weight
         at += size
     return features.mean(axis=0), scale
 
 
 def _smooth(values: Floats, window: int) -> Floats:
-    """Return values (frames, dims) smoothed by cubic polynomials over an odd number of frames."""
+    """Smooth values (frames, dims) with a Savitzky-Golay filter of degree 3."""
     from scipy.signal import savgol_filter  # heavy, and seldom needed
 
     window = min(window, len(values) - 1 + len(values) % 2)
@@ -212,7 +212,7 @@ def _compute_angular_velocities(rotations: Floats) -> Floats:
     steps = (
         rot.to_rotation_vectors(rot.multiply(rotations[1:], rot.conjugate(rotations[:-1]))) * RATE
     )
-    # The mean of the steps before and after a frame; at the ends the only one.
+    # Average the steps before and after a frame; the ends have only one.
     before, after = np.concatenate([steps[:1], steps]), np.concatenate([steps, steps[-1:]])
     mean: Floats = (before + after) / 2
     return mean

@@ -1,17 +1,15 @@
-"""How clips and their files are called: ``RECORDING_NUMBER_TEXT``.
+"""Name clips and their files: ``RECORDING_NUMBER_TEXT``.
 
-``NUMBER`` has four digits or more, and no two segments of a run have the same: the first segment
-of a recording has as many before it as were given of the recordings before. What is left out, by
-``best``, keeps its number to itself, so that a segment is called the same with and without it.
+``NUMBER`` has at least four digits and is unique within a run; it continues over the recordings.
+Segments left out by ``best`` keep their numbers, so that names do not depend on this option.
 
-A word of the text that would look like a number, of four digits or more, has an ``n`` before it.
-So the last ``_NUMBER_`` of a name is its number, and no two names of a run are the same,
-whatever the case of their letters.
+Words of the text that look like such a number get the prefix ``n``. So the last ``_NUMBER_`` of a
+name is its number, and names are unique even if case is ignored.
 
-A template such as ``{take}_{label}_{n:02}`` says otherwise; then names that clash are an error.
+A template such as ``{take}_{label}_{n:02}`` overrides this; then duplicate names are an error.
 
-The name of a clip survives import in Blender, Unreal, Unity, Godot and three.js: ASCII letters,
-digits and ``_``, the first a letter, 63 characters at most. That of a file keeps other letters.
+Names of clips survive import in Blender, Unreal, Unity, Godot and three.js: ASCII letters, digits
+and ``_``, starting with a letter, at most 63 characters. File names keep other letters.
 """
 
 from __future__ import annotations
@@ -25,17 +23,17 @@ from string import Formatter
 from kineme.errors import ParameterError
 
 LONGEST = 63
-"""Characters of a name: what Blender keeps."""
+"""Longest name in characters, the limit of Blender."""
 LONGEST_TEXT = 24
-"""Of these, for the label."""
+"""Longest label in a name, in characters."""
 LONGEST_IN_FILE = 80
-"""Bytes of a recording's name or of a label in that of a file."""
+"""Longest recording name or label in a file name, in bytes."""
 FIELDS = ("name", "take", "label", "n", "cluster", "level", "direction", "loop")
-"""What stands in braces in a template; ``n`` and ``cluster`` are numbers, the others texts."""
+"""Fields of templates; ``n`` and ``cluster`` are numbers, the others texts."""
 
 
 def make_clip_name(stem: str, number: int, text: str) -> str:
-    """Return the name of a clip: its recording, its number and its label, in letters that survive.
+    """Return the name of a clip from recording, number and label, in portable characters.
 
     Examples
     --------
@@ -45,18 +43,18 @@ def make_clip_name(stem: str, number: int, text: str) -> str:
     'clip_86_01_0012_walk_n2024'
     """
     middle = f"_{number:04d}_"
-    # A label without letters that survive leaves nothing.
+    # A label may have no portable characters.
     label = _protect_numbers(_to_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
     first = _to_ascii(stem)
     if not first[:1].isalpha():
         first = f"clip_{first}".rstrip("_")
-    # The recording's name is cut, since number and label tell clips apart.
+    # Shorten the recording's name, since number and label identify the clip.
     first = first[: LONGEST - len(middle) - len(label)].rstrip("_")
     return f"{first}{middle}{label}"
 
 
 def make_file_name(stem: str, number: int, text: str) -> str:
-    """Return the same for a file, without its suffix; letters of all scripts stay.
+    """Return the file name of a clip without suffix, with letters of all scripts.
 
     Examples
     --------
@@ -67,9 +65,9 @@ def make_file_name(stem: str, number: int, text: str) -> str:
 
 
 def make_unique_name(stem: str, first: int, others: Container[str]) -> str:
-    """Return the name of a file of all clips of a recording, the first of which has that number.
+    """Return a unique name for the file with all clips of a recording.
 
-    A number follows where it would be one of the ``others``, which are in small letters.
+    If the recording's name is among ``others`` (lower case), append a number from ``first`` on.
 
     Examples
     --------
@@ -79,12 +77,12 @@ def make_unique_name(stem: str, first: int, others: Container[str]) -> str:
     names = chain(
         [clean_name(stem)], (f"{clean_name(stem)}_{number:04d}" for number in count(first))
     )
-    # File systems may ignore case, so names are compared without it.
+    # Compare without case, since file systems may ignore it.
     return next(name for name in names if name.casefold() not in others)
 
 
 def check_template(template: str) -> None:
-    """ParameterError where a template has other fields than `FIELDS`, or cannot be filled in."""
+    """Raise ParameterError if a template has unknown fields or cannot be filled in."""
     try:
         fields = [field for _, field, _, _ in Formatter().parse(template) if field is not None]
         unknown = [field for field in fields if field not in FIELDS]
@@ -100,7 +98,7 @@ def check_template(template: str) -> None:
 
 
 def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str]:
-    """Return the name of a clip and that of its file, without suffix, as a template has them.
+    """Return the names of a clip and of its file, without suffix, from a template.
 
     Examples
     --------
@@ -108,7 +106,7 @@ def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str
     ('Apfel_walk_03', 'Äpfel@walk_03')
     """
     filled = template.format_map(fields)
-    # A field that is empty leaves no gap, such as that of loops.
+    # Empty fields must not leave double underscores.
     file = re.sub(r"_{2,}", "_", _replace_special(filled, "@")).strip("_")
     name = _to_ascii(filled)
     if not name[:1].isalpha():
@@ -117,26 +115,26 @@ def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str
 
 
 def clean_name(text: str, more: str = "") -> str:
-    """Letters, digits, ``_``, ``-`` and ``more``; short enough for any file system."""
-    # Cut to bytes; half a letter at the end is dropped when decoding.
-    kept = _replace_special(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
-    return kept.decode(errors="ignore")
+    """Replace all but letters, digits, ``_``, ``-`` and ``more`` by ``_``; limit the length."""
+    # Cut in bytes; decoding drops a partial letter at the end.
+    cleaned = _replace_special(text, more).encode(errors="replace")[:LONGEST_IN_FILE]
+    return cleaned.decode(errors="ignore")
 
 
 def _replace_special(text: str, more: str = "") -> str:
-    kept = f"-_{more}"
-    return "".join(letter if letter.isalnum() or letter in kept else "_" for letter in text)
+    allowed = f"-_{more}"
+    return "".join(letter if letter.isalnum() or letter in allowed else "_" for letter in text)
 
 
 def _protect_numbers(text: str) -> str:
-    """Words between ``_`` that have four digits or more and nothing else get a letter."""
+    """Prefix words of four or more digits with ``n``."""
     return re.sub(r"(?<![^_])([0-9]{4,})(?![^_])", r"n\1", text)
 
 
 def _to_ascii(text: str) -> str:
-    """ASCII letters and digits, accents taken off, and single ``_`` for all else."""
-    # Decomposed letters: accents become marks of their own, which are left out. ß has no such form.
-    parted = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
-    bare = "".join(letter for letter in parted if not unicodedata.combining(letter))
-    kept = "".join(each if each.isascii() and each.isalnum() else " " for each in bare)
-    return "_".join(kept.split())
+    """Return ASCII letters and digits without accents, with single ``_`` for everything else."""
+    # NFKD separates accents from letters, which are then dropped; ß is not decomposed.
+    decomposed = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
+    unaccented = "".join(letter for letter in decomposed if not unicodedata.combining(letter))
+    words = "".join(each if each.isascii() and each.isalnum() else " " for each in unaccented)
+    return "_".join(words.split())

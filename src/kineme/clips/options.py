@@ -1,4 +1,4 @@
-"""How clips are shaped, named and written: the options, and what engines want of them."""
+"""Options for shaping, naming and writing clips, and presets for target programs."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from kineme.formats.registry import Format, find_writer, supported_formats
 
 @dataclass(frozen=True)
 class Target:
-    """What a program wants of clips; options that are given come first.
+    """Default options for a target program; explicit options override them.
 
-    FBX is in centimetres with y up, GLB in metres with y up: the program turns and scales both to
-    its own axes and unit when it imports them.
+    FBX is in centimetres with y up, GLB in metres with y up: programs convert both to their own
+    axes and unit on import.
 
     Parameters
     ----------
     format : str
-        Suffix of files in a folder.
+        Suffix of the files in a folder.
     root_motion : {"keep", "extract", "in-place"}
     close : bool
-        Whether the last key of a loop is to be its first pose again.
+        Whether a loop ends with its first pose.
     separate : bool
-        Whether each clip has a file of its own, where one could hold several.
+        Whether each clip has its own file, even if the format can hold several.
     name : str
         Template of names.
     """
@@ -48,13 +48,13 @@ TARGETS: Mapping[TargetName, Target] = {
     # A file "model@clip" is a clip of that model.
     "unity": Target("fbx", "extract", True, True, "{name}@{label}_{n:02}"),
     "blender": Target("glb", "keep", False, False, "{name}_{label}_{n:02}"),
-    # Animations whose name ends in "loop" go round.
+    # Animations whose names end with "loop" are looped on import.
     "godot": Target("glb", "extract", True, False, "{name}_{label}_{n:02}_{loop}"),
 }
 
 
 class ClipOptions(TypedDict, total=False):
-    """Options of `kineme.clips.split.split`, which says what they are."""
+    """Options of `kineme.clips.split.split`, which documents them."""
 
     loops: bool
     format: str | None
@@ -72,18 +72,17 @@ class ClipOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Chosen:
-    """Options of clips, completed by those of the target program.
+    """Options of clips, completed with defaults of the target program.
 
     Parameters
     ----------
     shape : Shape
     suffix : str, optional
-        Of files, without a dot.
+        Suffix of files, without the dot.
     format : Format, optional
-        What is written with that suffix, one file for all clips of a recording; none where each
-        has its own.
+        Format with one file for all clips of a recording; None if each clip has its own.
     given : ClipOptions
-        The options as they were given.
+        Options as passed by the caller.
     name : str, optional
         Template of names.
     """
@@ -96,14 +95,16 @@ class Chosen:
 
 
 def resolve_options(options: ClipOptions) -> Chosen:
-    """Return the options, completed by those of the target; ParameterError for a bad one."""
+    """Return options completed with defaults of the target; raise ParameterError if invalid."""
     unknown = options.keys() - ClipOptions.__annotations__.keys()
     if unknown:
         raise TypeError(f"split() got an unexpected keyword argument {min(unknown)!r}")
-    named, loops = options.get("target"), options.get("loops", False)
-    if named is not None and not is_one_of(named, TARGETS):
-        raise ParameterError(f"target is {named!r:.60}: choose from {', '.join(TARGETS)}")
-    target = Target(None, "keep", False, False, None) if named is None else TARGETS[named]
+    target_name, loops = options.get("target"), options.get("loops", False)
+    if target_name is not None and not is_one_of(target_name, TARGETS):
+        raise ParameterError(f"target is {target_name!r:.60}: choose from {', '.join(TARGETS)}")
+    target = (
+        Target(None, "keep", False, False, None) if target_name is None else TARGETS[target_name]
+    )
     shape = Shape(
         loops,
         options.get("best"),
@@ -120,18 +121,18 @@ def resolve_options(options: ClipOptions) -> Chosen:
         if path is not None:
             check_path(path, "split")
     suffix = target.format if options.get("format") is None else options.get("format")
-    found = _find_format(suffix)
-    several = found is not None and found.write_animations is not None and not target.separate
-    return Chosen(shape, suffix, found if several else None, options, name)
+    writer = _find_format(suffix)
+    several = writer is not None and writer.write_animations is not None and not target.separate
+    return Chosen(shape, suffix, writer if several else None, options, name)
 
 
 def _find_format(suffix: str | None) -> Format | None:
-    """Return the format of a suffix; ParameterError where no motions are written in it."""
+    """Return the format of a suffix; raise ParameterError if it cannot write motions."""
     if suffix is None:
         return None
-    found = find_writer(f".{suffix}")
-    if found is None:
+    writer = find_writer(f".{suffix}")
+    if writer is None:
         suffixes = sorted(s for each in supported_formats() if each.write for s in each.suffixes)
         names = ", ".join(name.removeprefix(".") for name in suffixes)
         raise ParameterError(f"format is {suffix!r:.60}: motions are written as {names}")
-    return found
+    return writer

@@ -1,16 +1,16 @@
-"""How good a loop is: what a seam costs, in numbers, and which candidate of a cluster is best.
+"""Measure the quality of loops, and rank the candidates of a cluster.
 
-Of each candidate is measured
+For each candidate these are measured:
 
-1. what the blending has to take away: the step of pose and of speed at the seam;
-2. what is left: the step from the last frame to the first, and its change, each as a
-   share of the steps inside the recording;
-3. how far planted feet slide in the loop;
-4. how much the body turns and rises in a round;
-5. how far the poses are from the typical ones of the cluster, phase by phase.
+1. The step of pose and of speed at the seam, which blending has to remove.
+2. The remaining step from the last frame to the first, and its change, both relative to steps
+   within the recording.
+3. The sliding of planted feet in the loop.
+4. The turn and rise of the body in one round.
+5. The distance of poses from the typical poses of the cluster, by phase.
 
-`COSTS` says how much of each counts as one; the sum is the cost of a loop, and the candidate of
-least cost is the first of its cluster. Seam and feet weigh most, since both are seen at once.
+Each measure is divided by its unit in `COSTS`. The sum is the cost of a loop; the candidate with
+the lowest cost ranks first. Seam and feet have the greatest weights, since they are most visible.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from kineme._util.arrays import Floats, Masks, interpolate_frames
 from kineme.clips.loops import Carry, compute_seam_sides
 
 USUAL = 95.0
-"""Per cent of the steps of a recording that are as large as its usual large ones, at most."""
+"""Percentile that defines the usual large steps of a recording."""
 PHASES = 24
-"""Of a round, in which poses are compared."""
+"""Number of phases of a round at which poses are compared."""
 COSTS = {
     "pose_m": 0.03,
     "speed_m_s": 0.3,
@@ -38,27 +38,27 @@ COSTS = {
     "rise_m": 0.2,
     "unlike_m": 1.0,
 }
-"""How much of each measure counts as one."""
+"""Amount of each measure that costs 1."""
 
 
 @dataclass(frozen=True)
 class LoopQuality:
-    """What tells a good loop from a bad one; less is better in each.
+    """Quality measures of a loop; lower is better.
 
     Parameters
     ----------
     pose_m, speed_m_s : float
-        Step of pose and of speed at the seam before blending, in the root mean square of
-        all joints: metres, metres per second.
+        RMS step of pose and speed of all joints at the seam before blending: metres, metres per
+        second.
     step, speed_step : float
-        Step over the seam after blending, and its change: shares of the usual large ones (95 %)
-        of the recording.
+        Step over the seam after blending, and its change, relative to the 95 % quantiles in the
+        recording.
     slide_m_s : float
-        Metres per second by which planted feet move in the loop; nan where none is planted.
+        Speed of planted feet in the loop, metres per second; nan if none is planted.
     turn_deg, rise_m : float
-        Turn and change of height in a round, before blending.
+        Turn and change of height per round, before blending.
     unlike_m : float
-        From the typical poses of the cluster; nan where there is no other candidate.
+        Distance from the typical poses of the cluster; nan without other candidates.
     """
 
     pose_m: float
@@ -72,7 +72,7 @@ class LoopQuality:
 
     @property
     def cost(self) -> float:
-        """Return the sum of all, each by its unit in `COSTS`; what is not known costs nothing."""
+        """Return the sum of all measures divided by `COSTS`; unknown ones cost nothing."""
         parts = {name: abs(value) / COSTS[name] for name, value in asdict(self).items()}
         return math.fsum(part for part in parts.values() if not math.isnan(part))
 
@@ -107,16 +107,16 @@ def measure_loop(
         speed_step=speed_step / changed,
         slide_m_s=_measure_sliding(after, carry, fps, feet),
         turn_deg=math.degrees(carry.turn),
-        # Mean over the joints of the change of height.
+        # Change of height, averaged over the joints.
         rise_m=float((end[0] - start[0])[:, 1].mean()),
         unlike_m=unlike,
     )
 
 
 def measure_usual_steps(positions: Floats) -> tuple[float, float]:
-    """Return the 95 % quantiles of a recording's steps from frame to frame, and of their changes.
+    """Return the 95 % quantiles of a recording's frame-to-frame steps, and of their changes.
 
-    Root mean squares of the joints, metres.
+    Both are RMS over the joints, in metres.
     """
     steps = np.diff(positions, axis=0)
     changes = np.diff(steps, axis=0)
@@ -124,9 +124,9 @@ def measure_usual_steps(positions: Floats) -> tuple[float, float]:
 
 
 def measure_distances(shapes: Sequence[Floats]) -> list[float]:
-    """How far each of several motions in place is from the median of all, metres; nan for one.
+    """Return the RMS distance of each in-place motion from the median motion, metres.
 
-    Compared at `PHASES` of the round, in the root mean square of joints (frames, joints, 3).
+    Motions (frames, joints, 3) are compared at `PHASES` of the round. nan if there is only one.
     """
     if len(shapes) < 2:
         return [math.nan] * len(shapes)
@@ -138,8 +138,8 @@ def measure_distances(shapes: Sequence[Floats]) -> list[float]:
 
 
 def rank_qualities(qualities: Sequence[LoopQuality]) -> list[int]:
-    """Return the place of each candidate, 1 the best."""
-    # Stable: of equal costs the earlier candidate is first.
+    """Return the rank of each candidate, 1 for the best."""
+    # The stable sort keeps earlier candidates first at equal cost.
     order = sorted(range(len(qualities)), key=lambda index: qualities[index].cost)
     places = [0] * len(order)
     for place, index in enumerate(order, 1):
@@ -148,7 +148,7 @@ def rank_qualities(qualities: Sequence[LoopQuality]) -> list[int]:
 
 
 def _measure_seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
-    """Return the step over the seam of a loop, and the larger change of steps beside it."""
+    """Return the RMS step over the seam of a loop, and the larger of its changes to either side."""
     turned = Carry(carry.turn, 0.0, 0.0)
     step = carry.apply(after[0]) - after[-1]
     # The steps before and after the seam, both in the axes of the last frame.
@@ -159,13 +159,13 @@ def _measure_seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
 def _measure_sliding(
     after: Floats, carry: Carry, fps: float, feet: Sequence[tuple[Sequence[int], Masks]]
 ) -> float:
-    """Mean speed over the floor of the slowest point of each planted foot, the seam included."""
+    """Return the mean horizontal speed of each planted foot's slowest point, over the seam, too."""
     speeds: list[float] = []
     for joints, planted in feet:
         path = after[:, list(joints)]
         # The first frame one round later closes the path, so the last step leads over the seam.
         steps = np.diff(np.concatenate([path, carry.apply(path[:1])]), axis=0)
-        # A foot that rolls turns about one point, which stays: the slowest point tells sliding.
+        # A rolling foot has one point at rest, so sliding is the speed of its slowest point.
         slowest = np.hypot(steps[..., 0], steps[..., 2]).min(axis=1) * fps
         # Planted in both frames of a step; the roll pairs the last frame with the first.
         speeds += slowest[planted & np.roll(planted, -1)].tolist()
@@ -178,5 +178,5 @@ def _compute_quantile(steps: Floats) -> float:
 
 
 def _compute_rms(differences: Floats) -> float:
-    """Return the root mean square of the lengths of differences (..., 3)."""
+    """Return the RMS length of vectors (..., 3)."""
     return float(np.sqrt((differences**2).sum(axis=-1).mean()))

@@ -1,9 +1,8 @@
-"""How a clip moves over the floor, told apart from how it moves in place.
+"""Separate the root motion of a clip from its motion in place.
 
-The root motion of a clip is the even one: from the first frame to the one after the last the body
-goes at one speed and turns at one rate, so that its path is a line or an arc. What a clip does
-beyond it, such as the sway of the hips in walking, stays in the poses. So a loop in place closes,
-and is put back on its path by two speeds and a rate.
+Root motion has constant speed and turning rate from the first frame to the one after the last, so
+that its path is a line or an arc. The rest, such as the sway of the hips, stays in the poses. So a
+loop in place closes, and two speeds and a rate restore its path.
 
 Source: the exponential map of rigid motions of the plane, as in Murray, Li, Sastry, "A
 Mathematical Introduction to Robotic Manipulation", 1994, section 3.2.
@@ -26,14 +25,14 @@ from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root, get_rig
 
 STILL = 1e-9
-"""Radians a round below which a path is a line."""
+"""Turn in radians per round below which a path is a straight line."""
 
 
 @dataclass(frozen=True)
 class RootMotion:
-    """How a body goes and turns: metres per second in its own axes, radians per second.
+    """Constant root motion: metres per second in the body's axes, and radians per second.
 
-    ``x`` is to its left and ``z`` ahead where the clip faces +z, as clips in place do.
+    ``x`` is to the left and ``z`` ahead if the clip faces +z, as clips in place do.
 
     Examples
     --------
@@ -52,8 +51,8 @@ class RootMotion:
 
 
 def measure_root_motion(motion: Motion, carry: Carry) -> RootMotion:
-    """Return the even motion of the body with this carry, in the axes of the recording."""
-    # Seen from where the hips begin, the carry holds only what the body itself does.
+    """Return the root motion for this carry, in the axes of the recording."""
+    # Relative to the start of the hips, the carry contains only the motion of the body.
     shift, seconds = (
         _solve_even_shift(_move_origin(carry, _find_start(motion))),
         motion.n_frames / motion.fps,
@@ -62,14 +61,14 @@ def measure_root_motion(motion: Motion, carry: Carry) -> RootMotion:
 
 
 def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
-    """Return motion in place, at the origin and facing +z, and what was taken out, in its axes."""
+    """Return the motion in place at the origin, facing +z, and the removed root motion."""
     start = measure_root_motion(motion, carry)
     unmoved = _follow_path(motion, carry, np.zeros(3))
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
     facing, center = _measure_facing(unmoved), np.array([x, 0.0, z])
-    # Turn the mean facing to +z about the mean place of the hips, which goes to the origin.
+    # Turn the mean heading to +z, about the mean position of the hips, which moves to the origin.
     settled = _turn_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
-    # The speed of the point that comes to lie at the origin, not that of the root in frame 0.
+    # Velocity of the point that moves to the origin, not of the root in frame 0.
     arm = center - _find_start(motion)
     # Velocity of a point off the axis: rotation adds turn times arm, at right angles.
     across, ahead = start.x + start.turn * arm[2], start.z - start.turn * arm[0]
@@ -83,10 +82,9 @@ def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion
 
 
 def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
-    """Return the motion with a root bone on the floor that moves as the root motion does.
+    """Return the motion with a root bone on the floor that follows the root motion.
 
-    All other joints stay where they are. It is the topmost bone above the hips; one is added
-    where there is none.
+    The root bone is the topmost bone above the hips, or a new one. Other joints do not move.
     """
     _, path, turns = _compute_path(motion, carry)
     places = _find_start(motion) + path
@@ -101,7 +99,7 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
     if rotations is not None:
         world = compute_world_rotations(skeleton, rotations)
         rotations = np.array(rotations)
-        # Turned as at rest where the body faces +z.
+        # Rest rotation if the body faces +z.
         rest = get_rig(skeleton).rest()[1][root]
         rotations[:, root] = rot.multiply(rot.rotate_about_y(turns + facing), rest)
         for child in skeleton.children[root]:
@@ -112,14 +110,14 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
 
 
 def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
-    """Return the motion with its turn taken out, so that the body goes on as it begins."""
+    """Return the motion without its turn, so that the body keeps its initial direction."""
     shift = _solve_even_shift(_move_origin(carry, _find_start(motion)))
     straight = _add_note(_follow_path(motion, carry, shift), "turn taken out")
     return straight, Carry(0.0, float(shift[0]), float(shift[2]))
 
 
 def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
-    """Without its root motion, but with an even shift instead."""
+    """Replace the root motion by a constant shift."""
     shares, path, turns = _compute_path(motion, carry)
     start = _find_start(motion)
     target = start + shares[:, None] * shift
@@ -127,23 +125,23 @@ def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
 
 
 def _compute_path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]:
-    """Return the share of a round (frames,), and how far the body went and turned by then.
+    """Return the fraction of the round, shift and turn of each frame.
 
-    The shift is (frames, 3), the turn (frames,) radians.
+    Shapes are (frames,), (frames, 3) and (frames,); the turn is in radians.
     """
     about = _move_origin(carry, _find_start(motion))
     speed = _solve_even_shift(about)
-    # The frame after the last one would be share 1, so the end is left out.
+    # The frame after the last one would be fraction 1, so the end is left out.
     shares = np.linspace(0.0, 1.0, motion.n_frames, endpoint=False)
     path: Floats = np.array(
-        # Position along the arc: the time times the mean direction so far, times the speed.
+        # Position on the arc: time times the mean rotation so far, applied to the velocity.
         [share * (_compute_mean_rotation(share * about.turn) @ speed) for share in shares.tolist()]
     )
     return shares, path, shares * about.turn
 
 
 def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
-    """Return each frame turned about the vertical through its center, which goes to its target."""
+    """Turn each frame about the vertical through its center, and move the center to its target."""
     quaternions = rot.rotate_about_y(turns)[:, None]
     centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
     positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
@@ -157,14 +155,14 @@ def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats
 
 
 def _move_origin(carry: Carry, place: Floats) -> Carry:
-    """Return the carry as seen from a place on the floor."""
+    """Return the carry relative to a point on the floor."""
     shift = carry.apply(place) - place
     return Carry(carry.turn, float(shift[0]), float(shift[2]))
 
 
 def _solve_even_shift(carry: Carry) -> Floats:
-    """Return the shift, in the axes of the body, that even motion for one round consists of."""
-    # Shift of one round = mean rotation over the round times the even motion.
+    """Return the constant motion, in the axes of the body, that produces the carry in one round."""
+    # Shift of one round = mean rotation over the round times the constant motion.
     shift: Floats = np.asarray(
         np.linalg.solve(_compute_mean_rotation(carry.turn), carry.shift), np.float64
     )
@@ -181,7 +179,7 @@ def _compute_mean_rotation(turn: float) -> Floats:
 
 
 def _measure_facing(motion: Motion) -> float:
-    """Where the body looks in the mean, radians from +z; 0 where nothing tells."""
+    """Return the mean heading in radians from +z; 0 if unknown."""
     try:
         _, angles = compute_heading(motion)
     except (EndEffectorError, MotionError):
@@ -191,7 +189,7 @@ def _measure_facing(motion: Motion) -> float:
 
 
 def _find_start(motion: Motion) -> Floats:
-    """Return where on the floor the hips begin."""
+    """Return the floor position of the hips in the first frame."""
     x, _, z = motion.positions[0, motion.skeleton.carrier]
     return np.array([x, 0.0, z])
 

@@ -1,4 +1,4 @@
-"""Segments of a recording as motions: cut, closed into loops, ranked, put in place."""
+"""Turn segments into clips: cut, loop, rank, and move root motion."""
 
 from __future__ import annotations
 
@@ -38,27 +38,27 @@ from kineme.recordings.operations import cut, resample
 from kineme.segments.table import Segment
 
 Feet = Mapping[str, tuple[tuple[int, ...], Masks]]
-"""By side: the points of a foot, and the frames in which it is planted."""
+"""Points of each foot, and a mask of the frames in which it is planted, by side."""
 
 
 @dataclass(frozen=True)
 class Shape:
-    """What is done to clips, besides cutting them.
+    """Options for processing clips after cutting.
 
     Parameters
     ----------
     loops : bool
-        Blend the ends of all but transitions.
+        Turn all segments but transitions into loops.
     best : int, optional
-        Of the loops of a cluster; all by default.
+        Number of loops per cluster; all by default.
     root_motion : {"keep", "extract", "in-place"}
-        As it is; moved to a root bone; or taken out, at the origin and facing +z.
+        Keep root motion; move it to a root bone; or remove it, at the origin and facing +z.
     straight : bool
-        Without turning.
+        Remove turning.
     mirror : bool
-        Left and right exchanged.
+        Exchange left and right.
     close : bool
-        The first frame of a loop again after its last.
+        Repeat the first frame of a loop at its end.
     fps : float, optional
         Frames per second; those of the recording by default.
     """
@@ -90,20 +90,20 @@ class Shape:
 
     @property
     def changes(self) -> tuple[str, ...]:
-        """Return what was done, in the words of the manifest."""
-        given = (
+        """Return the names of the changes in the manifest."""
+        applied = (
             ("in place", self.root_motion == "in-place"),
             ("root bone", self.root_motion == "extract"),
             ("straight", self.straight),
             ("mirror", self.mirror),
             ("close", self.close),
         )
-        return tuple(name for name, done in given if done)
+        return tuple(name for name, done in applied if done)
 
 
 @dataclass(frozen=True)
 class ShapedClip:
-    """A clip before it is written, of the segment of that index. ``carry`` is of loops only."""
+    """A clip ready to be written, with the index of its segment. Only loops have a ``carry``."""
 
     index: int
     segment: Segment
@@ -119,7 +119,7 @@ class ShapedClip:
 
 @dataclass(frozen=True)
 class RankedLoop:
-    """A candidate of a loop: the index of its segment, its place in its cluster, and why."""
+    """A possible loop: index of its segment, rank in its cluster, and quality."""
 
     index: int
     rank: int
@@ -133,33 +133,33 @@ def shape_clips(
     shape: Shape,
     loops: Sequence[RankedLoop] | None = None,
 ) -> Iterator[ShapedClip]:
-    """Return the segments as clips one by one, in their order.
+    """Yield the clips of the segments, in their order.
 
-    Of loops those that were asked for; with ``loops`` these alone, which were ranked before.
+    Only the best loops are included if requested. With ``loops``, already ranked, only these are.
     """
     motion, spans = _resample_rows(motion, rows, shape.fps)
     feet, travel = find_planted_feet(motion), measure_travel(motion)
     if loops is None:
         qualities = measure_loops(motion, spans, feet) if shape.loops else {}
-        # Ranks are among all candidates of the cluster, also where only the best are written.
-        places = _rank_candidates(spans, qualities)
+        # Rank all candidates of a cluster, even if only the best are written.
+        ranks = _rank_candidates(spans, qualities)
     else:
         qualities = {each.index: each.quality for each in loops}
-        places = {each.index: each.rank for each in loops}
+        ranks = {each.index: each.rank for each in loops}
     for index, (row, span) in enumerate(zip(rows, spans, strict=True)):
-        rank = places.get(index)
+        rank = ranks.get(index)
         wanted = shape.best is None or (rank is not None and rank <= shape.best)
         if wanted and (loops is None or rank is not None):
-            made = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
-            yield replace(made, segment=row, tags=_get_tags(travel, span))
+            clip = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
+            yield replace(clip, segment=row, tags=_get_tags(travel, span))
 
 
 def _resample_rows(
     motion: Motion, rows: Sequence[Segment], fps: float | None
 ) -> tuple[Motion, Sequence[Segment]]:
-    """Return the motion at a rate, and the segments in its frames, each one frame at least.
+    """Return the motion at a rate, and the segments in its frames, at least one frame each.
 
-    Borders go to the nearest whole frame, so that loops go round in whole frames.
+    Borders are rounded to whole frames, so that loops have a whole number of frames.
     """
     if fps is None or fps == motion.fps:
         return motion, rows
@@ -176,34 +176,34 @@ def _get_tags(travel: Travel | None, row: Segment) -> tuple[Tag, ...]:
 
 
 def list_ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
-    """Return all candidates among the segments, those of a cluster together and the best first."""
+    """Return all possible loops, grouped by cluster and sorted by rank."""
     qualities = measure_loops(motion, rows, find_planted_feet(motion))
-    places = _rank_candidates(rows, qualities)
+    ranks = _rank_candidates(rows, qualities)
     order = [
         index
         for members in _group_candidates(rows).values()
-        for index in sorted(members, key=places.__getitem__)
+        for index in sorted(members, key=ranks.__getitem__)
     ]
-    found = []
+    loops = []
     for index in order:
         clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
         speed = measure_root_motion(clip, find_carry(clip)).speed
-        found.append(RankedLoop(index, places[index], qualities[index], speed))
-    return found
+        loops.append(RankedLoop(index, ranks[index], qualities[index], speed))
+    return loops
 
 
 def make_preview_loop(motion: Motion, row: Segment) -> tuple[Motion, Carry]:
-    """One round of a segment as a loop, its first frame again at the end, and what carries it on.
+    """Return one round of a segment as a loop with its first frame repeated, and its carry.
 
-    It is the loop that is written without further changes.
+    Equals the written loop without further options.
     """
     closed, carry = make_loop(cut(motion, row.start_frame, row.stop_frame))
     return repeat_first_frame(closed, carry), carry
 
 
 def measure_loops(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[int, LoopQuality]:
-    """By index of the segment the quality of each loop; transitions have none."""
-    body = list(motion.skeleton.body)  # a root bone that stays still would count as closed
+    """Return the quality of each possible loop by index of its segment."""
+    body = list(motion.skeleton.body)  # exclude root bones, which may not move
     # The usual steps are those of the whole recording, not of the clip.
     usual, found = measure_usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
     for members in _group_candidates(rows).values():
@@ -234,7 +234,7 @@ def measure_loops(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[i
 
 
 def find_planted_feet(motion: Motion) -> Feet:
-    """When each foot is planted, in frames; nothing where no foot is found."""
+    """Return the frames in which each foot is planted; empty if no foot is found."""
     feet: dict[str, tuple[tuple[int, ...], Masks]] = {}
     for side, points in find_feet(motion).items():
         stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
@@ -246,7 +246,7 @@ def find_planted_feet(motion: Motion) -> Feet:
 
 
 def _group_candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
-    """Indices of what can become a loop, those of a cluster or a label together."""
+    """Return the indices of segments that can become loops, grouped by cluster or label."""
     groups: defaultdict[Hashable, list[int]] = defaultdict(list)
     for index, row in enumerate(rows):
         # A loop needs two frames for a speed at the seam.
@@ -258,11 +258,11 @@ def _group_candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
 def _rank_candidates(
     rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]
 ) -> dict[int, int]:
-    """By index the rank of a loop in its cluster."""
-    places: dict[int, int] = {}
+    """Return the rank of each loop in its cluster, by index of its segment."""
+    ranks: dict[int, int] = {}
     for members in _group_candidates(rows).values() if qualities else ():
-        places |= zip(members, rank_qualities([qualities[index] for index in members]), strict=True)
-    return places
+        ranks |= zip(members, rank_qualities([qualities[index] for index in members]), strict=True)
+    return ranks
 
 
 def _shape_clip(
@@ -289,7 +289,7 @@ def _shape_clip(
     elif shape.root_motion == "in-place":
         clip, root = remove_root_motion(clip, carry)
         carry = Carry(0.0, 0.0, 0.0)
-    # Before the first frame is repeated, so that `last` is the last frame of the round.
+    # Computed before the first frame is repeated, so that `last` is the end of the round.
     poses = _describe_end_poses(clip)
     if shape.close and quality is not None:
         clip = repeat_first_frame(clip, carry)
@@ -307,7 +307,7 @@ def _shape_clip(
 
 
 def _list_planted_frames(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
-    """Frames of the clip in which each foot is planted."""
+    """Return the spans of frames of a clip in which each foot is planted."""
     return {
         side: [(a, b) for a, b in find_spans(mask[row.start_frame : row.stop_frame]).tolist()]
         for side, (_, mask) in feet.items()
@@ -315,7 +315,7 @@ def _list_planted_frames(feet: Feet, row: Segment) -> dict[str, list[tuple[int, 
 
 
 def _describe_end_poses(clip: Motion) -> dict[str, dict[str, Any]] | None:
-    """How the clip begins and ends: head, hands and feet from the pelvis, and its height."""
+    """Return first and last pose: head, hands, feet relative to the pelvis, and its height."""
     try:
         ends = end_effectors(clip)
         # First and last frame only.

@@ -1,16 +1,15 @@
-"""Segments as clips: a folder with a file each, and lists of them.
+"""Write segments as clips: a folder with one file each, and manifests.
 
-A clip of a motion is a BVH, or of another format that is asked for; a CSV of joint positions
-where it has no rotations (see `kineme.formats.tables`). Of a format that holds several motions,
-such as GLB, there is one file for each recording, with its clips as animations; given the path of
-such a file instead of a folder, all clips go there, into a copy of the file that they came from
-where that is of the same format, and the lists beside it, as ``clips.manifest.csv`` for
-``clips.glb``. A clip of signals
-is rows of their own file (see `kineme.formats.channels.writing`). Files are called
-``RECORDING_NUMBER_TEXT`` (see `kineme.clips.names`), with the text of `kineme.labels.spans`.
+Clips of a motion are BVH files by default, or CSV files of joint positions without rotations (see
+`kineme.formats.tables`). For formats that hold several motions, such as GLB, there is one file per
+recording with its clips as animations. If the path of such a file is given instead of a folder, all
+clips go into it, or into a copy of the source file if that has the same format. The manifests are
+then beside it, such as ``clips.manifest.csv`` for ``clips.glb``. Clips of signals are rows of their
+source file (see `kineme.formats.channels.writing`). Files are named ``RECORDING_NUMBER_TEXT`` (see
+`kineme.clips.names`), with the text of `kineme.labels.spans`.
 
-``manifest.csv`` has a row per clip, in the order of the segments; ``manifest.json`` says more of
-it (see `kineme.clips.manifest`):
+``manifest.csv`` has one row per clip, in the order of the segments; ``manifest.json`` has more
+details (see `kineme.clips.manifest`):
 
 ============================ =====================================================
 ``file``, ``source``         the clip, the recording it was cut from
@@ -18,14 +17,14 @@ it (see `kineme.clips.manifest`):
 ``level``, ``kind``          as in the segment table
 ``cluster``, ``label``       as in the segment table
 ``tags``                     direction, turn, start and stop (see `kineme.clips.tags`)
-``rank``, ``cost``           of loops only: its place in its cluster, 1 the best, and
-                             what it was placed by (see `kineme.clips.quality`)
-``turn_deg``, ``x_m``,       of loops only: what carries one round to the next, a
-``z_m``                      turn about the vertical axis, then a shift
-``animation``                of files with several clips only: the name of the clip
+``rank``, ``cost``           for loops: rank in the cluster, 1 for the best, and the
+                             cost it is sorted by (see `kineme.clips.quality`)
+``turn_deg``, ``x_m``,       for loops: motion from one round to the next, a turn
+``z_m``                      about the vertical axis, then a shift
+``animation``                for files with several clips: the name of the clip
 ============================ =====================================================
 
-The folder appears whole or not at all, and nothing that was there is touched.
+The folder is written atomically, and existing files are never changed.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ Source = (
     tuple[Motion | Signals, Sequence[Segment]]
     | tuple[Motion | Signals, Sequence[Segment], Sequence[RankedLoop]]
 )
-"""A recording, its segments, and those of them that become loops, where they are ranked already."""
+"""A recording, its segments, and optionally those that become loops, already ranked."""
 
 
 def split(
@@ -75,58 +74,58 @@ def split(
     cluster: int | None = None,
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write each segment as a clip of its own; for each clip the path of its file.
+    """Write each segment as a clip and return the path of each clip's file.
 
     Parameters
     ----------
     recording : Motion or Signals
-        What was segmented.
+        The segmented recording.
     segmentation : Segmentation
-        Its segments, of as many frames.
+        Its segments.
     folder : str or PathLike
-        To be made; one that is there must be empty. A path that ends as a format that holds several
-        motions, such as ``clips.glb``, is one file with all clips as its animations.
+        New or empty folder. A path with the suffix of a format that holds several motions, such as
+        ``clips.glb``, becomes one file with all clips as animations.
     level : {"activity", "primitive"}, optional
-        The segments to take; without a cluster all, transitions too.
+        Level of the segments to write.
     cluster : int, optional
-        See `level`.
+        Only segments of this cluster; by default all, including transitions.
 
     Other Parameters
     ----------------
     loops : bool, optional
-        Blend the ends of each clip but transitions (see `kineme.clips.loops`); motions only.
+        Turn clips other than transitions into loops (see `kineme.clips.loops`); motions only.
     format : str, optional
-        The suffix of a format that motions are written in, such as "bvh", "amc" or "glb".
+        Suffix of a format that writes motions, such as "bvh", "amc" or "glb".
     best : int, optional
-        Of loops: so many of each cluster, the best ones (see `kineme.clips.quality`), and no
-        transitions.
+        Write only so many loops of each cluster, the best ones (see `kineme.clips.quality`), and
+        no transitions.
     root_motion : {"keep", "extract", "in-place"}, optional
-        Keep it; move it to a root bone, which is added where there is none; or put each clip to
-        the origin, facing +z, without it (see `kineme.clips.root_motion`). The manifest has it.
+        Keep root motion; move it to a root bone, which is added if missing; or remove it, with
+        each clip at the origin facing +z (see `kineme.clips.root_motion`). It is in the manifest.
     straight : bool, optional
-        Take the turn out, so that the body goes straight on.
+        Remove turning, so that the body moves straight ahead.
     mirror : bool, optional
         Exchange left and right.
     close : bool, optional
-        Repeat the first frame of each loop at its end, as engines want it.
+        Repeat the first frame of each loop at its end, as game engines expect.
     fps : float, optional
-        Frames per second of the clips, whose borders go to whole frames; of motions only.
+        Frames per second of the clips; borders are rounded to whole frames. Motions only.
     name : str, optional
         Template of names, such as ``{take}_{label}_{n:02}`` (see `kineme.clips.names.FIELDS`).
     target : {"unreal", "unity", "blender", "godot"}, optional
-        Format, root motion, closing and names as that program wants them, unless given.
+        Program that sets defaults for format, root motion, closing and names.
     sheet : str or PathLike, optional
-        A picture to write: a strip of small figures for each clip.
+        Picture to write, with a strip of small figures for each clip.
     motion_matching : str or PathLike, optional
-        A database to write, ``.npz`` or ``.bin`` (see `kineme.clips.motion_matching`).
+        Database to write, ``.npz`` or ``.bin`` (see `kineme.clips.motion_matching`).
 
     Raises
     ------
     MotionError
-        The segments are of another recording.
+        The segments belong to another recording.
     ParameterError
-        No segment is of that level and cluster, loops or a format of signals, no format of
-        that suffix, the best of what is no loop, or names that clash.
+        No segment with this level and cluster, loops or a format for signals, unknown format,
+        ``best`` without loops, or duplicate names.
     WriteError
         The folder is not empty, or cannot be written.
 
@@ -144,20 +143,20 @@ def split(
 
 
 def split_all(
-    found: Sequence[tuple[Motion | Signals, Segmentation]],
+    inputs: Sequence[tuple[Motion | Signals, Segmentation]],
     folder: str | PathLike[str],
     *,
     level: Level = "activity",
     cluster: int | None = None,
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write the segments of several recordings as `split` does, such as of all takes of a file."""
+    """Write the segments of several recordings like `split`, for example all takes of a file."""
     if not is_one_of(level, get_args(Level)):
         raise ParameterError(f"level must be {' or '.join(get_args(Level))}, not {level!r:.60}")
     if cluster is not None and not is_number(cluster):
         raise ParameterError(f"a cluster is a number, not {cluster!r:.60}")
     clips: list[Source] = []
-    for recording, segmentation in found:
+    for recording, segmentation in inputs:
         if segmentation.n_frames != recording.n_frames:
             raise MotionError(
                 f"the segments are of a recording of {segmentation.n_frames} frames, "
@@ -166,9 +165,9 @@ def split_all(
         rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
         clips.append((recording, rows))
     if not any(rows for _, rows, *_ in clips):
-        there = {row.cluster for _, segmentation in found for row in segmentation.level(level)}
+        clusters = {row.cluster for _, segmentation in inputs for row in segmentation.level(level)}
         raise ParameterError(
-            f"no {level} is in cluster {cluster}; there are {sorted(there - {-1})}"
+            f"no {level} is in cluster {cluster}; there are {sorted(clusters - {-1})}"
         )
     return write_clips(clips, folder, **options)
 
@@ -180,10 +179,10 @@ def write_clips(
     together: bool = False,
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write segments of several recordings as clips in one folder; for each clip its file.
+    """Write segments of several recordings as clips to one folder; return the file of each clip.
 
-    They are gone through once, so that one recording at a time needs memory. The rest is as for
-    `split`. Loops are ranked among those of their recording, unless they are ranked ``together``.
+    ``clips`` is iterated once, so that only one recording is in memory. Other arguments are those
+    of `split`. Loops are ranked within their recording, or ``together``.
     """
     target, chosen = Path(folder), resolve_options(options)
     one_file = find_writer(target.suffix.lower()) if target.suffix else None
@@ -194,23 +193,23 @@ def write_clips(
     companions = Companions(chosen.given)
     with atomic_folder(target) as draft:
         first, files, names = 0, set[str](), set[str]()
-        # Numbers go on over the recordings, so that names stay unique in the folder.
+        # Numbers continue over recordings, so that names are unique in the folder.
         for recording, rows, *ranked in clips:
-            run = _Run(recording, first, draft, chosen, names)
+            run = _ClipNamer(recording, first, draft, chosen, names)
             first += len(rows)
             if isinstance(recording, Signals):
                 _refuse_poses(chosen)
                 entries += _write_rows(run, recording, rows)
                 continue
-            made = _make_clips(run, recording, rows, companions, *ranked)
+            shaped = _make_clips(run, recording, rows, companions, *ranked)
             if write_all is not None:
                 file = make_unique_name(run.stem, run.first, files)
                 files.add(file.casefold())
                 path = draft / f"{file}.{chosen.suffix}"
-                entries += _write_animations(run, made, path, write_all)
+                entries += _write_animations(run, shaped, path, write_all)
             else:
                 suffix = chosen.suffix or ("csv" if recording.rotations is None else "bvh")
-                entries += _write_files(run, made, suffix)
+                entries += _write_files(run, shaped, suffix)
         write_manifests(
             entries,
             draft / MANIFEST,
@@ -224,15 +223,15 @@ def write_clips(
 
 
 def _write_one_file(
-    clips: Iterable[Source], target: Path, found: Format, chosen: Chosen
+    clips: Iterable[Source], target: Path, target_format: Format, chosen: Chosen
 ) -> list[Path]:
-    """Leave all clips in one file, a copy of their own where it is of that format.
+    """Write all clips to one file, or to a copy of their source file if it has this format.
 
-    They are of one recording, or of takes in one file.
+    They must come from one recording, or from takes in one file.
     """
-    given = chosen.given.get("format")
-    if given is not None and f".{given}" != target.suffix.lower():
-        raise ParameterError(f"format is {given!r:.60}, but the file is {target.name!r:.60}")
+    suffix = chosen.given.get("format")
+    if suffix is not None and f".{suffix}" != target.suffix.lower():
+        raise ParameterError(f"format is {suffix!r:.60}, but the file is {target.name!r:.60}")
     sources = list(clips)
     first = sources[0][0]
     if len({recording.provenance.path for recording, *_ in sources}) > 1:
@@ -248,39 +247,42 @@ def _write_one_file(
     for recording, rows, *ranked in sources:
         if isinstance(recording, Signals):
             raise ParameterError(f"signals are no animations of {target.name}: give a folder")
-        run = _Run(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
+        run = _ClipNamer(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
         number += len(rows)
-        made = _make_clips(run, recording, rows, companions, *ranked)
-        entries += _add_animations(run, made, target.name, animations)
+        shaped = _make_clips(run, recording, rows, companions, *ranked)
+        entries += _add_animations(run, shaped, target.name, animations)
     if not animations:
         raise ParameterError(f"there is no clip to write to {target.name}")
     with atomic_write(lists[0]) as table, atomic_write(lists[1]) as list_of_all:
         loops = chosen.shape.loops
         write_manifests(entries, table, list_of_all, loops=loops, animations=True)
-        if found.copy_animations is not None and found.name == first.provenance.format:
-            found.copy_animations(animations, source, target)
-        elif found.write_animations is not None:
-            found.write_animations(animations, target)
+        if (
+            target_format.copy_animations is not None
+            and target_format.name == first.provenance.format
+        ):
+            target_format.copy_animations(animations, source, target)
+        elif target_format.write_animations is not None:
+            target_format.write_animations(animations, target)
     companions.write()
     return [target] * len(entries)
 
 
 def _make_clips(
-    run: _Run,
+    run: _ClipNamer,
     recording: Motion,
     rows: Sequence[Segment],
     companions: Companions,
     ranked: Sequence[RankedLoop] | None = None,
 ) -> Iterator[ShapedClip]:
-    """Yield the clips of a recording, which companions are told of."""
+    """Yield the clips of a recording, passing them through the companions."""
     shape = run.chosen.shape
     motion = mirrored(recording) if shape.mirror else recording
-    made = shape_clips(motion, rows, shape, ranked)
-    return companions.follow(motion, rows, made, run.clip_name)
+    shaped = shape_clips(motion, rows, shape, ranked)
+    return companions.collect(motion, rows, shaped, run.clip_name)
 
 
 def _refuse_poses(chosen: Chosen) -> None:
-    """ParameterError where signals are to be treated as bodies."""
+    """Raise ParameterError if options for bodies are given for signals."""
     shape = chosen.shape
     if shape.loops:
         raise ParameterError("signals have no pose to blend: leave out loops (--loop)")
@@ -296,10 +298,10 @@ def _refuse_poses(chosen: Chosen) -> None:
 
 
 @dataclass(frozen=True)
-class _Run:
-    """Clips of one recording, numbered from ``first`` in their folder.
+class _ClipNamer:
+    """Names the clips of one recording, numbered from ``first`` on.
 
-    ``names`` are those that are taken, in small letters. Clips of takes are called after these.
+    ``names`` holds the used names in lower case. With ``of_takes``, names start with the take.
     """
 
     recording: Motion | Signals
@@ -320,7 +322,7 @@ class _Run:
     def named(
         self, index: int, segment: Segment, tags: Sequence[str] = (), *, loop: bool = False
     ) -> tuple[str, str]:
-        """Return the name of a clip and that of its file, of a segment among those given."""
+        """Return the names of a clip and of its file, for the segment with an index."""
         number, text = self.first + index, format_text(segment)
         template = self.chosen.name
         if template is None:
@@ -337,16 +339,17 @@ class _Run:
         }
         return fill_template(template, fields)
 
-    def clip_name(self, made: ShapedClip) -> str:
+    def clip_name(self, shaped: ShapedClip) -> str:
         """Return the name of a clip."""
-        return self.named(made.index, made.segment, made.tags, loop=made.carry is not None)[0]
+        is_loop = shaped.carry is not None
+        return self.named(shaped.index, shaped.segment, shaped.tags, loop=is_loop)[0]
 
     def clip(
         self, index: int, segment: Segment, suffix: str, file: str | None = None, **fields: Any
     ) -> Clip:
-        """Return what the lists say of it; the other fields are those of `Clip`.
+        """Return the manifest entry of a clip; ``fields`` are other fields of `Clip`.
 
-        It has a file of its own where none is given. ParameterError where its name is taken.
+        Without ``file``, the clip has its own file. Raise ParameterError for a duplicate name.
         """
         tags, is_loop = fields.get("tags", ()), fields.get("carry") is not None
         name, own = self.named(index, segment, tags, loop=is_loop)
@@ -362,23 +365,23 @@ class _Run:
             **fields,
         )
 
-    def shaped_clip(self, made: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
-        """Return the same of a motion that was made of it."""
+    def shaped_clip(self, shaped: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
+        """Return the manifest entry of a shaped clip."""
         return self.clip(
-            made.index,
-            made.segment,
+            shaped.index,
+            shaped.segment,
             suffix,
             file,
-            fps=made.motion.fps,
-            n_frames=made.motion.n_frames,
-            carry=made.carry,
-            quality=made.quality,
-            rank=made.rank,
-            root=made.root,
-            planted=made.planted,
-            poses=made.poses,
+            fps=shaped.motion.fps,
+            n_frames=shaped.motion.n_frames,
+            carry=shaped.carry,
+            quality=shaped.quality,
+            rank=shaped.rank,
+            root=shaped.root,
+            planted=shaped.planted,
+            poses=shaped.poses,
             changes=self.chosen.shape.changes,
-            tags=made.tags,
+            tags=shaped.tags,
         )
 
     @property
@@ -386,8 +389,8 @@ class _Run:
         return str(self.recording.provenance.path or "")
 
 
-def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
-    """Leave each clip in a file of its own: rows of the recording's."""
+def _write_rows(run: _ClipNamer, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
+    """Write each clip as rows of the recording's file to its own file."""
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = make_rows(signals, shortest=shortest)
     for index, row in enumerate(rows):
@@ -397,35 +400,35 @@ def _write_rows(run: _Run, signals: Signals, rows: Sequence[Segment]) -> Iterato
         yield clip
 
 
-def _write_files(run: _Run, made: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
-    """Leave each clip in a file of its own."""
-    for each in made:
-        clip = run.shaped_clip(each, suffix=f".{suffix}")
-        write(each.motion, run.folder / clip.file)
-        yield clip
+def _write_files(run: _ClipNamer, clips: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
+    """Write each clip to its own file."""
+    for each in clips:
+        entry = run.shaped_clip(each, suffix=f".{suffix}")
+        write(each.motion, run.folder / entry.file)
+        yield entry
 
 
 def _write_animations(
-    run: _Run,
-    made: Iterable[ShapedClip],
+    run: _ClipNamer,
+    clips: Iterable[ShapedClip],
     path: Path,
     write_all: Callable[[Mapping[str, Motion], Path], object],
 ) -> list[Clip]:
-    """Leave all clips in one file."""
+    """Write all clips to one file."""
     animations: dict[str, Motion] = {}
-    clips = _add_animations(run, made, path.name, animations)
+    entries = _add_animations(run, clips, path.name, animations)
     if animations:
         write_all(animations, path)
-    return clips
+    return entries
 
 
 def _add_animations(
-    run: _Run, made: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
+    run: _ClipNamer, clips: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
 ) -> list[Clip]:
-    """Add clips to the animations of a file; return what the lists say of them."""
-    clips = []
-    for each in made:
-        clip = run.shaped_clip(each, file)
-        clips.append(replace(clip, animation=clip.name))
-        animations[clip.name] = each.motion
-    return clips
+    """Add clips to the animations of a file; return their manifest entries."""
+    entries = []
+    for each in clips:
+        entry = run.shaped_clip(each, file)
+        entries.append(replace(entry, animation=entry.name))
+        animations[entry.name] = each.motion
+    return entries

@@ -1,9 +1,9 @@
-"""Tags of clips: where a body goes as seen from where it looks, and whether it turns or stops.
+"""Tag clips with the direction of travel, turns, starts and stops.
 
-Velocities are those of the hips over the floor. A direction is that of the mean velocity in axes
-that follow the look: someone who walks to the left and looks ahead goes to the left, although hips
-and shoulders are turned. The look is the axis of the head that points to the left at rest; without
-rotations it is the heading of the hips, as turns are.
+Velocities are those of the hips over the floor. The direction is that of the mean velocity relative
+to the gaze: someone who walks sideways to the left while looking ahead moves left, even with turned
+hips and shoulders. The gaze follows from the head's axis that points left at rest; without
+rotations it is the heading of the hips, which also defines turns.
 """
 
 from __future__ import annotations
@@ -27,32 +27,31 @@ Tag = Literal[
     "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
 ]
 TAGS: tuple[Tag, ...] = get_args(Tag)
-"""Directions come first; each clip of a body has one of them."""
+"""All tags; directions come first, and each clip of a body has one of them."""
 DIRECTIONS = TAGS[:5]
 MOVING = 0.25
-"""Metres per second below which a body stays in place."""
+"""Speed in metres per second below which a body is in place."""
 STILL, STILL_SHARE = 0.3, 0.25
-"""An end is still below so many metres per second, and below such a share of the largest speed."""
+"""An end is still below this speed (m/s) and below this fraction of the peak speed."""
 END_S = 0.25
-"""Seconds at either end over which speed and heading are averaged."""
+"""Seconds at either end of a clip over which speed and heading are averaged."""
 GOING = 0.5
-"""Metres per second that a clip with a start or stop reaches."""
+"""Least peak speed of a clip with a start or stop, metres per second."""
 TURN = 45.0
-"""Degrees from which the heading's change is a turn."""
-_LEAST = 0.1  # level part of the axis of a head below which it has no direction
+"""Least change of heading of a turn, degrees."""
+_LEAST = 0.1  # horizontal length of the head's axis below which gaze is undefined
 
 
 @dataclass(frozen=True, eq=False)
 class Travel:
-    """How the body of a recording goes over the floor.
+    """Motion of the body of a recording over the floor.
 
     Parameters
     ----------
     velocities : ndarray of shape (frames, 2)
-        Of the hips, to +x and to +z, metres per second.
+        Velocity of the hips along +x and +z, metres per second.
     looks, headings : ndarray of shape (frames,)
-        Where the head looks and the hips face, radians from +z towards +x; the latter without
-        jumps.
+        Directions of gaze and hips, radians from +z towards +x; headings are unwrapped.
     fps : float
     """
 
@@ -62,41 +61,41 @@ class Travel:
     fps: float
 
     def velocity(self, start: int, stop: int) -> tuple[float, float]:
-        """Return the mean velocity of frames to the body's left, and ahead."""
-        # The head looks into a turn, so there the hips tell.
-        seen = self.looks if abs(self.turn(start, stop)) < TURN else self.headings
-        (x, z), angles = self.velocities[start:stop].T, seen[start:stop]
+        """Return the mean velocity in frames [start, stop), to the left and ahead."""
+        # The head looks into a turn, so use the hips then.
+        directions = self.looks if abs(self.turn(start, stop)) < TURN else self.headings
+        (x, z), angles = self.velocities[start:stop].T, directions[start:stop]
         left = np.cos(angles) * x - np.sin(angles) * z
         ahead = np.sin(angles) * x + np.cos(angles) * z
         return float(left.mean()), float(ahead.mean())
 
     def turn(self, start: int, stop: int) -> float:
-        """Return by how many degrees the hips turn in frames, positive to the left."""
+        """Return the turn of the hips in frames [start, stop), degrees, positive to the left."""
         headings, n = self.headings[start:stop], self._frames(stop - start)
         return degrees(float(headings[-n:].mean() - headings[:n].mean()))
 
     def tags(self, start: int, stop: int) -> tuple[Tag, ...]:
-        """Return the tags of a clip of these frames, in the order of `TAGS`."""
+        """Return the tags of frames [start, stop), in the order of `TAGS`."""
         turn = self.turn(start, stop)
-        found: set[Tag] = {_choose_direction(*self.velocity(start, stop))}
+        tags: set[Tag] = {_choose_direction(*self.velocity(start, stop))}
         if abs(turn) >= TURN:
-            found.add("turn left" if turn > 0 else "turn right")
-        # Speeds of means over a quarter of a second, so that sway counts less.
+            tags.add("turn left" if turn > 0 else "turn right")
+        # Speed averaged over a quarter of a second, which reduces sway.
         n = self._frames(stop - start)
         sums = np.cumsum(np.vstack([np.zeros(2), self.velocities[start:stop]]), axis=0)
         speeds = np.linalg.norm(sums[n:] - sums[:-n], axis=1) / n
-        if speeds.max() >= GOING and "in place" not in found:
+        if speeds.max() >= GOING and "in place" not in tags:
             still = min(STILL, STILL_SHARE * float(speeds.max()))
-            found |= {"start"} if speeds[0] < still else set()
-            found |= {"stop"} if speeds[-1] < still else set()
-        return tuple(tag for tag in TAGS if tag in found)
+            tags |= {"start"} if speeds[0] < still else set()
+            tags |= {"stop"} if speeds[-1] < still else set()
+        return tuple(tag for tag in TAGS if tag in tags)
 
     def _frames(self, most: int) -> int:
         return max(1, min(round(END_S * self.fps), most))
 
 
 def measure_travel(motion: Motion) -> Travel | None:
-    """Return how the body of a recording goes; None where it has no hips or a single frame."""
+    """Return the travel of a body; None without hips or with a single frame."""
     if motion.n_frames < 2:
         return None
     try:
@@ -113,7 +112,7 @@ def measure_travel(motion: Motion) -> Travel | None:
 
 
 def _choose_direction(left: float, ahead: float) -> Tag:
-    """Return the nearest of four directions; in place where the body hardly moves."""
+    """Return the nearest of four directions, or "in place" at low speed."""
     if hypot(left, ahead) < MOVING:
         return "in place"
     quarter = round(degrees(atan2(left, ahead)) / 90) % 4
@@ -122,11 +121,11 @@ def _choose_direction(left: float, ahead: float) -> Tag:
 
 
 def _measure_looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
-    """Return where the head looks, radians from +z towards +x."""
+    """Return the direction of gaze in each frame, radians from +z towards +x."""
     skeleton = motion.skeleton
     _, left, right = find_parting(skeleton, ends.left_wrist, ends.right_wrist, "arms")
     places, turns = get_rig(skeleton).rest()
-    # Where the arms part, at rest: head and chest face the same way there.
+    # The left axis at rest, from the branches of the arms: head and chest face the same way.
     to_left = places[left] - places[right]
     to_left /= max(float(np.linalg.norm(to_left)), 1e-12)
     axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left)

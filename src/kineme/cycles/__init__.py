@@ -1,6 +1,6 @@
-"""Cycles: what each repetition measures, their mean curves, and events such as foot contacts.
+"""Cycles: measurements of each repetition, mean curves, and events such as foot contacts.
 
-The room can be called as its function, whichever of the two was imported last under its name.
+The package is callable like its function `cycles`, since both have the same name.
 """
 
 import sys
@@ -44,9 +44,9 @@ __all__ = [
 ]
 
 
-class _Room(ModuleType):
+class _CallableModule(ModuleType):
     def __call__(self, *args: Any, **options: Any) -> Cycles:
         return cycles(*args, **options)
 
 
-sys.modules[__name__].__class__ = _Room
+sys.modules[__name__].__class__ = _CallableModule

@@ -1,17 +1,17 @@
-"""Curves in step: the same share of the cycle is the same part of the movement.
+"""Align curves so that the same percentage of the cycle is the same phase of the movement.
 
-Cycles of one group are each of 0 to 100 %, evenly in time. Where their parts last differently, a
-mean over them is flatter than any of them. Two ways of mending that:
+Each cycle runs from 0 to 100 %, linear in time. If phases take different shares of the cycle, the
+mean curve is flatter than each cycle. Two methods correct this:
 
-*Landmarks.* The largest and the smallest value of the first channel come at one time in all cycles,
-the mean of theirs; time between landmarks and the ends is stretched evenly (Kneip and Gasser 1992,
-"Statistical tools to analyze data representing a sample of curves").
+*Landmarks.* The maximum and the minimum of the first channel are moved to their mean times; time in
+between is stretched evenly (Kneip and Gasser 1992, "Statistical tools to analyze data representing
+a sample of curves").
 
-*Warping.* Each cycle is warped to the mean of all, in all channels, each in units of its own
-deviation (dynamic time warping; Sakoe and Chiba 1978), several times. What all have in common in
-these warps is taken off, so that the mean keeps its times.
+*Warping.* Each cycle is warped to the mean several times, using all channels divided by their
+standard deviations (dynamic time warping; Sakoe and Chiba 1978). The mean warp is removed, so that
+the mean curve keeps its timing.
 
-What is measured, such as when a channel is largest, is that of the cycle as it was.
+Statistics, such as the time of a maximum, refer to the original cycles.
 """
 
 from __future__ import annotations
@@ -26,22 +26,22 @@ from kineme._util.arrays import Floats
 LINEAR, LANDMARKS, WARP = "linear", "landmarks", "warp"
 ALIGNMENTS = (LINEAR, LANDMARKS, WARP)
 GRID = 101
-"""Points of a cycle on which it is warped."""
+"""Number of points of a cycle that are warped."""
 NEAR = 0.15
-"""Of a cycle: a landmark is looked for so far from where the mean has it."""
+"""Largest distance of a landmark from that of the mean curve, as a fraction of the cycle."""
 INSIDE = 0.05
-"""Of a cycle: landmarks are so far from its ends and from each other, at least."""
+"""Least distance of landmarks from the ends and each other, as a fraction of the cycle."""
 BAND = 0.15
-"""Of a cycle, by which it is warped at most."""
+"""Largest warp, as a fraction of the cycle."""
 STEP = 0.2
-"""What a step of a warp costs that leaves one of the two cycles where it is."""
+"""Cost of a warping step along one axis only."""
 ROUNDS = 3
 SMOOTH = 7
-"""Points over which a warp is smoothed."""
+"""Number of points over which a warp is smoothed."""
 
 
 def align_curves(curves: Floats, alignment: str) -> Floats:
-    """Curves (cycles, channels, points) of one group, in step; those with gaps as they were."""
+    """Return aligned curves (cycles, channels, points) of one group; skip those with gaps."""
     complete = np.isfinite(curves).all(axis=(1, 2))
     if alignment == LINEAR or complete.sum() < 2:
         return curves
@@ -57,7 +57,7 @@ def align_curves(curves: Floats, alignment: str) -> Floats:
 
 
 def _sample_curves(curves: Floats, shares: Floats, phases: Iterable[Floats]) -> Floats:
-    """Return the curves, known at shares of the cycle, at a phase of each for each point."""
+    """Interpolate curves, given at ``shares`` of the cycle, at the phases of each cycle."""
     return np.array(
         [[np.interp(phase, shares, channel) for channel in curve]
          for curve, phase in zip(curves, phases, strict=True)]
@@ -65,7 +65,7 @@ def _sample_curves(curves: Floats, shares: Floats, phases: Iterable[Floats]) -> 
 
 
 def _align_landmarks(curves: Floats) -> Floats:
-    """(cycles, GRID): the phase of each cycle at each time of the common one."""
+    """Return the phase of each cycle at each time of the common cycle, (cycles, GRID)."""
     mean, grid = curves.mean(axis=0), np.linspace(0, 1, GRID)
     # In points of the grid.
     reach, margin = round(NEAR * GRID), round(INSIDE * GRID)
@@ -92,7 +92,7 @@ def _align_landmarks(curves: Floats) -> Floats:
 
 
 def _warp_to_mean(curves: Floats) -> Floats:
-    """Return the same, warped to the mean."""
+    """Return the phase of each cycle, warped to the mean, (cycles, GRID)."""
     grid = np.linspace(0, 1, GRID)
     # One deviation for each channel, over all cycles and points: channels have different units.
     deviation = curves.std(axis=(0, 2), keepdims=True)
@@ -109,7 +109,7 @@ def _warp_to_mean(curves: Floats) -> Floats:
 
 
 def _warp_cycle(mean: Floats, curve: Floats) -> Floats:
-    """Return the phase of a cycle at each time of the mean, on the cheapest path within a band."""
+    """Return the phase of a cycle at each time of the mean, by the cheapest path in a band."""
     from kineme.features._warping_kernels import find_cheapest_path
 
     grid, points = np.linspace(0, 1, GRID), np.arange(GRID)

@@ -1,25 +1,26 @@
-"""Borders of repetitions at the rate of the file, and at one phase of all repetitions of a cluster.
+"""Refine the borders of repetitions and move them to one common phase per cluster.
 
-A method cuts on a grid of its working rate, and each activity at a phase of its own. Here borders
-move to where the recording about them is most similar to the mean of all borders of the cluster.
+Segmentation methods cut on the grid of their working rate, and each activity at its own phase. Here
+borders move to where the recording around them is most similar to the mean over all borders of the
+cluster.
 
-1. *One phase.* Of each run (repetitions of one cluster back to back) the mean cycle is turned, as
-   on a clock, until it is most similar to that of the longest run; its borders move by as much of
-   a cycle. Of all phases that one is kept at which the fewest repetitions move.
-2. *Between two frames.* The template is the mean of the recording about all inner borders; each
-   border moves to the place where the squared difference to it is least, found between samples by
-   a parabola. A dimension counts by the share of its variance that the template explains: where
-   one hand waves, the noise of all others says nothing. Both are repeated; the mean of all moves
-   is taken out, so that the phase stays.
-3. *One place for all readings.* All borders move to the middle of the rest in which they lie, else
-   to where the main movement of the mean cycle turns back, at the nearest such place: a squat
-   begins at its top, a step at the end of a swing.
-4. *Uncertainty.* The deviation of that place: the differences that are left, weighed by the slope
-   of the template, summed over blocks of the window, within which they may hang together.
+1. *Common phase.* The mean cycle of each run (successive repetitions of one cluster) is rotated
+   until it is most similar to that of the longest run, and the borders move by the same fraction of
+   a cycle. The phase that moves the fewest repetitions is kept.
+2. *Subframe position.* The template is the mean of the recording around all inner borders. Each
+   border moves to the least squared difference from the template, interpolated by a parabola.
+   Dimensions are weighted by the share of their variance that the template explains, which
+   suppresses the noise of joints at rest. Both steps are repeated; the mean move is subtracted, so
+   that the phase stays.
+3. *Landmark.* All borders move to the middle of the rest in which they lie, or else to the nearest
+   reversal of the mean cycle's main movement: a squat begins at its top, a step at the end of a
+   swing.
+4. *Uncertainty.* The standard deviation of a border follows from the remaining differences,
+   weighted by the slope of the template and summed over blocks of correlated samples.
 
-At the first and the last border of a run only the half of the window that lies inside it counts.
-Where that tells little, they are drawn to where a repetition of usual length would have them: both
-places are weighed by how uncertain they are, the second by how much inner repetitions differ.
+At the first and last border of a run only the half of the window inside the run is used. These
+borders are averaged with the position predicted by the usual length of a repetition, weighted by
+inverse variances; the spread of the inner repetitions gives the variance of the prediction.
 """
 
 from __future__ import annotations
@@ -32,30 +33,30 @@ import numpy as np
 from kineme._util.arrays import Floats, interpolate_frames
 
 WINDOWS = (0.5, 0.35, 0.25, 0.25)
-"""Of a cycle, for each step: what is compared before and after a border. The wide ones cannot be
-mistaken; the narrow ones do not mind that the next repetition is faster."""
+"""Half-width of the compared window in each step, in cycles. Wide windows are unambiguous; narrow
+ones tolerate changes of pace."""
 POINTS = 50
-"""Of a mean cycle while its phase is searched for; of a window as many for each cycle."""
+"""Number of samples per cycle in mean cycles and windows."""
 FARTHEST = 0.12
-"""Of a cycle: as far a border moves in the first of these steps; half as far in each next one."""
+"""Largest move of a border in the first step, in cycles; halved in each following step."""
 SIMILAR, BETTER = 0.7, 0.1
-"""Correlation of two mean cycles of one phase, and how much more that must be than before."""
+"""Least correlation of two mean cycles at a common phase, and its least gain over no shift."""
 RESTING = 0.2
-"""Of the speed of a mean cycle, the root of its mean square: what is slower rests."""
+"""Fraction of the mean cycle's RMS speed below which it rests."""
 LEAST = 4
-"""Inner repetitions that tell how much they differ in length."""
+"""Least number of inner repetitions to estimate the spread of lengths."""
 BLOCKS = 6
-DOUBT = 2.0
-"""By this the deviation is multiplied: the sum over blocks leaves out by how much repetitions
-differ all over the window. Chosen on synthetic recordings (`python -m benchmarks cycles`)."""
+INFLATION = 2.0
+"""Factor on the standard deviation, since blocks ignore differences over the whole window. Chosen
+on synthetic recordings (`python -m benchmarks cycles`)."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """Repetitions of one cluster back to back, with n + 1 ``borders`` in seconds.
+    """Successive repetitions of one cluster, with n + 1 ``borders`` in seconds.
 
-    ``uncertainty``: standard deviations of the borders; nan where nothing tells. ``turned``: by how
-    much of a cycle its phase was moved.
+    ``uncertainty`` holds the standard deviations of the borders, nan if unknown. ``turned`` is the
+    shift of the phase in cycles.
     """
 
     recording: int
@@ -65,18 +66,18 @@ class Run:
 
     @cached_property
     def period(self) -> float:
-        """Seconds of a repetition, the median."""
+        """Return the median duration of a repetition in seconds."""
         return float(np.median(np.diff(self.borders)))
 
     @cached_property
     def lengths(self) -> Floats:
-        """Seconds of each repetition, halfway to the median."""
+        """Return the duration of each repetition, averaged with the median."""
         return (np.diff(self.borders) + self.period) / 2
 
     def at(self, cycles: Floats) -> Floats:
-        """Return the seconds at which so many cycles are done.
+        """Return the times at numbers of cycles from the start.
 
-        Beyond its ends at its own period.
+        Extrapolate with the median period.
         """
         n = len(self.borders) - 1
         # `interp` holds the end values constant outside, so whole periods are added there.
@@ -84,11 +85,11 @@ class Run:
         beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
         return inside + beyond * self.period
 
-    def pace(self, border: int, offsets: Floats) -> Floats:
-        """Seconds from a border at shares of the cycles before and after it.
+    def to_seconds(self, border: int, offsets: Floats) -> Floats:
+        """Return offsets from a border in cycles as seconds.
 
-        Their lengths count by half, the period of the run by the other half: a window follows the
-        pace, and does not run away where borders are not right yet.
+        Cycle lengths are averaged with the period of the run, so that windows follow the pace but
+        stay stable while borders are inaccurate.
         """
         # The first and the last border have a repetition on one side only.
         before = self.lengths[max(border - 1, 0)]
@@ -97,15 +98,15 @@ class Run:
 
 
 def make_run(recording: int, borders: Floats) -> Run:
-    """Return a run as a method cut it."""
+    """Return a run with the borders of a segmentation method."""
     return Run(recording, borders, np.full(len(borders), np.nan))
 
 
 def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
-    """Return the runs of one cluster with borders at one phase, between two frames.
+    """Return the runs of one cluster with refined borders at a common phase.
 
-    ``features`` has an array (samples, dims) of each recording, all of as many dimensions;
-    ``rates`` their samples per second.
+    ``features`` holds an array (samples, dims) for each recording, with equal dims; ``rates`` their
+    samples per second.
     """
     runs = _turn_borders(runs, features, rates)
     inner = sum(len(run.borders) - 2 for run in runs)
@@ -132,7 +133,7 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
 
 
 def _extend_ends(runs: list[Run]) -> list[Run]:
-    """Return runs with their ends drawn to where a repetition of usual length would have them."""
+    """Return runs with end borders averaged with those predicted by the usual length."""
     # The first and the last repetition of a run are left out: they end at the borders in question.
     inner = [np.diff(run.borders)[1:-1] for run in runs]
     # Lengths relative to the median of their run, since runs differ in pace.
@@ -158,10 +159,10 @@ def _extend_ends(runs: list[Run]) -> list[Run]:
 
 
 def _measure_landmark_shift(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
-    """By how much of a cycle later borders lie at a place that every reading can find again.
+    """Return the shift in cycles that moves borders to a reproducible landmark.
 
-    Where the mean cycle stands still, that is the middle of its rest. Else it is the nearest place
-    at which its main movement, the first principal component, turns back.
+    If the mean cycle rests at the border, this is the middle of the rest. Otherwise it is the
+    nearest reversal of the main movement, the first principal component.
     """
     # A single repetition has no neighbour that shows where the movement turns.
     repeated = [run for run in runs if len(run.borders) > 2]
@@ -190,7 +191,7 @@ def _measure_landmark_shift(runs: list[Run], features: list[Floats], rates: list
 
 
 def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
-    """Return the runs with their borders at about one phase."""
+    """Return the runs with borders at approximately one phase."""
     repeated = [run for run in runs if len(run.borders) > 2]
     if len(repeated) < 2:
         return runs
@@ -214,12 +215,12 @@ def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -
 
 
 def _wrap_phase(share: float) -> float:
-    """Return a share of a cycle from -1/2 to 1/2."""
+    """Wrap a phase in cycles to -1/2 to 1/2."""
     return (share + 0.5) % 1 - 0.5
 
 
 def _average_cycles(run: Run, features: list[Floats], rates: list[float]) -> Floats:
-    """(points, dims): the mean of the repetitions of a run."""
+    """Return the mean of the repetitions of a run, (points, dims)."""
     n = len(run.borders) - 1
     # (repetitions, points): phases of all cycles, evenly spaced.
     cycles = np.arange(n)[:, None] + np.arange(POINTS) / POINTS
@@ -228,9 +229,9 @@ def _average_cycles(run: Run, features: list[Floats], rates: list[float]) -> Flo
 
 
 def _measure_lateness(mean: Floats, reference: Floats) -> float:
-    """By how much of a cycle later than its border a mean cycle is as the reference at its own.
+    """Return how much later in its cycle a mean cycle resembles the reference, in cycles.
 
-    0 where no phase makes them similar, or none much more than the present one.
+    0 if no phase makes them similar, or none much more than the present one.
     """
     # Without the means the correlation compares shapes only.
     first, second = (each - each.mean(axis=0) for each in (mean, reference))
@@ -252,18 +253,20 @@ def _measure_lateness(mean: Floats, reference: Floats) -> float:
 def _make_template(
     runs: list[Run], features: list[Floats], rates: list[float], offsets: Floats
 ) -> tuple[Floats, Floats]:
-    """(window, dims): the mean about all inner borders; and (dims,): what share it explains."""
+    """Return the mean around all inner borders (window, dims), and explained variance (dims,)."""
     windows = []
     for run in runs:
-        times = [run.borders[i] + run.pace(i, offsets) for i in range(1, len(run.borders) - 1)]
+        times = [
+            run.borders[i] + run.to_seconds(i, offsets) for i in range(1, len(run.borders) - 1)
+        ]
         if times:
             values, rate = features[run.recording], rates[run.recording]
             windows.append(sample_at(values, rate, np.array(times)))
     # (borders, window, dims).
-    every = np.concatenate(windows)
-    template = np.asarray(every.mean(axis=0))
+    all_windows = np.concatenate(windows)
+    template = np.asarray(all_windows.mean(axis=0))
     # Variance of the template in the window, as a share of all: high where repetitions agree.
-    explained, total = template.var(axis=0), every.var(axis=(0, 1))
+    explained, total = template.var(axis=0), all_windows.var(axis=(0, 1))
     shares = np.where(total > 0, explained / np.where(total > 0, total, 1.0), 0.0)
     return template, shares
 
@@ -277,7 +280,7 @@ def _move_borders(
     offsets: Floats,
     reach: float,
 ) -> Run:
-    """Return the run with each border where the recording is most similar to the template."""
+    """Return the run with each border at the best match of the template."""
     values, rate = features[run.recording], rates[run.recording]
     # The gradient per cycle; square roots of the weights go with differences squared later.
     slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)
@@ -290,7 +293,7 @@ def _move_borders(
             used &= offsets >= 0
         if i == len(borders) - 1:
             used &= offsets <= 0
-        pace = run.pace(i, offsets[used])
+        pace = run.to_seconds(i, offsets[used])
         # (shifts, window): times of the window for each tried shift.
         times = border + shifts[:, None] * run.period + pace
         # (shifts,): weighted squared difference to the template.
@@ -309,23 +312,23 @@ def _move_borders(
 
 
 def _estimate_deviation(left: Floats, slope: Floats) -> float:
-    """Standard deviation of a place, in cycles; nan where the template has no slope."""
+    """Return the standard deviation of a border in cycles; nan if the template has no slope."""
     steepness = float((slope**2).sum())
     if steepness == 0:
         return np.nan
     # Differences of neighbouring samples are correlated: block sums are taken as independent.
     pulls = [block.sum() for block in np.array_split((left * slope).sum(axis=1), BLOCKS)]
     # Error of a least-squares shift: deviation of the pulls, divided by the summed squared slope.
-    return DOUBT * float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(pulls).sum()) / steepness)
+    return INFLATION * float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(pulls).sum()) / steepness)
 
 
 def find_vertex(left: float, middle: float, right: float) -> float:
-    """Where the parabola through three values at -1, 0 and 1 is least, from -1/2 to 1/2."""
+    """Return the minimum of the parabola through values at -1, 0 and 1, clipped to -1/2 to 1/2."""
     # Positive curvature only: other parabolas have no minimum.
     curvature = left - 2 * middle + right
     return float(np.clip((left - right) / (2 * curvature), -0.5, 0.5)) if curvature > 0 else 0.0
 
 
 def sample_at(values: Floats, rate: float, times: Floats) -> Floats:
-    """Values (samples, dims) at times in seconds, between samples on lines; the ends go on."""
+    """Interpolate values (samples, dims) linearly at times in seconds; clamp at the ends."""
     return interpolate_frames(values, np.clip(times * rate, 0, len(values) - 1))

@@ -1,21 +1,21 @@
-"""What can be measured in a recording: angles, positions and speeds of a body, channels of signals.
+"""Channels that can be measured: angles, positions and speeds of a body, channels of signals.
 
-Left and right stand at the end of a name, as in ``knee_l``. Angles of a body:
+Names end with the side, as in ``knee_l``. Angles of a body:
 
 =============== ===============================================================================
-``knee_l``      by how much thigh and shank are bent against each other, of markers about the axis
-                of the knee; ``elbow_l`` between both limbs
-``hip_l``       thigh forward: against the pelvis where rotations tell it, else against the trunk
+``knee_l``      angle between thigh and shank, for markers about the axis of the knee;
+                ``elbow_l`` between both limbs
+``hip_l``       thigh forward: relative to the pelvis if there are rotations, else to the trunk
 ``ankle_l``     toes up: 90 degrees less the angle between shank and foot
-``shoulder_l``  between upper arm and trunk: 0 where the arm hangs
-``trunk_lean``  trunk forward against the vertical; ``trunk_side`` to the right
+``shoulder_l``  between upper arm and trunk: 0 if the arm hangs down
+``trunk_lean``  trunk forward from the vertical; ``trunk_side`` to the right
 =============== ===============================================================================
 
 ``stance_l`` is 100 while the left foot stands and 0 while it swings, so that its mean over a cycle
-is the share of stance, in per cent; sensors at the feet have it, too. ``heading`` is where the body
-faces, about the vertical, without jumps. Of each joint there are ``NAME.rx``, ``.rz``, ``.ry`` (its
+is the stance phase in per cent; sensors at the feet have it, too. ``heading`` is the direction that
+the body faces, about the vertical, unwrapped. Each joint has ``NAME.rx``, ``.rz``, ``.ry`` (its
 rotation, see `kineme.cycles.cardan`), ``NAME.x``, ``.y``, ``.z`` (metres, y up), ``NAME.left``,
-``.up``, ``.ahead`` (metres, seen from the pelvis, as the body faces) and ``NAME.speed``.
+``.up``, ``.ahead`` (metres, relative to pelvis and heading) and ``NAME.speed``.
 """
 
 from __future__ import annotations
@@ -51,14 +51,14 @@ from kineme.recordings.kinematics import compute_world_rotations, place_at_rest
 
 Compute = Callable[[], Floats]
 Add = Callable[[str, str, str, Sequence[str | int], Compute], None]
-"""Name, unit, group, joints or words that tell the source, and what computes the channel."""
+"""Arguments: name, unit, group, source (joints or words), and function that computes values."""
 
 DEGREES = "°"
 CONTACT = "contact"
 ANGLE, CHANNEL = "angle", "channel"
-"""Groups that are measured where nobody says which."""
+"""Groups that are measured by default."""
 ALIKE = 0.7
-"""Cosine between the axis of a knee and that of the hips, at least: 45 degrees."""
+"""Least cosine between the axis of a knee and that of the hips: 45 degrees."""
 _SHOWN = 8
 
 
@@ -69,12 +69,12 @@ class Channel:
     Attributes
     ----------
     name, unit : str
-        The unit is empty where nobody says it, as of most signals.
+        The unit is empty if unknown, as for most signals.
     group : str
-        What kind of number it is: ``angle``, ``direction``, ``contact``, ``rotation``,
+        Kind of quantity: ``angle``, ``direction``, ``contact``, ``rotation``,
         ``position``, ``from the pelvis``, ``speed`` or ``channel``.
     source : str
-        From which joints it is, for the provenance.
+        Joints that it is computed from, for the provenance.
     fps : float
         Frames per second.
 
@@ -96,7 +96,7 @@ class Channel:
     gaps: Sequence[tuple[int, int]] = ()
 
     def values(self) -> Floats:
-        """Return the numbers, nan where nothing was recorded."""
+        """Return the values, nan in gaps."""
         values = np.array(self.compute(), np.float64)
         for start, stop in self.gaps:
             values[start:stop] = np.nan
@@ -109,17 +109,17 @@ def channels_of(
     *,
     beside: Sequence[Signals] = (),
 ) -> list[Channel]:
-    """Channels of a recording, by their names.
+    """Return channels of a recording, selected by name.
 
     Parameters
     ----------
     recording : Motion or Signals
     names : iterable of str, optional
-        In the order wanted; ``*`` and ``?`` stand for any characters. By default the angles of a
-        body, or the speeds of its points where no joint is found by name; all channels of signals.
+        Names in the wanted order; ``*`` and ``?`` are wildcards. By default the angles of a body,
+        or the speeds of its points if no joint is recognised; for signals all channels.
     beside : sequence of Signals
-        Recorded at the same time, such as force plates: their channels are measured as well, each
-        at its rate.
+        Signals recorded at the same time, such as force plates. Their channels are added, each at
+        its own rate.
 
     Returns
     -------
@@ -128,7 +128,7 @@ def channels_of(
     Raises
     ------
     ParameterError
-        There is no channel of a name.
+        No channel matches a name.
 
     Examples
     --------
@@ -139,25 +139,25 @@ def channels_of(
     ['knee_l', 'knee_r', 'Head.up']
     """
     if isinstance(recording, Motion):
-        every = make_motion_channels(recording)
+        available = make_motion_channels(recording)
     else:
-        every = _make_signal_channels(recording)
-    # Contacts follow, unless a channel of this name is there already.
-    every += [
+        available = _make_signal_channels(recording)
+    # Contacts follow, unless a channel with this name exists already.
+    available += [
         each
         for each in make_contact_channels(recording)
-        if each.name not in {c.name for c in every}
+        if each.name not in {c.name for c in available}
     ]
     for signals in beside:
-        every += _make_signal_channels(signals)
-    usual = [channel for channel in every if channel.group in (ANGLE, CHANNEL)]
+        available += _make_signal_channels(signals)
+    usual = [channel for channel in available if channel.group in (ANGLE, CHANNEL)]
     if names is None:
-        return usual or [channel for channel in every if channel.group == "speed"]
+        return usual or [channel for channel in available if channel.group == "speed"]
     chosen: dict[str, Channel] = {}
     for pattern in as_texts(names, "names of channels"):
-        matching = [each for each in every if fnmatchcase(each.name, pattern)]
+        matching = [each for each in available if fnmatchcase(each.name, pattern)]
         if not matching:
-            choices = [each.name for each in usual or every]
+            choices = [each.name for each in usual or available]
             more = ", …" if len(choices) > _SHOWN else ""
             raise ParameterError(
                 f"no channel {pattern!r}; there are {', '.join(choices[:_SHOWN])}{more} "
@@ -176,7 +176,7 @@ def _make_signal_channels(signals: Signals) -> list[Channel]:
 
 
 def make_contact_channels(recording: Motion | Signals) -> list[Channel]:
-    """When each foot stands, of the feet that are there."""
+    """Return a stance channel for each foot that is found."""
     return [
         Channel(f"stance_{side[0]}", "%", CONTACT, ", ".join(foot), recording.fps,
                 partial(mark_stance, recording, side), recording.gaps)
@@ -186,7 +186,7 @@ def make_contact_channels(recording: Motion | Signals) -> list[Channel]:
 
 
 def make_motion_channels(motion: Motion) -> list[Channel]:
-    """Return every channel of a body: its angles first, after them rotations, positions, speeds."""
+    """Return all channels of a body: angles first, then rotations, positions, speeds."""
     channels: list[Channel] = []
     fps, gaps = motion.fps, motion.gaps
     extended, parts = add_joint_centres(motion, landmarks(motion))
@@ -197,10 +197,10 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
         channels.append(Channel(name, unit, group, source, fps, compute, gaps))
 
     try:
-        # Without jumps by 360 degrees.
+        # Unwrapped: no jumps by 360 degrees.
         facing = np.degrees(np.unwrap(compute_heading(motion)[1]))
     except (EndEffectorError, MotionError):
-        facing = None  # nothing tells where the body faces
+        facing = None  # unknown heading
     _add_bends(extended.positions, parts, add)
     _add_angles(extended, parts, add)
     if facing is not None:
@@ -211,7 +211,7 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
 
 
 def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
-    """Rotation, position and speed of each joint."""
+    """Add rotation, position and speed of each joint."""
     places, rotations = motion.positions, motion.rotations
     joints = [*enumerate(motion.skeleton.names)]
 
@@ -235,16 +235,16 @@ def _add_joints(motion: Motion, faces: bool, add: Add) -> None:
 
 
 def _get_component(compute: Compute, place: int) -> Floats:
-    """Return one number of each frame, of the several that a function gives."""
+    """Return one component of the values of a function, (frames,)."""
     return np.asarray(compute()[..., place]).ravel()
 
 
 def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:
-    """Knees, elbows and ankles, as far as their joints are there."""
+    """Add angles of knees, elbows and ankles whose joints are found."""
     bent = (
         ("knee", ("hip", "knee", "ankle"), 0.0),
         ("elbow", ("shoulder", "elbow", "wrist"), 0.0),
-        # 90 degrees less, so that an ankle is 0 with the foot at right angles to the shank.
+        # Minus 90 degrees: an ankle is 0 if the foot is at right angles to the shank.
         ("ankle", ("knee", "ankle", "toe"), -90.0),
     )
     for name, parts, less in bent:
@@ -261,7 +261,7 @@ def _add_bends(places: Floats, joints: Mapping[str, int], add: Add) -> None:
 
 
 def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
-    """Hips, shoulders and the trunk."""
+    """Add angles of hips, shoulders and the trunk."""
     places = motion.positions
     hips = [joints.get(f"{side}_hip", -1) for side in SIDES]
     shoulders = [joints.get(f"{side}_shoulder", -1) for side in SIDES]
@@ -300,24 +300,24 @@ def _measure_bend(places: Floats, chain: Sequence[int], less: float) -> Floats:
 def _measure_flexion(
     places: Floats, chain: Sequence[int], thigh: int, hips: Sequence[int]
 ) -> Floats:
-    """By how much a knee is bent about its axis, or that of the hips if it hardly moves."""
+    """Return the flexion of a knee about its axis, or that of the hips if it hardly moves."""
     hip, knee, ankle = (places[:, joint] for joint in chain)
-    # Without what lies along the leg: an axis at right angles to it.
+    # Remove the component along the leg to get an axis at right angles to it.
     to_left = normalize(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
     axis = find_hinge_axis(hip, knee, ankle, places[:, thigh])
     # Cosine of the fitted axis with the line of the hips, in each frame.
     alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)
     if axis is None or np.median(np.abs(alike)) < ALIKE:
         return measure_turn(to_left, knee - hip, ankle - knee)
-    axis = axis * np.sign(alike)[:, None]  # in each frame: a thigh marker may be mistaken in some
+    axis = axis * np.sign(alike)[:, None]  # per frame, since a thigh marker may be wrong in some
     return measure_turn(axis, knee - hip, ankle - knee)
 
 
 def _measure_against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
-    """Return how far the thigh is turned forward from the pose of rest, in the pelvis's frame."""
+    """Return the thigh's forward rotation from the rest pose, relative to the pelvis."""
     skeleton = motion.skeleton
     turned = compute_world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
-    # The thigh as the pelvis sees it: rotated by the inverse of its rotation.
+    # Transform the thigh into the frame of the pelvis.
     thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
     places = place_at_rest(skeleton)
     rest, to_left = places[knee] - places[hip], places[hips[0]] - places[hips[1]]
@@ -326,7 +326,7 @@ def _measure_against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[
 
 
 def _find_trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:
-    """From the middle of the hips to the middle of the shoulders."""
+    """Return the vector from the middle of the hips to that of the shoulders."""
     return np.asarray(places[:, shoulders].mean(axis=1) - places[:, hips].mean(axis=1))
 
 
@@ -349,7 +349,7 @@ def _measure_lean(
     places: Floats, hips: Sequence[int], shoulders: Sequence[int], *, sideways: bool
 ) -> Floats:
     trunk = _find_trunk(places, hips, shoulders)
-    # The line of the hips, level.
+    # The line of the hips without its vertical component.
     to_left = (places[:, hips[0]] - places[:, hips[1]]) * [1, 0, 1]
     up = np.broadcast_to([0.0, 1.0, 0.0], trunk.shape)
     # Left x up is ahead: turning up about it leads to the right; about left, it leads forward.

@@ -1,14 +1,12 @@
 """Compare cycles: left with right, and one session with another.
 
-Sides are channels whose names differ in nothing but ``_l`` and ``_r`` at the end, or ``left`` and
-``right``. Each cycle is its own control: differences are within a cycle, and their bounds by
-Student's t for pairs. Of ``stance_l`` and ``stance_r`` the means are compared, which are the shares
-of stance; what is left of a cycle is swing.
+Sides are pairs of channels whose names differ only in ``_l`` and ``_r`` at the end, or ``left`` and
+``right``. Differences are taken within each cycle, with bounds by the paired t test. For
+``stance_l`` and ``stance_r`` the means are compared, which are the stance phases.
 
-Sessions are compared group by group; a group is in both where it has the same name, as repetitions
-with a label do. Differences are the second less the first; their bounds hold the true one with a
-confidence of 95 %, by Welch's t for two means of unequal spread, each number and each point of a
-curve by itself.
+Sessions are compared by groups with the same name, such as repetitions with the same label.
+Differences are second minus first. Bounds are 95 % confidence intervals by Welch's t test, computed
+separately for each measure and each point of a curve.
 """
 
 from __future__ import annotations
@@ -33,12 +31,12 @@ from kineme.cycles.table import (
 from kineme.errors import ParameterError
 
 MEASURES = ("range", "min", "max", "mean", "min_at", "max_at")
-"""Statistics that are compared; times of the cycle are of one clock for both sides."""
+"""Statistics that are compared. Times are relative to the same cycle for both sides."""
 _RIGHT = {"left": "right", "Left": "Right", "LEFT": "RIGHT"}
 
 
 def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
-    """Return what differs between left and right, for each group and each pair of channels.
+    """Compare left and right for each group and each pair of channels.
 
     Parameters
     ----------
@@ -50,10 +48,10 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     -------
     dict of str to array
         Columns: ``group``, ``left_channel``, ``right_channel``, ``measure``, ``n`` (cycles in
-        which both sides were recorded), ``left``, ``right`` (means), ``difference`` (left less
-        right), ``low`` and ``high`` (its bounds, 95 %), and of ranges ``symmetry_index``: the
-        difference in per cent of the mean of both sides, 0 where they are equal. nan where there
-        are too few cycles.
+        which both sides were recorded), ``left``, ``right`` (means), ``difference`` (left minus
+        right), ``low`` and ``high`` (its 95 % bounds), and for ranges ``symmetry_index``: the
+        difference in per cent of the mean of both sides, 0 if they are equal. nan for too few
+        cycles.
 
     Examples
     --------
@@ -69,7 +67,7 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
     check_type(cycles, Cycles, "compare_sides", "kineme.cycles(recording, segments) gives them")
     check_flag(ends, "ends")
     used = cycles.used(ends=ends)
-    # The unit tells stance channels, whose mean is the share of stance.
+    # Stance channels are recognised by their unit; their mean is the stance phase.
     stances = {
         name for name, unit in zip(cycles.channels, cycles.units, strict=True) if unit == "%"
     }
@@ -91,10 +89,10 @@ def compare_sides(cycles: Cycles, *, ends: bool = False) -> Columns:
 
 
 def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
-    """Return the channels of left sides, each with that of the right, where both are there."""
+    """Return pairs of left and right channels."""
     pairs = []
     for left in channels:
-        # The case of the word is kept; a name that has no `left` may end in `_l`.
+        # Keep the case of `left`; names without it may end in `_l`.
         right = re.sub("left", lambda word: _RIGHT.get(word[0], "right"), left, flags=re.IGNORECASE)
         right = right if right != left else re.sub("_l$", "_r", left)
         if right != left and right in channels:
@@ -105,18 +103,21 @@ def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
 def _compare_values(
     left: Floats, right: Floats, measure: str, *, indexed: bool
 ) -> tuple[float, ...]:
-    """Number, means, difference with bounds, symmetry index."""
+    """Return number, means, difference with bounds, and symmetry index."""
     both = np.isfinite(left) & np.isfinite(right)
     n = int(both.sum())
     if n == 0:
         return 0, *[np.nan] * 6
     # Paired: the differences within each cycle are what is averaged.
-    apart = left[both] - right[both]
+    differences = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
-        apart = compute_phase_differences(apart)
+        differences = compute_phase_differences(differences)
         of_left, of_right = compute_mean_phase(left[both]), compute_mean_phase(right[both])
-    mean, half = apart.mean(), compute_half_width(apart.std(ddof=1) if n > 1 else np.nan, n)
+    mean, half = (
+        differences.mean(),
+        compute_half_width(differences.std(ddof=1) if n > 1 else np.nan, n),
+    )
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan
@@ -124,21 +125,21 @@ def _compare_values(
 
 
 def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
-    """Return the numbers of two sessions side by side.
+    """Compare the statistics of two sessions.
 
     Parameters
     ----------
     first, second : Cycles
-        Of the same channels.
+        Cycles with the same channels.
     ends : bool
         Whether the first and the last cycle of an activity count as well.
 
     Returns
     -------
     dict of str to array
-        Columns: ``group``, ``measure`` as in `Cycles.summary`; of each session ``first_n``,
-        ``first_mean``, ``first_sd``; ``difference``, ``low`` and ``high``: its bounds, nan where
-        a session has fewer than two cycles.
+        Columns: ``group``, ``measure`` as in `Cycles.summary`; ``first_n``, ``first_mean``,
+        ``first_sd``, and the same for ``second``; ``difference`` with its bounds ``low`` and
+        ``high``, nan if a session has fewer than two cycles.
 
     Raises
     ------
@@ -159,7 +160,7 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     _check_comparable(first, second)
     summaries = (each.summary(ends=ends) for each in (first, second))
     compared = _join_sessions(("group", "measure"), *summaries)
-    # A difference of phases goes the shorter way round; its bounds are moved as much.
+    # Phase differences take the shorter way round the circle; bounds move along.
     difference = compared["difference"]
     turned = np.where([is_phase(measure) for measure in compared["measure"].tolist()],
                       compute_phase_differences(difference) - difference, 0.0)  # fmt: skip
@@ -167,12 +168,12 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
 
 
 def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:
-    """Return the mean curves of two sessions side by side.
+    """Compare the mean curves of two sessions.
 
     Parameters
     ----------
     first, second : Cycles
-        Of the same channels and as many points.
+        Cycles with the same channels and number of points.
     ends : bool
         Whether the first and the last cycle of an activity count as well.
 
@@ -180,7 +181,7 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
     -------
     dict of str to array
         Columns: ``group``, ``channel``, ``percent``, ``first_n``, ``first_mean``, ``first_sd``,
-        the same of the second, ``difference``, ``low``, ``high``.
+        the same for ``second``, ``difference``, ``low``, ``high``.
 
     Raises
     ------
@@ -208,7 +209,7 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
 
 
 def _check_comparable(first: Cycles, second: Cycles) -> None:
-    """Raise ParameterError where nothing can be compared."""
+    """Raise ParameterError if the sessions have nothing to compare."""
     for each in (first, second):
         check_type(
             each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
@@ -225,7 +226,7 @@ def _check_comparable(first: Cycles, second: Cycles) -> None:
 
 
 def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Columns:
-    """Return the rows whose keys are in both: keys, numbers, differences and their bounds."""
+    """Join the rows with keys in both: keys, statistics, differences and their bounds."""
     places, others = (
         {key: row for row, key in enumerate(zip(*(each[k].tolist() for k in keys), strict=True))}
         for each in (first, second)
@@ -252,7 +253,7 @@ def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Colu
 def _compare_means(
     n: Floats, mean: Floats, sd: Floats, other_n: Floats, other_mean: Floats, other_sd: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the second mean less the first, and its bounds."""
+    """Return the second mean minus the first, and its bounds."""
     from scipy.special import stdtrit
 
     # With fewer than two cycles this divides by zero, and the bounds are nan.

@@ -1,16 +1,15 @@
-"""When a foot is on the ground: from a gyroscope at the foot, from positions, from a force plate.
+"""Find foot contacts from a gyroscope at the foot, from positions, or from a force plate.
 
-*Gyroscope.* A foot that stands does not turn; between two stands it turns one way as the heel rises
-(fastest just before the toes leave), back as it swings, and the first way again as it comes down.
-The main axis of the turning is found by principal components, its sign by that order. The foot is
-off where the first turn has fallen to a share of its fastest, and on where the last has risen to
-one. The two shares were chosen on recordings of which people checked every contact, so that
-neither is early or late.
+*Gyroscope.* A standing foot does not rotate. Between two stands it rotates one way as the heel
+rises (fastest just before toe-off), back during the swing, and the first way again as it lands.
+Principal components give the axis of rotation, and this order its sign. Foot off is where the first
+rotation has fallen to a fraction of its peak, foot strike where the last one has risen to another
+fraction. Both fractions were chosen without bias on recordings with manually checked contacts.
 
-*Positions.* Heel and toe each stand while they are low and slow; the foot while one of them does.
-Speed is measured against the ground, which on a treadmill is the belt.
+*Positions.* Heel and toe stand while they are low and slow; the foot stands while one of them does.
+Speed is relative to the ground, which is the belt on a treadmill.
 
-*Force.* While a plate bears more than a threshold, above what it tells when nobody stands on it.
+*Force.* The foot stands while the force exceeds a threshold above that of the empty plate.
 """
 
 from __future__ import annotations
@@ -28,31 +27,31 @@ from kineme.features.feet import find_low_and_slow
 from kineme.recordings.arrays import find_spans
 
 STEADY = 0.12
-"""Of the usual turning of a foot that moves: slower than this, it stands."""
+"""Fraction of a moving foot's usual angular speed below which it stands."""
 FLAT_S = 0.08
-"""Seconds that a stand lasts, at least."""
+"""Shortest stand in seconds."""
 SWING_S = 0.15
-"""Seconds that a swing lasts, at least."""
+"""Shortest swing in seconds."""
 SMOOTH_S = 0.015
-"""A gyroscope is smoothed by a normal curve that deviates by this, in seconds."""
+"""Standard deviation of the Gaussian filter for gyroscopes, seconds."""
 OFF, ON = 0.62, 0.63
-"""Shares of the fastest turn before and after a swing at which the foot leaves and comes down."""
+"""Fractions of the peak rotation before and after a swing at foot off and foot strike."""
 HIGH, APART_S = 0.4, 0.3
-"""Of the fastest turn forward: what is faster is a swing; seconds between two of them, at least."""
+"""Fraction of the peak forward rotation that marks a swing; least seconds between swings."""
 FIRST = 0.3
-"""Of a movement, in which the heel rises."""
+"""First fraction of a movement, in which the heel rises."""
 LOW, SLOW = 0.04, 0.8
-"""Metres above its lowest place, and metres per second, below which a heel or a toe stands."""
+"""Height (m, above the lowest position) and speed (m/s) below which heel or toe stands."""
 BRIDGE_S, STAND_S = 0.1, 0.1
-"""Seconds: a shorter break is none, and a shorter stand is none."""
+"""Shortest break between stands, and shortest stand, in seconds."""
 NEWTON = 20.0
-"""What a force plate bears when somebody stands on it, at least."""
+"""Least force on a plate in newtons while somebody stands on it."""
 EMPTY = 0.1
-"""Of the largest force: what is less is that of an empty plate, whose amplifiers have an offset."""
+"""Fraction of the largest force below which the plate is empty; amplifiers have an offset."""
 
 
 def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
-    """When a foot leaves the ground and comes down again, from how it turns.
+    """Return the swings of a foot, found from its angular velocity.
 
     Parameters
     ----------
@@ -64,7 +63,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     Returns
     -------
     (swings, 2) array
-        Seconds at which the foot leaves the ground, and at which it is back.
+        Seconds of foot off and foot strike.
 
     Examples
     --------
@@ -86,7 +85,7 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
     size = np.linalg.norm(turning, axis=1)
     if not size.any():
         return np.empty((0, 2))
-    # Most of the time the foot may stand; only frames in which it moves tell how fast it turns.
+    # The foot may stand most of the time: use only frames in which it moves.
     usual = float(np.percentile(size[size > 0.1 * size.max()], 75))
     steady = find_spans(size < STEADY * usual).tolist()
     stands = [(a, b) for a, b in steady if b - a >= FLAT_S * fps]
@@ -105,17 +104,17 @@ def swings_from_gyroscope(rates: ArrayLike, fps: float) -> Floats:
         if (swing := _find_swing(pitch[start:stop])) is not None
     ]
     seconds = np.array(swings, np.float64).reshape(-1, 2) / fps
-    # The shortest spans are no swings, but jerks of a standing foot.
+    # The shortest spans are twitches of a standing foot.
     return seconds[np.diff(seconds, axis=1)[:, 0] >= SWING_S]
 
 
 def _join_movements(
     moves: Sequence[tuple[int, int]], pitch: Floats, fps: float
 ) -> list[tuple[int, int]]:
-    """Movements, joined where the foot did not stand between them.
+    """Join movements if the foot did not stand between them.
 
-    A foot that stood raises its heel first. Where it goes on forward, it was slow between heel
-    and swing, as in the first and the last step of a walk.
+    After a stand the heel rises first. If the rotation goes on forward instead, the foot was only
+    slow between heel rise and swing, as in the first and last step of a walk.
     """
     joined: list[tuple[int, int]] = []
     for start, stop in moves:
@@ -129,9 +128,9 @@ def _join_movements(
 
 
 def _split_parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple[int, int]]:
-    """Return a movement, parted where the foot stands too shortly to be seen standing.
+    """Split a movement in which the foot stands too briefly to be detected.
 
-    There are two swings where two turns forward are `APART_S` from each other.
+    It has two swings if two forward rotations are at least `APART_S` apart.
     """
     forward = find_spans(pitch[start:stop] > HIGH * pitch[start:stop].max(initial=0.0)).tolist()
     cuts = [start]
@@ -147,7 +146,7 @@ def _split_parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple
 
 
 def _find_swing(pitch: Floats) -> tuple[float, float] | None:
-    """Frames at which the foot is off and on again, in a movement between two stands."""
+    """Return the frames of foot off and foot strike in a movement between two stands."""
     middle = int(pitch.argmax())
     # A maximum at the very start leaves no heel rise before it.
     if middle < 2 or pitch[middle] <= 0:
@@ -167,7 +166,7 @@ def _find_swing(pitch: Floats) -> tuple[float, float] | None:
 
 
 def _find_crossing(values: Floats, start: int, stop: int, level: float) -> float:
-    """Where values from one frame to another first reach a level, between two frames."""
+    """Return the fractional frame at which values first reach a level, ``stop`` if never."""
     # Values relative to the level: the crossing is a change of sign.
     span = values[start : stop + 1] - level
     changed = np.flatnonzero(np.signbit(span) != np.signbit(span[0]))
@@ -179,7 +178,7 @@ def _find_crossing(values: Floats, start: int, stop: int, level: float) -> float
 
 
 def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
-    """When a foot stands, from where its heel and its toe are; one point alone will do.
+    """Return the stands of a foot, found from positions of heel and toe, or of one point.
 
     Parameters
     ----------
@@ -191,7 +190,7 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     Returns
     -------
     (stands, 2) array
-        Seconds from when and to when the foot stands.
+        Start and stop of each stand in seconds.
 
     Examples
     --------
@@ -207,19 +206,19 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     if len({len(path) for path in paths}) > 1:
         raise ParameterError("the points of a foot must be of the same frames")
     # (frames, 3): how far the ground has moved since the start.
-    carried = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
+    ground_shift = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
     for path in paths:
-        stands |= find_low_and_slow(path - carried, fps, height=LOW, speed=SLOW)
+        stands |= find_low_and_slow(path - ground_shift, fps, height=LOW, speed=SLOW)
     return _join_stands(stands, fps)
 
 
 def measure_ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
-    """Return the velocity of what carries a foot: of the belt of a treadmill, else 0.
+    """Return the velocity of the ground: that of a treadmill's belt, else 0.
 
-    A foot is low mostly while it stands, so the median velocity of its low points is the ground's.
-    On a belt the foot comes back to where it was; overground it travels with the body. The points
-    are (frames, 3), metres, y up; the result (3,), metres per second, is level.
+    A foot is low mostly while it stands, so the median velocity of its low points is that of the
+    ground. On a belt the foot returns to its position; overground it travels with the body. Points
+    are (frames, 3) in metres, y up; the result (3,) is horizontal, metres per second.
     """
     if len(points[0]) < 2:
         return np.zeros(3)
@@ -238,21 +237,21 @@ def measure_ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
 
 
 def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) -> Floats:
-    """When somebody stands on a force plate.
+    """Return the times during which somebody stands on a force plate.
 
     Parameters
     ----------
     force : (frames,) array
-        Upright, newtons; its sign does not matter, nor does a constant offset.
+        Vertical force in newtons; its sign and a constant offset do not matter.
     fps : float
         Frames per second.
     least : float
-        Newtons.
+        Threshold in newtons.
 
     Returns
     -------
     (stands, 2) array
-        Seconds.
+        Start and stop of each stand in seconds.
 
     Examples
     --------
@@ -268,7 +267,7 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
 
 
 def _join_stands(stands: NDArray[np.bool_], fps: float) -> Floats:
-    """Seconds of stands, joined over short breaks, without short ones."""
+    """Return stands in seconds, joined over short breaks and without short ones."""
     joined: list[list[int]] = []
     for start, stop in find_spans(stands).tolist():
         if joined and start - joined[-1][1] < BRIDGE_S * fps:

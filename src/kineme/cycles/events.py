@@ -1,4 +1,4 @@
-"""Events of a recording: foot contacts, those of its file; and what they tell of a gait."""
+"""Find foot contacts and other events of a recording, and measure gait from them."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ from kineme.segments.segmentation import Segmentation
 
 STRIKE, OFF = "foot strike", "foot off"
 LONGEST = 1.8
-"""Of the median stride: a longer one is a stop, or a step between that was missed."""
+"""Longest stride relative to the median; longer ones contain a stop or a missed contact."""
 STANCE, ASYMMETRY = (40.0, 85.0), 50.0
-"""Per cent of a stride, and of the mean of both feet, that a walk stays within."""
+"""Plausible stance phase in per cent of a stride, and largest asymmetry in per cent."""
 NAMED = 20
-"""Channels that a message names before it only counts."""
+"""Number of channels that a message names; it counts the others."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Events:
-    """What happens when, in time order.
+    """Named events in time order.
 
     Parameters
     ----------
@@ -48,11 +48,11 @@ class Events:
     names : (n,) array of str
         Such as ``left foot strike`` and ``right foot off``.
     n_frames : int
-        Of the recording.
+        Frames of the recording.
     fps : float
         Frames per second of the recording.
     sources : dict of str to str
-        By foot: what its contacts were found from.
+        Source of the contacts of each foot.
 
     Examples
     --------
@@ -78,31 +78,31 @@ class Events:
         return f"<Events: {format_count(len(self), 'event')} of {names}>"
 
     def at(self, name: str) -> Floats:
-        """Return the seconds of all events of a name; none where it does not happen.
+        """Return the times in seconds of all events with a name; empty if there are none.
 
         Parameters
         ----------
         name : str
-            ``left foot contact`` and ``left_foot_strike`` are one.
+            ``left foot contact`` and ``left_foot_strike`` are the same.
         """
         return np.asarray(self.times[self.names == normalize_event_name(name)])
 
     def columns(self) -> Columns:
-        """Return a table: ``time_s``, ``frame`` (between two of them) and ``event``."""
+        """Return a table: ``time_s``, ``frame`` (fractional) and ``event``."""
         return {"time_s": self.times, "frame": self.times * self.fps, "event": self.names}
 
     def segmentation(self, name: str | None = None) -> Segmentation:
-        """Return spans between events as activities, each called after the event that starts it.
+        """Return the spans between events as activities, each named after its first event.
 
         Parameters
         ----------
         name : str, optional
-            Of the events that cut; all by default.
+            Name of the events that cut; all by default.
 
         Returns
         -------
         Segmentation
-            What comes before the first event is a transition.
+            The part before the first event is a transition.
 
         Raises
         ------
@@ -115,7 +115,7 @@ class Events:
         )
         frames = np.rint(self.times[chosen] * self.fps).astype(np.int64)
         pairs = zip(frames.tolist(), self.names[chosen].tolist(), strict=True)
-        # Of several events in one frame the last one names the segment; cuts must be distinct.
+        # The last of several events in one frame names the segment; cuts must be distinct.
         starts = {frame: text for frame, text in pairs if 0 <= frame < self.n_frames}
         if not starts:
             raise ParameterError(f"there is no event {name or ''}".rstrip())
@@ -138,7 +138,7 @@ class Events:
 
 
 def normalize_event_name(name: str) -> str:
-    """Return a name of an event as `Events` has it: lower case, a strike for a contact."""
+    """Return the normal form of an event's name: lower case, "strike" for contacts."""
     # Spellings of files differ in spaces, underscores and capitals.
     words = re.sub(r"[\s_]+", " ", name).strip().lower()
     return re.sub(r"\b(foot|heel) (contact|strike)\b|\binitial contact\b", STRIKE, words)
@@ -147,15 +147,15 @@ def normalize_event_name(name: str) -> str:
 def foot_events(
     recording: Motion | Signals, *, left: str | None = None, right: str | None = None
 ) -> Events:
-    """When each foot comes down (``left foot strike``) and leaves the ground (``left foot off``).
+    """Return the times of ``left foot strike``, ``left foot off``, and the same for the right.
 
     Parameters
     ----------
     recording : Motion or Signals
-        A body, of which heel and toe are taken, or the ankle; or signals of sensors at the feet.
+        A body with heel and toe or ankle, or signals of sensors at the feet.
     left, right : str, optional
-        Of signals: which channels are of a foot, with ``*`` for any characters: the three axes of
-        its gyroscope, or the upright force under it. Found by their names by default, as in
+        For signals: pattern of the channels of a foot, with ``*`` as a wildcard: the three axes of
+        its gyroscope, or the vertical force under it. By default found by names such as
         ``lf_gyr_x``.
 
     Returns
@@ -190,7 +190,7 @@ def foot_events(
         spans, are_stands = _find_contact_spans(recording, foot)
         starts, stops = spans.T.tolist()
         if are_stands:
-            # At an end of the recording or in a gap nobody saw the foot move.
+            # At an end of the recording or a gap the contact itself was not recorded.
             starts, stops = (
                 [at for at in found if _is_recorded(at * recording.fps, recording)]
                 for found in (starts, stops)
@@ -217,9 +217,9 @@ def foot_events(
 
 
 def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None) -> list[str]:
-    """Return the joints or channels that tell whether the foot of a side stands; or none.
+    """Return the joints or channels used to find the contacts of a foot; empty if none.
 
-    Channels are those that a pattern names, else the three axes of a gyroscope at the foot, else
+    Channels are those matching the pattern, else the three axes of a gyroscope at the foot, else
     at the shank.
     """
     if isinstance(recording, Motion):
@@ -248,7 +248,7 @@ def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None
 
 
 def mark_stance(recording: Motion | Signals, side: str) -> Floats:
-    """100 in each frame in which the foot of a side stands, 0 in which it swings."""
+    """Return 100 for each frame in which a foot stands, 0 in which it swings."""
     spans, are_stands = _find_contact_spans(recording, find_foot(recording, side))
     inside = 100.0 if are_stands else 0.0
     values = np.full(recording.n_frames, 100.0 - inside)
@@ -258,7 +258,7 @@ def mark_stance(recording: Motion | Signals, side: str) -> Floats:
 
 
 def _find_contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tuple[Floats, bool]:
-    """(spans, 2), seconds from when and to when a foot stands (True), or swings."""
+    """Return spans (spans, 2) in seconds, and whether these are stands (True) or swings."""
     if isinstance(recording, Motion):
         joints = [recording.skeleton.joint(name) for name in foot]
         return stands_from_positions(
@@ -283,21 +283,21 @@ def _is_recorded(frame: float, recording: Motion | Signals) -> bool:
 
 
 def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
-    """What foot contacts tell of a gait: times of strides, stands, swings and steps, symmetry.
+    """Return gait parameters: times of strides, stances, swings and steps, and asymmetry.
 
     Parameters
     ----------
     events : Events
-        With contacts of both feet, or of one.
+        Contacts of one foot or both.
     recording : Motion or Signals, optional
-        Of a body also the length and the speed of strides are told.
+        If it is a body, length and speed of strides are measured, too.
 
     Returns
     -------
     dict of str to array
-        Columns: ``measure``, and for each foot its number ``left_n``, ``left_mean``, ``left_sd``;
-        ``asymmetry_percent``: left less right, of the mean of both. Strides much longer than the
-        median, over a stop, are left out.
+        Columns: ``measure``, and for each foot ``left_n``, ``left_mean``, ``left_sd``;
+        ``asymmetry_percent``: left minus right relative to the mean of both. Strides much longer
+        than the median are left out.
 
     Examples
     --------
@@ -327,21 +327,21 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
 
 
 def _warn_implausible(gait: Columns) -> None:
-    """Warn of means that no walk has, so that missed contacts do not pass for a finding."""
-    said, unequal = [], []
+    """Warn of values that are implausible for walking, which suggest missed contacts."""
+    remarks, unequal = [], []
     for i, measure in enumerate(gait["measure"].tolist()):
         if measure == "stance_percent":
-            said += [
+            remarks += [
                 f"the {side} foot stands for {mean:.0f} % of a stride"
                 for side in SIDES
                 if (mean := gait[f"{side}_mean"][i]) < STANCE[0] or mean > STANCE[1]
             ]
         if (asymmetry := abs(gait["asymmetry_percent"][i])) > ASYMMETRY:
             unequal.append(f"{measure} differs by {asymmetry:.0f} % between the feet")
-    said += unequal[:1]
-    if said:
+    remarks += unequal[:1]
+    if remarks:
         warnings.warn(
-            f"implausible for walking: {', '.join(said)}. Check the recording's unit and which "
+            f"implausible for walking: {', '.join(remarks)}. Check the recording's unit and which "
             "points or channels the feet were found from.",
             KinemeWarning,
             stacklevel=3,
@@ -349,7 +349,7 @@ def _warn_implausible(gait: Columns) -> None:
 
 
 def strides(events: Events, recording: Motion | Signals | None = None) -> Columns:
-    """Return each stride of each foot, from strike to strike: what `gait` has the means of.
+    """Return the parameters of each stride of each foot; `gait` returns their means.
 
     Parameters
     ----------
@@ -360,8 +360,7 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     Returns
     -------
     dict of str to array
-        Columns: ``foot``, ``start_s``, ``stop_s``, and the measures. What cannot be told of a
-        stride is missing.
+        Columns: ``foot``, ``start_s``, ``stop_s``, and the measures, nan if unknown.
 
     Examples
     --------
@@ -377,7 +376,7 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
 
 
 def _measure_strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
-    """Return of each stride of a foot, from strike to strike, what can be measured."""
+    """Return the measures of each stride of one foot, from strike to strike."""
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
     others = events.at(f"{OTHER_SIDE[side]} {STRIKE}")
     pairs = np.column_stack([strikes[:-1], strikes[1:]])
@@ -387,8 +386,7 @@ def _measure_strides(events: Events, side: str, recording: Motion | Signals | No
         pairs = pairs[lengths <= LONGEST * np.median(lengths)]
     rows = []
     for start, stop in pairs.tolist():
-        # Exactly one foot off between two strikes; otherwise an event was missed and nothing is
-        # told.
+        # Without exactly one foot off between two strikes an event was missed: the result is nan.
         between = offs[(offs > start) & (offs < stop)]
         step = others[(others > start) & (others < stop)]
         off = between[0] if len(between) == 1 else np.nan
@@ -417,7 +415,7 @@ def _measure_strides(events: Events, side: str, recording: Motion | Signals | No
         ground = measure_ground_velocity(paths, recording.fps)
         # On a treadmill the belt carried the foot back meanwhile.
         walked = (ends[1] - ends[0]) - stride[:, None] * ground
-        # Axes 0 and 2 are level.
+        # Axes 0 and 2 are horizontal.
         found["stride_m"] = np.linalg.norm(walked[:, [0, 2]], axis=1)
         found["speed_m_per_s"] = found["stride_m"] / stride
     return found

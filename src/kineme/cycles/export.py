@@ -1,4 +1,4 @@
-"""Cycles in files: CSV, Parquet, Excel, MATLAB and netCDF.
+"""Write cycles to CSV, Parquet, Excel, MATLAB and netCDF files.
 
 =========== ==================================================================================
 ``.csv``    the cycles; the summary and the mean curves beside it, as ``NAME.summary.csv`` and
@@ -6,8 +6,8 @@
 ``.parquet`` the same three as Parquet
 ``.xlsx``   sheets ``cycles``, ``summary``, ``curves`` and ``provenance``
 ``.mat``    structs ``cycles``, ``summary``, ``mean_curves``; ``curves`` (cycles x channels x
-            points), ``channels``, ``units``; names of columns have ``_`` for what is no letter
-``.nc``     all curves with the columns of their cycles, as xarray reads it
+            points), ``channels``, ``units``; characters that MATLAB rejects become ``_`` in names
+``.nc``     all curves with the columns of their cycles, readable by xarray
 =========== ==================================================================================
 """
 
@@ -30,13 +30,13 @@ from kineme.errors import WriteError
 from kineme.labels.delimited import write_rows
 
 NAME_OF_MATLAB = 63
-"""Characters of a name in MATLAB."""
+"""Longest name in MATLAB, in characters."""
 SHEET_ROWS = 1_048_575
-"""Rows of a sheet in Excel, less the line of names."""
+"""Largest number of rows in an Excel sheet below the header."""
 
 
 def write_cycles(cycles: Cycles, path: str | PathLike[str], *, ends: bool = False) -> None:
-    """Write cycles, their summary and their curves; the suffix tells the format.
+    """Write cycles, their summary and their curves; the suffix selects the format.
 
     Parameters
     ----------
@@ -44,14 +44,14 @@ def write_cycles(cycles: Cycles, path: str | PathLike[str], *, ends: bool = Fals
     path : path-like
         ``.csv``, ``.parquet``, ``.xlsx``, ``.mat`` or ``.nc``.
     ends : bool
-        Whether the first and the last cycle of an activity count in means as well.
+        Whether means include the first and last cycle of an activity.
 
     Raises
     ------
     WriteError
-        Another suffix, or the file cannot be written.
+        Unknown suffix, or the file cannot be written.
     MissingDependencyError
-        The package that writes it is not installed.
+        The package for this format is not installed.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def write_cycles(cycles: Cycles, path: str | PathLike[str], *, ends: bool = Fals
 
 
 def write_table(columns: Columns, path: str | PathLike[str]) -> None:
-    """Write a table, such as `Cycles.summary` gives, as CSV or Parquet.
+    """Write a table such as the result of `Cycles.summary` as CSV or Parquet.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
     Raises
     ------
     WriteError
-        Another suffix, or the file cannot be written.
+        Unknown suffix, or the file cannot be written.
     MissingDependencyError
         Parquet without pyarrow.
 
@@ -108,7 +108,7 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
 
 
 def _format_cells(column: np.ndarray[Any, Any]) -> list[Any]:
-    """Return the cells of a column; an empty one where a number is not known."""
+    """Return the cells of a column, "" for nan."""
     if column.dtype.kind != "f":
         return list(column.tolist())
     return ["" if isnan(cell) else cell for cell in column.tolist()]
@@ -167,7 +167,7 @@ def _write_matlab(cycles: Cycles, path: Path, ends: bool) -> None:
 
 
 def _make_struct(columns: Columns) -> dict[str, Any]:
-    """Columns by names that MATLAB takes; texts as cells."""
+    """Return columns with valid MATLAB names; texts become cells."""
     struct: dict[str, Any] = {}
     for name, column in columns.items():
         # MATLAB's names hold letters, digits and _ only, and begin with a letter.

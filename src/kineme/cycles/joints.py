@@ -1,28 +1,26 @@
-"""Joints of a body: which they are, where their centres lie, and the angles between them.
+"""Find joints of a body and their centres, and measure angles between them.
 
-Found are hip, knee, ankle, heel, toe, shoulder, elbow and wrist of each side. Arms and legs are
-those of `kineme.features.canonical`. Heels and toes are found by their names (see
+The joints are hip, knee, ankle, heel, toe, shoulder, elbow and wrist of each side. Arms and legs
+come from `kineme.features.canonical`. Heels and toes are found by name (see
 `kineme.recordings.joint_names`); a toe may also be the end of a foot.
 
-Bodies that are markers on the skin get the centres of hips and knees as well (`add_joint_centres`).
+For markers on the skin, centres of hips and knees are estimated (`add_joint_centres`).
 
-*Hip.* From the depth and the width of the pelvis, by the regression of Harrington et al. 2007,
-"Prediction of the hip joint centre in adults, children, and patients with cerebral palsy based on
-magnetic resonance imaging"; or where the file has it (``LHJC``).
+*Hip.* Taken from the file (``LHJC``), or from depth and width of the pelvis by the regression of
+Harrington et al. 2007, "Prediction of the hip joint centre in adults, children, and patients with
+cerebral palsy based on magnetic resonance imaging".
 
-*Knee.* A marker on it is beside its centre, which does not matter to an angle about the axis of the
-knee (`find_hinge_axis`), as long as the ankle is a marker at the same side. Without one, thigh and
-shank are rigid bodies, each fitted to its markers. Both have one point in common, about which they
-turn (Ehrig et al. 2006, "A survey of formal methods for determining the centre of rotation of ball
-joints", section 2.2.2). A knee turns about an axis, so that this point may lie anywhere on it: that
-one is taken which is in line with hip and ankle, as seen from the front. A knee that is not bent in
-the recording has no such point.
+*Knee.* A marker on the knee lies beside its centre. This does not affect the angle about the knee's
+axis (`find_hinge_axis`) if the ankle marker is on the same side. Without a knee marker, thigh and
+shank are fitted as rigid bodies, which rotate about a common point (Ehrig et al. 2006, "A survey of
+formal methods for determining the centre of rotation of ball joints", section 2.2.2). Since a knee
+is a hinge, any point on its axis will do: the one in line with hip and ankle in the frontal plane
+is taken. It does not exist for a knee that is not bent in the recording.
 
-*Angles* are in degrees. From positions of joints an angle is the one between two limbs, by which a
-straight limb is bent: a knee is 0 degrees when thigh and shank are in line, whatever plane it bends
-in. Markers on the skin are beside the joints, so that a straight leg has an angle between its
-limbs, too. There a knee is bent about its axis, and below 0 degrees if it is bent the other way.
-From rotations it is how far a joint is turned from the pose of rest, as the skeleton has it.
+*Angles* are in degrees. From joint positions, the angle is that between two limbs: a knee is at 0
+degrees if thigh and shank are in line, whatever plane it bends in. Skin markers lie beside the
+joints, so that a straight leg has an angle, too. Therefore a knee with markers is measured about
+its axis, with hyperextension below 0. From rotations, the angle is relative to the rest pose.
 """
 
 from __future__ import annotations
@@ -44,7 +42,7 @@ OTHER_SIDE = dict(zip(SIDES, reversed(SIDES), strict=True))
 
 
 def landmarks(motion: Motion) -> dict[str, int]:
-    """Joints by part and side, such as ``left_knee``; those that are not found are left out.
+    """Return the indices of joints by part and side, such as ``left_knee``, if found.
 
     Parameters
     ----------
@@ -85,7 +83,7 @@ def landmarks(motion: Motion) -> dict[str, int]:
 
 
 def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
-    """Return for each foot the joints that tell whether it stands: heel or ankle, and toe."""
+    """Return the joints used to find contacts of each foot: heel or ankle, and toe."""
     joints = landmarks(motion)
     heels = {side: joints.get(f"{side}_heel", joints.get(f"{side}_ankle")) for side in SIDES}
     # The keys of a dict are unique: a foot without a toe has its heel only once.
@@ -97,46 +95,46 @@ def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
 
 
 LEAST = 3
-"""Markers of a rigid body."""
+"""Least number of markers of a rigid body."""
 MARKERS = (
     *(("*_hip_centre",), ("*_outer_ankle",)),
     *(("*_waist_front",), ("*_waist_back",), ("sacrum",)),
 )
-"""Markers and centres from which those of hips and knees are made, as in `joint_names`."""
+"""Parts in `joint_names` from which centres of hips and knees are computed."""
 DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
-"""How far ahead, up and to its side a hip is of the middle of the front: factor, and metres."""
+"""Regression of a hip's offset (ahead, up, outwards) from the front middle: factor and metres."""
 PULL = 0.05
-"""How strongly the common point is drawn to between both bodies, against how well it fits them."""
+"""Weight that pulls the common point to between both bodies, relative to the fit."""
 BENT = 0.1
-"""How much a knee bends and stretches in the recording, about 8 degrees of deviation, at least."""
+"""Least motion of a knee in the recording, about 8 degrees standard deviation."""
 MOST = 4000
-"""Frames that the common point is found from, at most."""
+"""Largest number of frames used to find the common point."""
 
 
 def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
-    """Return motion with centres of hips and knees as more joints, and the joints by part and side.
+    """Return the motion with centres of hips and knees added, and its joints by part and side.
 
-    Both are as they were (joints as `landmarks` has them) where nothing tells where centres are. Of
-    markers on the skin, ``left_thigh`` is the point that tells with hip and knee how a thigh is
-    turned: the marker of the thigh that is farthest from their line, else the other hip.
+    ``joints`` are those of `landmarks`. Both are returned unchanged if no centres are found. For
+    markers, ``left_thigh`` defines the rotation of the thigh together with hip and knee: the thigh
+    marker farthest from their line, or else the other hip.
     """
     names = [simplify_name(name.rpartition(":")[2]) for name in motion.skeleton.names]
     found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
     marker = {joint: points[0] for joint, points in found.items()}
     places = motion.positions
-    made: dict[str, Floats] = {}
+    new_joints: dict[str, Floats] = {}
     # A skeleton with rotations has its joints at their centres; only markers need this.
     if motion.rotations is not None:
         return motion, dict(joints)
     centres = _find_hips(places, marker)
-    # Without pelvis markers, joints that are named hips serve.
+    # Without pelvis markers, use joints that are named hips.
     hips = centres or {
         side: places[:, joints[f"{side}_hip"]] for side in SIDES if f"{side}_hip" in joints
     }
     if len(hips) < len(SIDES):
         return motion, dict(joints)
     to_left = hips["left"] - hips["right"]
-    chosen = dict(joints)
+    result = dict(joints)
     # From here per side: which ankle marker and which knee belong together.
     for side in SIDES:
         ankle = joints.get(f"{side}_ankle")
@@ -146,46 +144,46 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
         if f"{side}_knee" in joints:
             # Only with markers on the skin: knee and ankle are then both at the outer side.
             outer = marker.get(f"{side}_outer_ankle") if centres else None
-            chosen |= {} if outer is None else {f"{side}_ankle": outer}
+            result |= {} if outer is None else {f"{side}_ankle": outer}
         elif ankle is not None and min(map(len, bodies)) >= LEAST:
             ends = hips[side], places[:, ankle]
             knee = _find_knee(places[:, bodies[0]], places[:, bodies[1]], ends, to_left)
-            made |= {} if knee is None else {f"{side}_knee": knee}
-    if not made and not centres:
-        return motion, chosen
+            new_joints |= {} if knee is None else {f"{side}_knee": knee}
+    if not new_joints and not centres:
+        return motion, result
     # Computed hips are added after the knees; `n + place` below relies on this order.
-    made |= {f"{side}_hip": hip for side, hip in hips.items()}
+    new_joints |= {f"{side}_hip": hip for side, hip in hips.items()}
     skeleton, n = motion.skeleton, motion.skeleton.n_joints
     extended = Skeleton(
-        (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in made)),
+        (*skeleton.names, *(f"centre of {part.replace('_', ' ')}" for part in new_joints)),
         # New joints hang on joint 0 with no offset: only their positions are used.
-        (*skeleton.parents, *[0] * len(made)),
-        np.concatenate([skeleton.offsets, np.zeros((len(made), 3))]),
+        (*skeleton.parents, *[0] * len(new_joints)),
+        np.concatenate([skeleton.offsets, np.zeros((len(new_joints), 3))]),
         skeleton.end_sites,
     )
-    positions = np.concatenate([places, np.stack([*made.values()], axis=1)], axis=1)
-    chosen |= {part: n + place for place, part in enumerate(made)}
+    positions = np.concatenate([places, np.stack([*new_joints.values()], axis=1)], axis=1)
+    result |= {part: n + place for place, part in enumerate(new_joints)}
     for side in SIDES:
-        if f"{side}_knee" in chosen:
-            hip, knee = (positions[:, chosen[f"{side}_{part}"]] for part in ("hip", "knee"))
+        if f"{side}_knee" in result:
+            hip, knee = (positions[:, result[f"{side}_{part}"]] for part in ("hip", "knee"))
             markers = [j for j, name in enumerate(names) if name[:1] == side[0].upper()
-                       and "THI" in name[1:] and j not in chosen.values()]  # fmt: skip
+                       and "THI" in name[1:] and j not in result.values()]  # fmt: skip
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
-            other = chosen[f"{OTHER_SIDE[side]}_hip"]
-            chosen[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
-    return replace(motion, skeleton=extended, positions=positions), chosen
+            other = result[f"{OTHER_SIDE[side]}_hip"]
+            result[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
+    return replace(motion, skeleton=extended, positions=positions), result
 
 
 def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
-    """Both centres, from the file or the markers of the pelvis; none where these are not there."""
-    given, fronts, backs = (
+    """Return both hip centres from the file or pelvis markers; empty without these."""
+    centres, fronts, backs = (
         [marker.get(f"{side}_{part}", -1) for side in SIDES]
         for part in ("hip_centre", "waist_front", "waist_back")
     )
-    if min(given) >= 0:
-        return {side: places[:, j] for side, j in zip(SIDES, given, strict=True)}
+    if min(centres) >= 0:
+        return {side: places[:, j] for side, j in zip(SIDES, centres, strict=True)}
     # A marker on the sacrum replaces the two at the back.
     if min(backs) < 0:
         backs = [marker.get("sacrum", -1)]
@@ -208,7 +206,7 @@ def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
 def _find_knee(
     thigh: Floats, shank: Floats, ends: tuple[Floats, Floats], to_left: Floats
 ) -> Floats | None:
-    """(frames, 3): the point about which two bodies turn, in line with hip and ankle."""
+    """Return the point (frames, 3) about which two bodies rotate, in line with hip and ankle."""
     upper, lower = _find_poses(thigh), _find_poses(shank)
     chosen = np.unique(np.linspace(0, len(thigh) - 1, min(len(thigh), MOST)).astype(np.intp))
     # Evenly spread frames; both rotations and both centres of these only.
@@ -238,7 +236,7 @@ def _find_knee(
 
 
 def _find_poses(markers: Floats) -> tuple[Floats, Floats]:
-    """Rotations (frames, 3, 3) against the middle frame (Kabsch), and places of the middle."""
+    """Return rotations (frames, 3, 3) relative to the middle frame (Kabsch), and mean positions."""
     # Centred markers (frames, markers, 3); the middle frame is the reference shape.
     centre = markers.mean(axis=1)
     shape = markers - centre[:, None]
@@ -253,11 +251,11 @@ def _find_poses(markers: Floats) -> tuple[Floats, Floats]:
 
 
 MOVES = 0.1
-"""Radians by which a hinge deviates from its mean, at least, for its axis to be seen."""
+"""Least standard deviation of a hinge's angle, in radians, to determine its axis."""
 
 
 def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
-    """By how much a chain of three points is bent at the middle one: 0 where they are in line.
+    """Return by how much a chain of three points bends at the middle one: 0 if it is straight.
 
     Parameters
     ----------
@@ -266,7 +264,7 @@ def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
     Returns
     -------
     (frames,) array
-        Degrees, 0 to 180: 180 less the angle between the two limbs.
+        Degrees, 0 to 180: 180 minus the angle between the two limbs.
 
     Examples
     --------
@@ -277,7 +275,7 @@ def bend(before: Floats, joint: Floats, after: Floats) -> Floats:
 
 
 def measure_angle(first: Floats, second: Floats) -> Floats:
-    """Return the angle between vectors, degrees from 0 to 180; nan where one has no length.
+    """Return the angle between vectors in degrees, 0 to 180; nan if one has length 0.
 
     Parameters
     ----------
@@ -301,10 +299,10 @@ def measure_angle(first: Floats, second: Floats) -> Floats:
 
 
 def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
-    """By how much a vector is turned about an axis to lie in the direction of another.
+    """Return the angle of rotation about an axis from one vector to another.
 
-    Degrees, -180 to 180, right-handed. What the vectors (frames, 3) have in the direction of the
-    axis does not count.
+    Degrees, -180 to 180, right-handed. Components of the vectors (frames, 3) along the axis are
+    ignored.
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]
     # The triple product with the unit axis: the sine with its sign.
@@ -314,12 +312,12 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
 
 
 def find_hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats) -> Floats | None:
-    """Return the axis (frames, 3) of a hinge such as a knee, which is fixed to the upper limb.
+    """Return the axis (frames, 3) of a hinge such as a knee, fixed relative to the upper limb.
 
-    The lower limb moves in a plane, as seen from the upper one. The axis is what is most at right
-    angles to it in all frames, so markers need not be at the centre of the joint. ``beside`` is a
-    point that tells how the upper limb is turned, such as a marker of the thigh. The axis has
-    either sign; None where the hinge hardly moves.
+    Relative to the upper limb, the lower limb moves in a plane. The axis is normal to this plane,
+    so markers need not be at the centre of the joint. ``beside`` is a point that defines the
+    rotation of the upper limb, such as a thigh marker. The sign of the axis is arbitrary. Return
+    None if the hinge hardly moves.
     """
     # Directions of thigh and shank.
     along, limb = normalize(joint - upper), normalize(lower - joint)
@@ -336,22 +334,22 @@ def find_hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats)
 
 
 def remove_along(vectors: Floats, direction: Floats) -> Floats:
-    """Return vectors without what they have in a direction."""
+    """Return vectors without their component along a direction."""
     direction = normalize(direction)
     return np.asarray(vectors - (vectors * direction).sum(axis=-1, keepdims=True) * direction)
 
 
 def normalize(vectors: Floats) -> Floats:
-    """Return vectors of length 1; those without a length stay 0."""
+    """Return unit vectors; vectors of length 0 stay 0."""
     # The floor avoids a division by 0; a vector of length 0 stays 0.
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
 
 
 def cardan(rotations: Floats) -> Floats:
-    """Angles (x, z, y) whose product Rx Rz Ry is the rotation, degrees.
+    """Return Cardan angles (x, z, y) in degrees with the rotation equal to Rx Rz Ry.
 
-    The first turns about the axis from side to side, as flexion does in a skeleton whose pose of
-    rest faces +z; the second about the axis ahead; the third about the upright one.
+    The first is about the mediolateral axis, which is flexion in a skeleton that faces +z at
+    rest; the second about the axis ahead; the third about the vertical axis.
 
     Parameters
     ----------

@@ -1,9 +1,8 @@
-"""kineme.cycles(): each repetition measured.
+"""Measure each repetition: the function `kineme.cycles`.
 
-Segments say which repetitions there are and how many. Their borders are moved to one phase of
-their cluster and to a place between two frames (`kineme.cycles.borders`), and end where a pause
-begins, or at an event (`kineme.cycles.repetitions`). Then every channel is measured from border to
-border.
+The segments define the repetitions. Their borders are moved to a common phase of the cluster with
+subframe precision (`kineme.cycles.borders`), and cut at pauses or moved to events
+(`kineme.cycles.repetitions`). Then every channel is measured between borders.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ Recordings = Motion | Signals | Sequence[Motion | Signals]
 POINTS = 101
 MOST_POINTS = 10_001
 TURNED = 0.05
-"""Of a cycle: a phase that moved by less is not worth a note."""
+"""Shift of a phase in cycles below which no note is added."""
 
 
 def cycles(
@@ -59,50 +58,48 @@ def cycles(
     ----------
     recordings : Motion or Signals, or a sequence of them
     segments : Segmentation, or a sequence of them
-        One of each recording.
+        One for each recording.
     channels : iterable of str, optional
-        What to measure, see `kineme.cycles.channels_of`: the angles of a body, or all channels of
-        signals, by default.
+        Channels to measure, see `kineme.cycles.channels_of`; by default the angles of a body, or
+        all channels of signals.
     anchor : str or sequence of float, optional
-        Where a cycle begins; at equal phase by default. ``knee_r max`` (or ``min``),
-        ``knee_r > 40`` (``<``: where it falls below), an event of the file, a foot contact as
-        ``left foot strike``; or the seconds of events. A cycle whose event is missing stays and
-        says so.
+        Start of a cycle; a common phase by default. ``knee_r max`` (or ``min``), ``knee_r > 40``
+        (``<`` for falling below), an event of the file, a foot contact such as ``left foot
+        strike``, or times in seconds. Cycles without the event are kept but marked.
     beside : sequence of Signals
-        Recorded at the same time as the one recording, such as force plates.
+        Signals recorded at the same time as the recording, such as force plates.
     common : bool
-        Whether equal cluster numbers are equal movements in all recordings, as in those of a
-        library. Otherwise only equal labels are.
+        Whether equal cluster numbers mean equal movements in all recordings, as in a library.
+        Otherwise only equal labels do.
     align : {"linear", "landmarks", "warp"}
-        How curves of a group are brought in step (`kineme.cycles.align`): evenly in time; so that
-        the largest and the smallest value of the first channel come at one time in all; or warped
-        to the mean of all. What is measured of a cycle stays.
+        How curves of a group are aligned (`kineme.cycles.align`): linearly in time; so that
+        maximum and minimum of the first channel coincide; or warped to the mean. Statistics are
+        not affected.
     points : int
-        Of a curve.
+        Number of points of a curve.
 
     Returns
     -------
     Cycles
-        A row for each primitive of a repeated movement, with the columns
+        One row per primitive of a repeated movement, with the columns
 
-        - ``row``, ``recording``, ``activity`` and ``number`` (in it, both from 0);
-        - ``cluster``, ``label`` and ``group``: what is summarised together, which is the label or
-          where there is none the cluster;
+        - ``row``, ``recording``, ``activity`` and ``number`` (within the activity, both from 0);
+        - ``cluster``, ``label`` and ``group`` (the label, else the cluster), which is summarised;
         - ``place``: ``inner``, or at the ends of an activity ``first``, ``last`` or ``only``;
-        - ``start_frame``, ``stop_frame`` (between frames of the file), ``start_s``, ``stop_s``,
-          ``duration_s``, and ``pause_s``: how long nothing moved before it;
-        - ``start_deviation_s``, ``stop_deviation_s``: how uncertain the borders are;
-        - ``confidence``, ``border_confidence``, ``activity_confidence``: of the segment table;
-        - ``excluded``: why it does not count in means, or nothing; ``by hand`` where the annotation
-          of the table says so (`kineme.segments.editing.exclude`);
-        - of each channel ``NAME.range``, ``.min``, ``.max``, ``.min_at`` and ``.max_at`` (per cent
-          of the cycle), ``.mean``, and at both borders ``.start`` and ``.stop``; nan where
-          something was not recorded.
+        - ``start_frame``, ``stop_frame`` (fractional), ``start_s``, ``stop_s``, ``duration_s``,
+          and ``pause_s``, the duration of rest before it;
+        - ``start_deviation_s``, ``stop_deviation_s``: standard deviations of the borders;
+        - ``confidence``, ``border_confidence``, ``activity_confidence`` from the segment table;
+        - ``excluded``: why it is excluded from means, or empty; ``by hand`` if excluded in the
+          annotation of the table (`kineme.segments.editing.exclude`);
+        - for each channel ``NAME.range``, ``.min``, ``.max``, ``.min_at`` and ``.max_at`` (per
+          cent of the cycle), ``.mean``, and at the borders ``.start`` and ``.stop``; nan if part
+          of the cycle was not recorded.
 
     Raises
     ------
     ParameterError
-        Recordings and segments do not belong together, or there is no such channel.
+        Recordings and segments do not match, or a channel does not exist.
 
     Examples
     --------
@@ -113,14 +110,14 @@ def cycles(
     >>> squats.columns["knee_l.max"][squats.columns["group"] == "squat"].round().tolist()
     [113.0, 102.0, 103.0, 111.0]
     """
-    given, tables = _check_inputs(recordings, segments, beside, points)
+    items, tables = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
     check_one_of(align, ALIGNMENTS, "align")
-    names = _name_files(given)
-    # Equal cluster numbers mean nothing across recordings, unless they are common.
-    groups = [_group_movements(table, "" if common or len(given) == 1 else f"{name}: ")
+    names = _name_files(items)
+    # Cluster numbers are not comparable between recordings, unless they are common.
+    groups = [_group_movements(table, "" if common or len(items) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
-    measured = [channels_of(recording, channels, beside=beside) for recording in given]
+    measured = [channels_of(recording, channels, beside=beside) for recording in items]
     first = [channel.name for channel in measured[0]]
     for each, name in zip(measured, names, strict=True):
         if other := sorted({*first} ^ {channel.name for channel in each}):
@@ -128,21 +125,21 @@ def cycles(
                 f"{names[0]} and {name} do not have the same channels: {', '.join(other[:8])}; "
                 "choose such as both have with channels="
             )
-    found = find_repetitions(given, tables, groups)
+    repetitions = find_repetitions(items, tables, groups)
     if anchor is not None:
-        if not isinstance(anchor, str) and len(given) > 1:
+        if not isinstance(anchor, str) and len(items) > 1:
             raise ParameterError("seconds of events belong to one recording: name them instead")
-        found = anchor_repetitions(found, given, groups, anchor, beside)
-    columns = _make_columns(found, tables, names, groups)
-    provenance = _make_provenance(given, tables, found, columns)
-    spans = [(each.recording, each.start, each.stop) for each in found]
+        repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
+    columns = _make_columns(repetitions, tables, names, groups)
+    provenance = _make_provenance(items, tables, repetitions, columns)
+    spans = [(each.recording, each.start, each.stop) for each in repetitions]
     return mark_excluded(
         _measure_cycles(spans, measured, columns, align, points, provenance), tables
     )
 
 
 def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
-    """Return same without those that people left out, as the annotations of their tables say."""
+    """Return the cycles with those excluded in the annotations of the tables marked."""
     # In the order of the rows of `cycles`: by recording, then by time.
     left_out = [
         table.annotation.excludes(row.start_frame, row.stop_frame)
@@ -155,9 +152,9 @@ def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
 
 
 def measure_other_channels(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
-    """Return the same cycles of one recording with other channels of it.
+    """Return the cycles of one recording with other channels.
 
-    As if `kineme.cycles` had measured these, without all that finds the borders.
+    Equal to the result of `kineme.cycles` for these channels, but reuses the borders.
     """
     # Columns of the former channels make way for those of the new ones.
     former = {f"{channel}.{name}" for channel in cycles.channels for name in STATISTICS}
@@ -174,40 +171,37 @@ def _check_inputs(
     beside: Sequence[Signals],
     points: int,
 ) -> tuple[list[Motion | Signals], list[Segmentation]]:
-    """Return recordings and tables as lists; an error where they do not belong together."""
-    given = [recordings] if isinstance(recordings, Motion | Signals) else recordings
-    check_type(given, Sequence, "cycles", "kineme.read(path) gives a recording")
+    """Return recordings and tables as lists; raise ParameterError if they do not match."""
+    items = [recordings] if isinstance(recordings, Motion | Signals) else recordings
+    check_type(items, Sequence, "cycles", "kineme.read(path) gives a recording")
     tables = [segments] if isinstance(segments, Segmentation) else segments
     check_type(tables, Sequence, "cycles", "kineme.segment(recording) gives one")
     check_type(beside, Sequence, "cycles", "beside= takes a list of signals")
-    for recording in given:
+    for recording in items:
         check_type(recording, (Motion, Signals), "cycles", "kineme.read(path) gives one")
     for table in tables:
         check_type(table, Segmentation, "cycles", "kineme.segment(recording) gives one")
     for signals in beside:
         check_type(signals, Signals, "cycles", "beside= takes a list of signals")
-    if not given or len(given) != len(tables):
+    if not items or len(items) != len(tables):
         raise ParameterError(
-            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(given)}"
+            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(items)}"
         )
-    for recording, table in zip(given, tables, strict=True):
+    for recording, table in zip(items, tables, strict=True):
         if (table.n_frames, table.fps) != (recording.n_frames, recording.fps):
             raise ParameterError(
                 f"the segments are of {table.n_frames} frames at {table.fps:g} Hz, "
                 f"the recording has {recording.n_frames} at {recording.fps:g} Hz"
             )
-    if beside and len(given) > 1:
+    if beside and len(items) > 1:
         raise ParameterError("beside= belongs to one recording: measure several one by one")
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
-    return list(given), list(tables)
+    return list(items), list(tables)
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
-    """Return the files' names without suffix, numbered where there are none, or equal ones.
-
-    Equal names of several people are told apart by the person.
-    """
+    """Return unique names of recordings: file names without suffix, with the person or a number."""
     stems = [Path(each.provenance.path or "").stem for each in recordings]
     names = []
     for stem, source in zip(stems, (each.provenance for each in recordings), strict=True):
@@ -223,7 +217,7 @@ def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
 
 
 def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
-    """By movement, what its repetitions are summarised with: the label, or the cluster."""
+    """Return the group of each movement: its label, or its cluster."""
     labels: defaultdict[int | str, Counter[str]] = defaultdict(Counter)
     for row in table.primitives:
         if row.kind == "primitive":
@@ -239,26 +233,26 @@ def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
 
 
 def _make_columns(
-    found: Sequence[Repetition],
+    repetitions: Sequence[Repetition],
     tables: Sequence[Segmentation],
     names: Sequence[str],
     groups: Sequence[dict[int | str, str]],
 ) -> Columns:
-    """Return the columns of the table that are the same whatever is measured."""
+    """Return the columns of the table that do not depend on channels."""
 
     def column(kind: type, value: Callable[[Repetition], Any]) -> NDArray[Any]:
-        return np.array([value(each) for each in found], kind)
+        return np.array([value(each) for each in repetitions], kind)
 
-    # Repetitions of an activity so far.
+    # Number of repetitions of each activity so far.
     counts: Counter[tuple[int, int]] = Counter()
     numbers = []
-    for each in found:
+    for each in repetitions:
         numbers.append(counts[each.recording, each.segment.activity])
         counts[each.recording, each.segment.activity] += 1
     fps = column(float, lambda each: tables[each.recording].fps)
     start, stop = column(float, lambda each: each.start), column(float, lambda each: each.stop)
     return {
-        "row": np.arange(len(found)),
+        "row": np.arange(len(repetitions)),
         "recording": column(str, lambda each: names[each.recording]),
         "activity": column(int, lambda each: each.segment.activity),
         "number": np.array(numbers, int),
@@ -294,16 +288,16 @@ def _measure_cycles(
 ) -> Cycles:
     """Return the cycles with statistics and curves of each channel.
 
-    ``spans`` has of each cycle its recording, start and stop in seconds; ``measured`` the channels
-    of each recording.
+    ``spans`` holds recording, start and stop (seconds) of each cycle, ``measured`` the channels of
+    each recording.
     """
     channels = measured[0]
     curves = np.empty((len(spans), len(channels), points))
     # Values of a channel are computed for one channel at a time, so memory stays small.
     for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
-        for number, of_one in enumerate(measured):
-            values, fps = of_one[place].values(), of_one[place].fps
+        for number, channels_of_one in enumerate(measured):
+            values, fps = channels_of_one[place].values(), channels_of_one[place].fps
             for row, (recording, start, stop) in enumerate(spans):
                 if recording == number:
                     curves[row, place], statistics[row] = _measure_cycle(
@@ -327,7 +321,7 @@ def _measure_cycles(
 def _measure_cycle(
     values: Floats, fps: float, start: float, stop: float, points: int
 ) -> tuple[Floats, list[float]]:
-    """A curve of so many points, and the statistics; nan where something was not recorded."""
+    """Return the curve and the statistics of a cycle; nan if part of it was not recorded."""
     last = len(values) - 1
     # The last border may lie after the last frame, where nothing is recorded.
     first, end = min(start * fps, last), min(stop * fps, last)
@@ -357,14 +351,14 @@ def _measure_cycle(
 def _make_provenance(
     recordings: Sequence[Motion | Signals],
     tables: Sequence[Segmentation],
-    found: Sequence[Repetition],
+    repetitions: Sequence[Repetition],
     columns: Columns,
 ) -> dict[str, Any]:
     # One entry for each run: its repetitions were turned by the same share.
     names, groups = columns["recording"].tolist(), columns["group"].tolist()
     moved = {
         (name, each.segment.activity, group): each.turned
-        for each, name, group in zip(found, names, groups, strict=True)
+        for each, name, group in zip(repetitions, names, groups, strict=True)
         if abs(each.turned) >= TURNED
     }
     return {

@@ -1,9 +1,9 @@
-"""From the segment table to repetitions in seconds: at one phase and without pauses, or at events.
+"""Turn rows of the segment table into repetitions with precise borders.
 
-Which repetitions there are is what the segmentation says. Their borders are compared by the pose of
-a body, or by all channels of signals. With an anchor, the event nearest to the usual phase is the
-start of a repetition, and that of the repetition after it its stop. A cycle whose event is missing
-stays in the table and says so.
+The segmentation defines the repetitions. Borders are aligned by the pose of a body, or by all
+channels of signals, and pauses are cut off. With an anchor, a repetition starts at the event
+nearest to the usual phase and stops at that of the next repetition. Repetitions without the event
+stay in the table and are marked.
 """
 
 from __future__ import annotations
@@ -31,48 +31,47 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
 RATE = 250.0
-"""Samples per second, at most: what is faster is averaged."""
+"""Largest number of samples per second; faster recordings are averaged."""
 SMOOTH_S = 0.02
-"""Features are smoothed by a normal curve that deviates by this."""
+"""Standard deviation in seconds of the Gaussian filter for features."""
 STEADY_S = 0.08
-"""Again, before their speed is taken, so that noise is no movement."""
+"""Standard deviation in seconds of the second filter, before speed is computed."""
 PAUSE_S = 0.5
-"""Seconds of standing still between two repetitions that are a pause, at least."""
+"""Shortest pause between two repetitions, seconds."""
 STILL = 0.1
-"""Of the speed of a cluster, the root of its mean square: what is slower stands still."""
+"""Fraction of a cluster's RMS speed below which it stands still."""
 OUTSIDE = 0.25
-"""Of a cycle: a repetition that is farther outside of its activity is not complete, nor is one at
-its ends that lacks more."""
+"""Largest part of a cycle, in cycles, that may lie outside of the activity or be missing at its
+ends; beyond that the repetition is incomplete."""
 _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
 
 Groups = Sequence[Mapping[int | str, Hashable]]
-"""Of each recording: the group of a movement. Those of one group begin at one phase."""
+"""Group of each movement, for each recording. Movements of a group begin at a common phase."""
 
 
 @dataclass(frozen=True)
 class Repetition:
-    """One repetition: what the segmentation says of it, and from when to when it is measured.
+    """One repetition: its segment, and the times between which it is measured.
 
     Attributes
     ----------
     recording : int
-        Which of the recordings.
+        Index of the recording.
     segment : Segment
-        The primitive.
+        The primitive in the segment table.
     place : str
-        ``inner``, or where it touches an end of its run ``first``, ``last`` or ``only``.
+        ``inner``, or at the ends of its run ``first``, ``last`` or ``only``.
     start, stop : float
         Seconds.
     start_deviation, stop_deviation : float
-        How uncertain they are, seconds; nan where nothing tells.
+        Standard deviations of start and stop, seconds; nan if unknown.
     pause : float
-        Seconds of standing still between it and the repetition before.
+        Seconds of rest between it and the previous repetition.
     turned : float
-        Of a cycle: how much later it begins than its segment, to begin where others do.
+        Shift of its phase relative to the segment, in cycles.
     lacking : str
-        Why it does not count in means: it is incomplete, or the event that it begins with is not
-        there.
+        Why it is excluded from means: it is incomplete, or its event is missing. Else empty.
     """
 
     recording: int
@@ -90,8 +89,8 @@ class Repetition:
 def find_repetitions(
     recordings: Sequence[Motion | Signals], tables: Sequence[Segmentation], groups: Groups
 ) -> list[Repetition]:
-    """Return the repetitions of all recordings, in the order of recordings and of time."""
-    fine = [_FineFeatures.of(recording) for recording in recordings]
+    """Return the repetitions of all recordings, sorted by recording and time."""
+    fine = [_FineFeatures.from_recording(recording) for recording in recordings]
     # Runs of one key are shifted to one phase.
     members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
     for number, table in enumerate(tables):
@@ -100,31 +99,31 @@ def find_repetitions(
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
             run = make_run(number, np.array(frames) / table.fps)
             what = get_movement_key(segments[0])
-            # A run without cluster or label is alone; features that do not compare stay in their
-            # recording.
+            # Runs without cluster or label are aligned alone; runs with features that are not
+            # comparable only with others of their recording.
             alone = id(run) if what == "" else -1 if comparable else number
             members[groups[number].get(what, what), dims, alone].append((run, segments))
-    found: list[Repetition] = []
+    repetitions: list[Repetition] = []
     features, rates = [each.values for each in fine], [each.rate for each in fine]
     for runs in members.values():
         aligned = shift_to_common_phase([run for run, _ in runs], features, rates)
         still = _measure_stillness(aligned, fine)
         for run, (_, segments) in zip(aligned, runs, strict=True):
             each = _cut_to_activity(run, segments, tables[run.recording])
-            found += _trim_pauses(each, fine[run.recording], still)
-    return sorted(found, key=lambda each: (each.recording, each.segment.start_frame))
+            repetitions += _trim_pauses(each, fine[run.recording], still)
+    return sorted(repetitions, key=lambda each: (each.recording, each.segment.start_frame))
 
 
 def get_movement_key(segment: Segment) -> int | str:
-    """What repetitions of one movement have in common: the cluster, else the label, if any."""
+    """Return what identifies the movement of a segment: the cluster, else the label."""
     return segment.cluster if segment.cluster >= 0 else segment.label
 
 
 @dataclass(frozen=True)
 class _FineFeatures:
-    """Features (samples, dims) of a recording at its rate, or at most `RATE`.
+    """Features (samples, dims) of a recording at its own rate, up to `RATE`.
 
-    ``comparable``: whether those of another recording can be compared with them.
+    ``comparable``: whether they can be compared between recordings.
     """
 
     values: Floats
@@ -132,13 +131,13 @@ class _FineFeatures:
     comparable: bool
 
     @classmethod
-    def of(cls, recording: Motion | Signals) -> _FineFeatures:
-        """Return the pose of a body, distances of its points where it has none, or all channels."""
+    def from_recording(cls, recording: Motion | Signals) -> _FineFeatures:
+        """Return pose features of a body, or distances of its points; or all channels."""
         from scipy.ndimage import gaussian_filter1d, uniform_filter1d
 
         # An odd number of frames, so that each mean is centred on a frame.
-        many = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
-        rate, comparable = recording.fps / many, True
+        n_averaged = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
+        rate, comparable = recording.fps / n_averaged, True
         if isinstance(recording, Signals):
             values = recording.values
         else:
@@ -150,8 +149,8 @@ class _FineFeatures:
                 is_point = recording.skeleton.n_joints < 2
                 values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
         # The mean about each frame, of which every n-th is kept.
-        if many > 1:
-            values = uniform_filter1d(values, many, axis=0, mode="nearest")[::many]
+        if n_averaged > 1:
+            values = uniform_filter1d(values, n_averaged, axis=0, mode="nearest")[::n_averaged]
         # Channels have different units: each counts by its own deviation, a constant one is only 0.
         if isinstance(recording, Signals):
             deviation = values.std(axis=0)
@@ -161,7 +160,7 @@ class _FineFeatures:
 
     @cached_property
     def speed(self) -> Floats:
-        """How fast they change, per second, smoothed."""
+        """Return the smoothed speed of the features, per second."""
         from scipy.ndimage import gaussian_filter1d
 
         if len(self.values) < 2:
@@ -172,7 +171,7 @@ class _FineFeatures:
 
 
 def _list_runs(table: Segmentation) -> list[list[Segment]]:
-    """Return the repetitions of one movement in one activity, one after the other without a gap."""
+    """Return runs: successive repetitions of one movement in one activity without a gap."""
     runs: list[list[Segment]] = []
     for row in table.primitives:
         if row.kind != "primitive":
@@ -193,7 +192,7 @@ def _list_runs(table: Segmentation) -> list[list[Segment]]:
 def _cut_to_activity(
     run: Run, segments: Sequence[Segment], table: Segmentation
 ) -> list[Repetition]:
-    """Return the repetitions of a run, cut off where its activity ends."""
+    """Return the repetitions of a run, cut at the ends of its activity."""
     n, found = len(segments), []
     activity = table.activities[segments[0].activity]
     least, most, end = activity.start_s, activity.stop_s, table.n_frames / table.fps
@@ -226,9 +225,9 @@ def _cut_to_activity(
 
 
 def _measure_stillness(runs: Sequence[Run], fine: Sequence[_FineFeatures]) -> float:
-    """Return the speed below which repetitions of these runs stand still."""
+    """Return the speed below which these runs stand still."""
     total, count = 0.0, 0
-    # The root mean square over all frames of all runs; no run is weighed by itself.
+    # The root mean square over all frames of all runs.
     for run in runs:
         rate = fine[run.recording].rate
         frames = slice(max(0, int(run.borders[0] * rate)), int(run.borders[-1] * rate) + 1)
@@ -238,9 +237,9 @@ def _measure_stillness(runs: Sequence[Run], fine: Sequence[_FineFeatures]) -> fl
 
 
 def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> list[Repetition]:
-    """Return the repetitions of a run, from where movement begins to where it ends.
+    """Return the repetitions of a run without pauses.
 
-    Standing still counts as a pause where it lasts `PAUSE_S`, on both sides of a border together.
+    A pause is at least `PAUSE_S` of rest around a border, both sides together.
     """
     trimmed, moves = list(run), [_find_movement(each, fine, still) for each in run]
     # Standing still before the first repetition is not a part of it.
@@ -258,45 +257,47 @@ def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> li
     return trimmed
 
 
-def _find_movement(each: Repetition, fine: _FineFeatures, still: float) -> tuple[float, float]:
-    """When the first and the last movement of a repetition are; its ends where there is none."""
+def _find_movement(
+    repetition: Repetition, fine: _FineFeatures, still: float
+) -> tuple[float, float]:
+    """Return the times at which movement in a repetition begins and ends; its borders if none."""
     # The frames of `speed` that lie within the repetition.
-    first = max(0, int(np.ceil(each.start * fine.rate)))
-    moves = np.flatnonzero(fine.speed[first : int(each.stop * fine.rate) + 1] > still)
+    first = max(0, int(np.ceil(repetition.start * fine.rate)))
+    moves = np.flatnonzero(fine.speed[first : int(repetition.stop * fine.rate) + 1] > still)
     if len(moves) == 0:
-        return each.start, each.stop
+        return repetition.start, repetition.stop
     begins, ends = (first + moves[[0, -1]]) / fine.rate
-    return max(each.start, float(begins)), min(each.stop, float(ends))
+    return max(repetition.start, float(begins)), min(repetition.stop, float(ends))
 
 
 def anchor_repetitions(
-    found: Sequence[Repetition],
+    repetitions: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
     groups: Groups,
     anchor: str | Sequence[float],
     beside: Sequence[Signals] = (),
 ) -> list[Repetition]:
-    """Return the repetitions from event to event; for ``anchor`` see `kineme.cycles.cycles`."""
+    """Return the repetitions between events; for ``anchor`` see `kineme.cycles.cycles`."""
     extreme = _EXTREME.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
     members: dict[Hashable, list[int]] = {}
-    for i, each in enumerate(found):
+    for i, each in enumerate(repetitions):
         what = get_movement_key(each.segment)
         members.setdefault(groups[each.recording].get(what, what), []).append(i)
-    starts = np.full(len(found), np.nan)
+    starts = np.full(len(repetitions), np.nan)
     if extreme is not None:
         sign = 1.0 if extreme["which"] == "max" else -1.0
         curves = [_sample_curve(each, extreme["channel"], beside) for each in recordings]
         # Negative for a minimum, so that the largest value is searched in both cases.
         signed = [(sign * values, fps) for values, fps in curves]
         for rows in members.values():
-            starts[rows] = _find_maxima([found[i] for i in rows], signed)
+            starts[rows] = _find_maxima([repetitions[i] for i in rows], signed)
     else:
         times = [_find_event_times(each, anchor, beside) for each in recordings]
         for rows in members.values():
-            starts[rows] = _find_nearest_events([found[i] for i in rows], times)
+            starts[rows] = _find_nearest_events([repetitions[i] for i in rows], times)
     anchored = []
-    for i, each in enumerate(found):
-        # Repetitions are in the order of time, so the next one of the run is the next in the list.
+    for i, each in enumerate(repetitions):
+        # Repetitions are sorted by time, so the next one of the run is the next in the list.
         start, stop = starts[i], starts[i + 1] if each.place in ("first", "inner") else np.nan
         lacking = "no event" if np.isnan(start) else "no event ends it" if np.isnan(stop) else ""
         # Events in the wrong order; False where one of them is nan.
@@ -322,23 +323,23 @@ def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signa
     return channels[0].values(), channels[0].fps
 
 
-def _find_maxima(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
-    """When a channel is largest in each repetition, about the phase at which it usually is."""
+def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
+    """Return the time of a channel's maximum in each repetition, near its usual phase."""
     # Without 100 %, which is 0 % of the next cycle.
     share = np.linspace(0, 1, 101)[:-1]
     sampled = []
-    for each in found:
+    for each in repetitions:
         values, fps = curves[each.recording]
         at = (each.start + share * (each.stop - each.start)) * fps
         sampled.append(np.interp(at, np.arange(len(values)), values))
     usual = np.array(sampled)
     complete = np.isfinite(usual).all(axis=1)
-    times = np.full(len(found), np.nan)
+    times = np.full(len(repetitions), np.nan)
     # A repetition with a gap must not hide the usual phase of the others.
     if not complete.any():
         return times
     phase = share[int(usual[complete].mean(axis=0).argmax())]
-    for i, each in enumerate(found):
+    for i, each in enumerate(repetitions):
         values, fps = curves[each.recording]
         first, last = _find_window(each, phase)
         # Whole frames within the window, limited to the recording.
@@ -352,17 +353,17 @@ def _find_maxima(found: Sequence[Repetition], curves: Sequence[Curve]) -> Floats
     return times
 
 
-def _find_nearest_events(found: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
-    """Return of each repetition the event nearest to the usual phase; nan without one near it."""
+def _find_nearest_events(repetitions: Sequence[Repetition], times: Sequence[Floats]) -> Floats:
+    """Return the event nearest to the usual phase for each repetition; nan if none is near."""
     phases = [np.empty(0)]
-    for each in found:
+    for each in repetitions:
         events = times[each.recording]
         inside = events[(events >= each.start) & (events < each.stop)]
         phases.append(CYCLE * (inside - each.start) / (each.stop - each.start))
     # nan where there are no events; then no window holds one.
     phase = compute_mean_phase(np.concatenate(phases)) / CYCLE
-    chosen = np.full(len(found), np.nan)
-    for i, each in enumerate(found):
+    chosen = np.full(len(repetitions), np.nan)
+    for i, each in enumerate(repetitions):
         first, last = _find_window(each, phase)
         events = times[each.recording]
         inside = events[(events >= first) & (events < last)]
@@ -372,16 +373,16 @@ def _find_nearest_events(found: Sequence[Repetition], times: Sequence[Floats]) -
     return chosen
 
 
-def _find_window(each: Repetition, phase: float) -> tuple[float, float]:
-    """Seconds within half a cycle of a phase of a repetition."""
-    length = each.stop - each.start
-    return each.start + (phase - 0.5) * length, each.start + (phase + 0.5) * length
+def _find_window(repetition: Repetition, phase: float) -> tuple[float, float]:
+    """Return the seconds half a cycle before and after a phase of a repetition."""
+    length = repetition.stop - repetition.start
+    return repetition.start + (phase - 0.5) * length, repetition.start + (phase + 0.5) * length
 
 
 def _find_event_times(
     recording: Motion | Signals, anchor: str | Sequence[float], beside: Sequence[Signals]
 ) -> Floats:
-    """Return the seconds of the events of a recording that an anchor names."""
+    """Return the times in seconds of a recording's events that match an anchor."""
     if not isinstance(anchor, str):
         return np.sort(as_floats(anchor, "anchor").ravel())
     if (crossing := _CROSSING.fullmatch(anchor.strip())) is not None:
@@ -389,7 +390,7 @@ def _find_event_times(
         over = (values - float(crossing["level"])) * (1.0 if crossing["sign"] == ">" else -1.0)
         # Comparisons with nan are False: no crossing is found next to a gap.
         frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
-        # Where the straight line between both frames crosses the level.
+        # Linear interpolation of the crossing between both frames.
         return (frames + over[frames] / (over[frames] - over[frames + 1])) / fps
     name, events = normalize_event_name(anchor), recording.provenance.events
     marked = np.array([at for at, text in events if normalize_event_name(text) == name], np.float64)

@@ -1,10 +1,10 @@
-"""`Cycles`: one row for each repetition, its curves, and what a cluster has in the mean.
+"""The `Cycles` class: a table of repetitions with their curves, and statistics over groups.
 
-Only what stands in its columns is here; how it is measured is in `kineme.cycles.measure`.
+`kineme.cycles.measure` computes the columns.
 
-Places in a cycle are per cent of it: its end is the start of the next, so 99 and 1 are near. Means
-are those of directions on a circle (K. V. Mardia, P. E. Jupp, "Directional Statistics", 2000,
-section 2.2), and differences go the shorter way round.
+Phases are per cent of a cycle. They are circular: 99 and 1 are near. Means are circular means (K.
+V. Mardia, P. E. Jupp, "Directional Statistics", 2000, section 2.2), and differences take the
+shorter way round.
 """
 
 from __future__ import annotations
@@ -25,18 +25,19 @@ if TYPE_CHECKING:
     import xarray as xr
 
 PHASES = ("min_at", "max_at")
-"""Of the statistics of a channel, those that are places in a cycle."""
+"""Statistics of a channel that are phases."""
 
 CYCLE = 100.0
+"""A whole cycle in the unit of phases, per cent."""
 
 
 def is_phase(measure: str) -> bool:
-    """Return whether a measure, as ``knee_l.max_at``, is a place in a cycle."""
+    """Return whether a measure, such as ``knee_l.max_at``, is a phase."""
     return measure.rpartition(".")[2] in PHASES
 
 
 def compute_mean_phase(phases: Floats) -> float:
-    """Return the mean direction, from 0 to 100, as 1 of 98 and 4; nan of none."""
+    """Return the circular mean, 0 to 100, such as 1 for 98 and 4; nan if empty."""
     if not len(phases):
         return np.nan
     # Unit vectors on a circle that is one cycle long.
@@ -45,7 +46,7 @@ def compute_mean_phase(phases: Floats) -> float:
 
 
 def compute_phase_differences(differences: Floats) -> Floats:
-    """Differences of places in a cycle, from -50 to 50."""
+    """Wrap differences of phases to -50 to 50."""
     # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
     return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
 
@@ -53,33 +54,32 @@ def compute_phase_differences(differences: Floats) -> Floats:
 Columns = dict[str, NDArray[Any]]
 
 STATISTICS = ("range", "min", "max", "min_at", "max_at", "mean", "start", "stop")
-"""Of each channel in each cycle; ``_at`` in per cent of the cycle, ``start`` and ``stop`` at its
-borders."""
+"""Statistics of each channel in each cycle; ``_at`` in per cent of the cycle, ``start`` and
+``stop`` at its borders."""
 INNER = "inner"
 BY_HAND, INCOMPLETE, FAR, UNSURE = "by hand", "incomplete", "far from the mean", "border not sure"
 FEWEST = 5
-"""Cycles of a group of which one can be far from the others."""
+"""Least number of cycles in a group to find outliers."""
 DEVIATION = 0.6745
-"""Of a standard deviation: half of all values are nearer to the mean."""
+"""Median absolute deviation of a normal distribution, in standard deviations."""
 CONFIDENCE = 0.95
-"""Of the band about a mean curve."""
+"""Confidence level of bounds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cycles:
-    """Repetitions measured; made by `kineme.cycles`.
+    """Measured repetitions, the result of `kineme.cycles`.
 
     Parameters
     ----------
     columns : mapping of str to array
-        By name, one value for each cycle: see `kineme.cycles`.
+        Columns by name, with one value per cycle: see `kineme.cycles`.
     channels, units : sequence of str
-        What was measured, and in which units.
+        Names and units of the channels.
     curves : (cycles, channels, points) array
-        Each channel from the start of a cycle (0 %) to its stop (100 %); nan where nothing was
-        recorded.
+        Each channel from start (0 %) to stop (100 %) of a cycle; nan if not recorded.
     provenance : mapping
-        Version, recordings, what each channel was taken from, notes.
+        Version, recordings, sources of channels, notes.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class Cycles:
         return list(dict.fromkeys(self.columns["group"].tolist()))
 
     def select(self, rows: NDArray[np.bool_]) -> Cycles:
-        """Return the cycles at which a mask is True, such as those of one recording.
+        """Return the cycles selected by a mask, such as those of one recording.
 
         Parameters
         ----------
@@ -143,12 +143,12 @@ class Cycles:
         return replace(self, columns=columns, curves=self.curves[mask])
 
     def used(self, *, ends: bool = False) -> NDArray[np.bool_]:
-        """Return which cycles count in means: the inner ones that nothing excludes.
+        """Return a mask of the cycles used for means: inner ones that are not excluded.
 
         Parameters
         ----------
         ends : bool
-            Whether the first and the last of an activity count as well.
+            Whether to include the first and last cycle of an activity.
 
         Returns
         -------
@@ -160,7 +160,7 @@ class Cycles:
         return counts if ends else counts & (self.columns["place"] == INNER)
 
     def exclude(self, rows: Collection[int], reason: str = BY_HAND) -> Cycles:
-        """Leave some cycles out of all means, with the reason in their rows.
+        """Exclude cycles from all means; the reason is stored in their rows.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ class Cycles:
         for row in chosen:
             if not 0 <= row < len(self):
                 raise ParameterError(f"there is no cycle {row}: they are 0 to {len(self) - 1}")
-        # Fixed-width texts would cut longer reasons, so they are objects meanwhile.
+        # Fixed-width strings would truncate longer reasons.
         reasons = self.columns["excluded"].astype(object)
         for row in chosen:
             # The first reason stays.
@@ -198,14 +198,14 @@ class Cycles:
         return replace(self, columns={**self.columns, "excluded": reasons.astype(np.str_)})
 
     def exclude_far(self, deviations: float = 4.0) -> Cycles:
-        """Leave out cycles whose duration or curves are far from those of their group.
+        """Exclude cycles whose duration or curves are far from those of their group.
 
         Parameters
         ----------
         deviations : float
-            How many times as far from the median as half of the cycles are: of a duration in
-            standard deviations that this tells, of curves as it is. What is far does not hide
-            itself so. Of fewer than five inner cycles none is far.
+            Largest distance from the median: for durations in standard deviations (estimated from
+            the median absolute deviation), for curves in median distances. Groups of fewer than
+            five inner cycles are skipped.
 
         Returns
         -------
@@ -226,12 +226,12 @@ class Cycles:
         return self.exclude(sorted(far), FAR)
 
     def exclude_unsure(self, least: float = 0.5) -> Cycles:
-        """Return the same without cycles whose start is right with less than this probability.
+        """Exclude cycles whose start is correct with less than this probability.
 
         Parameters
         ----------
         least : float
-            From 0 to 1; cycles of which nobody says it stay.
+            From 0 to 1; cycles with unknown probability are kept.
 
         Returns
         -------
@@ -241,7 +241,7 @@ class Cycles:
         return self.exclude(np.flatnonzero(self.columns["border_confidence"] < least), UNSURE)
 
     def count_confidence(self, group: str) -> float:
-        """How probable it is that the least sure count of repetitions in a group is right.
+        """Return the probability that the least certain count of repetitions in a group is correct.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ class Cycles:
         Returns
         -------
         float
-            nan where nobody says, and where nothing is repeated.
+            nan if unknown, or if nothing is repeated.
         """
         # A single repetition is not counted.
         rows = (self.columns["group"] == group) & (self.columns["place"] != "only")
@@ -258,7 +258,7 @@ class Cycles:
         return compute_count_confidence(*(self.columns[name][rows] for name in names))
 
     def summary(self, *, ends: bool = False) -> Columns:
-        """Number, mean and deviation of all that was measured, for each group.
+        """Return number, mean and deviation of all measures for each group.
 
         Parameters
         ----------
@@ -269,8 +269,8 @@ class Cycles:
         -------
         dict of str to array
             Columns: ``group``, ``measure`` (``duration_s``, ``cadence_per_min``, and each
-            statistic of each channel), ``n``, ``mean``, ``sd``, ``cv`` (sd / mean; of times only),
-            ``median``, ``q25``, ``q75``. nan where there are too few cycles.
+            statistic of each channel), ``n``, ``mean``, ``sd``, ``cv`` (sd / mean; for times only),
+            ``median``, ``q25``, ``q75``. nan for too few cycles.
 
         Examples
         --------
@@ -303,7 +303,7 @@ class Cycles:
         return as_columns(names, lines)
 
     def mean_curves(self, *, ends: bool = False) -> Columns:
-        """Mean curve, deviation and confidence band of each channel of each group, tidy.
+        """Return mean curve, deviation and confidence band of each channel and group, in long form.
 
         Parameters
         ----------
@@ -320,7 +320,7 @@ class Cycles:
         points = self.curves.shape[2]
         for group in self.groups:
             for channel in self.channels:
-                # A gap would make the mean of its points one over fewer cycles.
+                # Cycles with gaps are left out, so that all points average the same cycles.
                 curves = self.layout(channel, group, ends=ends)
                 n = len(curves)
                 missing = np.full(points, np.nan)
@@ -344,7 +344,7 @@ class Cycles:
         return {name: np.concatenate([each[name] for each in blocks]) for name in blocks[0]}
 
     def layout(self, channel: str, group: str | None = None, *, ends: bool = False) -> Floats:
-        """Return the curves of a channel below each other, as `spm1d` takes them.
+        """Return the curves of a channel as an array, the input format of `spm1d`.
 
         Parameters
         ----------
@@ -357,12 +357,12 @@ class Cycles:
         Returns
         -------
         (n, points) array
-            Without cycles in which something was not recorded.
+            Without cycles that were not completely recorded.
 
         Raises
         ------
         ParameterError
-            No such channel or group, or several groups of which none is chosen.
+            Unknown channel or group, or several groups and none chosen.
 
         Examples
         --------
@@ -385,7 +385,7 @@ class Cycles:
         return curves[np.isfinite(curves).all(axis=1)]
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row for each cycle.
+        """Return a data frame with one row per cycle.
 
         Returns
         -------
@@ -401,7 +401,7 @@ class Cycles:
         return pd.DataFrame(self.columns)
 
     def to_xarray(self) -> xr.Dataset:
-        """Return all curves as a data set: a variable of (cycle, percent) for each channel.
+        """Return all curves as a dataset with a variable (cycle, percent) for each channel.
 
         Returns
         -------
@@ -415,7 +415,7 @@ class Cycles:
         """
         with require_extra("xarray", "xarray"):
             import xarray as xr
-        # Statistics are not coordinates, since they can be computed from the curves.
+        # Statistics are left out, since they can be computed from the curves.
         measured = {f"{channel}.{name}" for channel in self.channels for name in STATISTICS}
         points = self.curves.shape[2]
         return xr.Dataset(
@@ -435,7 +435,7 @@ class Cycles:
 
 
 def compute_half_width(sd: Floats | float, n: int) -> Floats:
-    """Return by how much a mean of n may be off, with `CONFIDENCE`; nan of fewer than two."""
+    """Return the half-width of the `CONFIDENCE` interval of a mean; nan for fewer than two."""
     from scipy.special import stdtrit
 
     # Student's t with n - 1 degrees of freedom times the standard error.
@@ -445,16 +445,16 @@ def compute_half_width(sd: Floats | float, n: int) -> Floats:
 
 
 def as_columns(names: Sequence[str], lines: Sequence[Sequence[object]]) -> Columns:
-    """Return lines of a table as columns by name."""
+    """Transpose the lines of a table to columns by name."""
     columns = zip(*lines, strict=True) if lines else [()] * len(names)
     return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
 
 
 def compute_count_confidence(confidence: Floats, borders: Floats) -> float:
-    """Return probability that the number of these repetitions is right, the least one of several.
+    """Return the least probability that a count of these repetitions is correct.
 
-    nan where there is nothing to count, or where ``confidence`` is no probability: that of the
-    published methods, which have none of ``borders``.
+    nan for fewer than two repetitions, and for published methods, which have no confidence of
+    ``borders`` and whose ``confidence`` is not a probability.
     """
     # One repetition is no count.
     if len(confidence) < 2 or not np.isfinite(confidence * borders).any():
@@ -463,17 +463,17 @@ def compute_count_confidence(confidence: Floats, borders: Floats) -> float:
 
 
 def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
-    """Number, mean, deviation, its share of the mean, median and quartiles; nan where too few."""
+    """Return n, mean, sd, cv, median and quartiles of values; nan for too few."""
     values = values[np.isfinite(values)]
     n = len(values)
     if n == 0:
         return 0, *[np.nan] * 6
     circular = is_phase(measure)
-    if circular:  # as near to their mean as they can be
+    if circular:  # unwrap to within half a cycle of the mean
         middle = compute_mean_phase(values)
         values = middle + compute_phase_differences(values - middle)
     mean, sd = float(values.mean()), float(values.std(ddof=1)) if n > 1 else np.nan
-    # Of angles a share of the mean says nothing: their zero is chosen.
+    # A ratio to the mean is meaningless for angles, since their zero is arbitrary.
     cv = sd / mean if measure in ("duration_s", "cadence_per_min") else np.nan
     low, median, high = np.percentile(values, [25, 50, 75]).tolist()
     # Back to 0 to 100 %.
@@ -483,7 +483,7 @@ def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
 
 
 def _measure_distances(differences: Floats) -> Floats:
-    """Return the root of the mean square of each curve; what was not recorded does not count."""
+    """Return the RMS of each curve over its recorded points."""
     recorded = np.isfinite(differences)
     total = (np.where(recorded, differences, 0.0) ** 2).sum(axis=2)
     # The floor avoids 0 / 0 where nothing was recorded.

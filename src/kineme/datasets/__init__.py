@@ -1,4 +1,4 @@
-"""Recordings to try things on: synthetic ones with known truth, and one in the package."""
+"""Example data: synthetic recordings with known truth, and a bundled recording."""
 
 from kineme.datasets.actions import ACTIONS
 from kineme.datasets.bundled import bundled_recording, bundled_truth

@@ -1,10 +1,9 @@
-"""What the figure can do: one cycle of each action, as angles over the cycle.
+"""Actions of the figure: one cycle of each, defined by angles over the cycle.
 
-A cycle is what a person counts as one: a double step, a jump, a squat, a kick,
-a full circle of the arms, a punch, a wave to and fro. Angles of ``figure`` are
-given at a few phases (shares of the cycle) and joined by monotone cubics. An angle without a side
-holds for both; in a gait the right side follows half a cycle later. Angles not given are those of
-standing.
+A cycle is one repetition: a stride, a jump, a squat, a kick, a full circle of the arms, a punch, a
+wave to and fro. Angles of ``figure`` are given at a few phases (fractions of the cycle) and
+interpolated by monotone cubics. An angle without a side applies to both; in gaits the right side
+lags by half a cycle. Missing angles are those of standing.
 
 Hip, knee and foot angles of walking and running follow the curves of gait
 analysis (Winter 1991; Novacheck, Gait and Posture 7, 1998), read off at every
@@ -38,18 +37,18 @@ class Cycle:
     Parameters
     ----------
     seconds : float
-        How long it takes at speed 1.
+        Duration at speed 1.
     at : sequence of float
-        Phases, shares of the cycle from 0 to 1.
+        Phases, fractions of the cycle from 0 to 1.
     angles : mapping of str to sequence of float
-        Degrees at these phases, by name; an angle whose last value is not its first goes on
-        turning from cycle to cycle.
+        Degrees at these phases, by name; an angle whose first and last values differ keeps turning
+        from cycle to cycle.
     gait : bool, optional
-        The right side follows half a cycle later.
+        Whether the right side lags by half a cycle.
     flights : tuple of (float, float), optional
-        (from, to) shares of the cycle spent in the air, at amplitude 1.
+        (from, to) fractions of the cycle spent in the air, at amplitude 1.
     travels : bool, optional
-        The figure walks on and may turn.
+        Whether the figure moves forward and may turn.
     """
 
     seconds: float
@@ -61,35 +60,35 @@ class Cycle:
 
     @property
     def one_sided(self) -> bool:
-        """Left and right do different things, and not in turn."""
+        """Return whether left and right move differently, other than alternating."""
         return not self.gait and any(name.startswith(SIDES) for name in self.angles)
 
     def angles_at(self, phase: Floats, amplitude: Floats) -> dict[str, Floats]:
-        """Return every angle of the figure at the phases (cycles from 0), scaled about standing."""
-        found = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
+        """Return all angles at phases (in cycles), with deviations from standing scaled."""
+        result = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
         for name, values in self.angles.items():
             curve = _make_cyclic_curve(self.at, values)
             for full_name in _expand_name(name):
-                # Half a cycle earlier in the curve is half a cycle later in time.
+                # A negative phase shift is a delay in time.
                 late = 0.5 if self.gait and full_name.startswith("right") else 0.0
                 angle = curve(phase - late)
-                # An angle that goes on turning is not scaled, or it would lose whole turns.
+                # Angles that keep turning are not scaled, since whole turns must stay whole.
                 turns = values[0] != values[-1]
                 rest = STANDING[full_name]
-                found[full_name] = angle if turns else rest + amplitude * (angle - rest)
-        return found
+                result[full_name] = angle if turns else rest + amplitude * (angle - rest)
+        return result
 
 
 def mirror_posture(angles: Mapping[str, Floats]) -> dict[str, Floats]:
-    """Return the same posture with left and right exchanged."""
-    found = {}
+    """Return the posture with left and right exchanged."""
+    result = {}
     for name, values in angles.items():
         side, _, limb = name.rpartition(" ")
         if side:
-            found[f"{'right' if side == 'left' else 'left'} {limb}"] = values
+            result[f"{'right' if side == 'left' else 'left'} {limb}"] = values
         else:
-            found[name] = -values if name in _SIDEWAYS else values
-    return found
+            result[name] = -values if name in _SIDEWAYS else values
+    return result
 
 
 def _expand_name(name: str) -> list[str]:
@@ -97,11 +96,11 @@ def _expand_name(name: str) -> list[str]:
 
 
 def _make_cyclic_curve(at: Sequence[float], values: Sequence[float]) -> Callable[[Floats], Floats]:
-    """Return the cyclic curve through values at the given shares of a cycle."""
-    # What the angle gains in a cycle, such as 360 degrees of an arm circle.
+    """Return the cyclic curve through values at fractions of a cycle."""
+    # Change of the angle per cycle, such as 360 degrees for arm circles.
     gain = values[-1] - values[0]
     phases, heights = np.asarray(at, float), np.asarray(values, float)
-    # A cycle more on either side, so that the curve is smooth across the border of cycles.
+    # An extra cycle on either side makes the curve smooth across cycle borders.
     curve = PchipInterpolator(
         np.concatenate([phases[:-1] - 1, phases, phases[1:] + 1]),
         np.concatenate([heights[:-1] - gain, heights, heights[1:] + gain]),
@@ -117,7 +116,7 @@ def _make_cyclic_curve(at: Sequence[float], values: Sequence[float]) -> Callable
 def _make_cosine(
     middle: float, amplitude: float, *, times: int = 1, at: float = 0.0
 ) -> list[float]:
-    """Return a cosine over the tenths of a cycle, highest at the share ``at``."""
+    """Return a cosine at the tenths of a cycle, with its maximum at the fraction ``at``."""
     tenths = np.arange(11) / 10
     return list(middle + amplitude * np.cos(2 * np.pi * times * (tenths - at)))
 

@@ -1,11 +1,11 @@
-"""What people said of CMU subject 86, as published: per trial its actions and where each ends.
+"""Read the published annotations of CMU subject 86: the actions of each trial and their ends.
 
-The benchmark (fourteen trials, three annotators) comes as ``annotations.json`` or as its
-authors' text (``mocap.txt``: per trial a head line with its name, then ``label earliest mean
-latest`` per action). Marks are frames at 120 Hz, counted from 1.
+The benchmark (fourteen trials, three annotators) comes as ``annotations.json`` or as the authors'
+text (``mocap.txt``: for each trial a line with its name, then ``label earliest mean latest`` for
+each action). Marks are frames at 120 Hz, counted from 1.
 
-Known errors are mended: a mean outside its span widens it, and trial 86_04 gets its authors'
-correction.
+Known errors are corrected: a mean outside its span widens the span, and trial 86_04 gets the
+authors' correction.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from kineme.errors import KinemeWarning, ReadError
 
 TRIAL_FPS = 120.0
 
-# As first published, trial 86_04, row 5 ends before it begins; the authors' correction.
+# In the first publication, trial 86_04, row 5 ends before it begins; the authors corrected it.
 CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
 
 
@@ -40,7 +40,7 @@ class _Row(Struct):
 
 
 class _File(Struct):
-    """What is read of ``annotations.json``."""
+    """Content of ``annotations.json``."""
 
     trials: dict[str, Annotated[list[_Row], Meta(min_length=1)]]
 
@@ -55,9 +55,9 @@ class Action(NamedTuple):
 
 
 def read_actions(path: str | PathLike[str]) -> dict[str, list[Action]]:
-    """Return the actions of each trial by its name, in ``annotations.json`` or the authors' text.
+    """Read the actions of each trial from ``annotations.json`` or the authors' text.
 
-    Known errors are mended, with a `KinemeWarning` for every row.
+    Known errors are corrected, with a `KinemeWarning` for every row.
     """
     trials = (
         _read_json_trials(path) if Path(path).suffix.lower() == ".json" else _read_text_trials(path)
@@ -78,7 +78,7 @@ def _read_json_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
 
 
 def _read_text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
-    """Head lines hold a trial's name; what follows a label and three numbers is a row."""
+    """Read the authors' text: lines with trial names, and rows of a label and three numbers."""
     trials: dict[str, list[Action]] = {}
     rows: list[Action] | None = None
     for number, line in enumerate(_read_text(path).splitlines(), 1):
@@ -98,10 +98,10 @@ def _read_text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
 
 
 def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
-    mended = []
+    corrected = []
     for number, row in enumerate(rows, 1):
         frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])
-        # A mean outside of its span widens the span.
+        # A mean outside its span widens the span.
         fixed = Action(row.label, min(frames), frames[1], max(frames))
         if fixed != row:
             warnings.warn(
@@ -109,8 +109,8 @@ def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
                 KinemeWarning,
                 stacklevel=4,
             )
-        mended.append(fixed)
-    return mended
+        corrected.append(fixed)
+    return corrected
 
 
 def _read_text(path: str | PathLike[str]) -> str:

@@ -1,7 +1,7 @@
-"""Recording that comes with the package.
+"""Paths of the recording that is included in the package.
 
-A synthetic figure walks, squats, circles its arms, jumps, runs and kicks; its
-true segments lie beside it. ``tests/helpers/make_bundled.py`` made both.
+A synthetic figure walks, squats, circles its arms, jumps, runs and kicks. Its true segments are in
+a second file. ``tests/helpers/make_bundled.py`` creates both.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ _FOLDER = Path(__file__).parent / "recordings"
 
 
 def bundled_recording() -> Path:
-    """Return the BVH file that comes with the package: 48 s of exercises at 60 Hz.
+    """Return the path of the bundled BVH file: 48 s of exercises at 60 Hz.
 
     Examples
     --------
@@ -24,7 +24,7 @@ def bundled_recording() -> Path:
 
 
 def bundled_truth() -> Path:
-    """Return the file of the bundled recording's true segments, for `kineme.read_segments`.
+    """Return the path of the bundled recording's true segments, for `kineme.read_segments`.
 
     Examples
     --------

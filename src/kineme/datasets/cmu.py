@@ -1,8 +1,8 @@
-"""Recordings of the CMU Graphics Lab Motion Capture Database, fetched from its own site.
+"""Download recordings of the CMU Graphics Lab Motion Capture Database from its site.
 
-Files are kept as published: the subject's skeleton (ASF) and one AMC per trial,
-120 Hz. With subject 86, which the segmentation papers measure on, comes the
-human segmentation of its trials 1 to 14 from its authors' repository.
+Files are stored as published: the subject's skeleton (ASF) and one AMC per trial, 120 Hz. For
+subject 86, which segmentation papers use as a benchmark, the human annotations of trials 1 to 14
+are downloaded from their authors' repository.
 
 Source: mocap.cs.cmu.edu, "free for all uses", funded by NSF EIA-0196217;
 annotations by Zhou, De la Torre and Hodgins, github.com/zhfe99/aca.
@@ -29,7 +29,7 @@ from kineme.errors import (
 SITE = "http://mocap.cs.cmu.edu"
 ANNOTATIONS = "https://raw.githubusercontent.com/zhfe99/aca/master/data/moc/mocap.txt"
 
-# The lengths of the annotated trials, 86_01 to 86_14: the frames in which the annotations end.
+# Lengths in frames of the annotated trials, 86_01 to 86_14, at which the annotations end.
 FRAMES = {
     f"86_{trial:02d}": frames
     for trial, frames in enumerate(
@@ -40,7 +40,7 @@ FRAMES = {
 
 @dataclass(frozen=True)
 class Fetched:
-    """One file of the cache, checked; ``frames`` is None where it is no motion."""
+    """A checked file in the cache; ``frames`` is None if it is not a motion."""
 
     path: Path
     frames: int | None
@@ -49,10 +49,10 @@ class Fetched:
 
 
 def find_cache_folder() -> Path:
-    """Where recordings are kept: ``KINEME_CACHE``, else the system's place for caches."""
-    named = environ.get("KINEME_CACHE")
-    if named:
-        return Path(named)
+    """Return the folder for recordings: ``KINEME_CACHE``, else the system's cache folder."""
+    setting = environ.get("KINEME_CACHE")
+    if setting:
+        return Path(setting)
     with require_extra("pooch", "data"):
         import pooch
     return Path(pooch.os_cache("kineme"))
@@ -68,32 +68,31 @@ def fetch_subject(
     annotations: str = ANNOTATIONS,
     timeout_s: float = TIMEOUT_S,
 ) -> Iterator[Fetched]:
-    """Skeleton, trials and, for subject 86, annotations, one after the other.
+    """Download and yield skeleton, trials and, for subject 86, annotations.
 
-    What is there already is checked and not fetched again; if it does not pass
-    it is fetched anew.
+    Existing files are checked instead of downloaded; invalid ones are downloaded again.
 
     Parameters
     ----------
     subject : int
         Its number in the database.
     trials : sequence of int, optional
-        Their numbers; by default from 1 up to the first that the site does not have.
+        Numbers of the trials; by default from 1 up to the first that the site does not have.
     folder : str or PathLike, optional
-        Where to keep them; default ``cmuNN`` in `find_cache_folder`.
+        Folder for the files; ``cmuNN`` in `find_cache_folder` by default.
     progress : callable, optional
-        Called while a file comes: name, bytes so far, bytes in all or None.
+        Called during downloads with name, bytes so far, and total bytes or None.
     site, annotations : str, optional
         Addresses, for mirrors.
     timeout_s : float, optional
-        A connection that is silent for so long is tried again.
+        Seconds without data after which a connection is retried.
 
     Raises
     ------
     ParameterError
         Numbers below 1.
     ReadError
-        No such subject or trial, or a file that cannot be had whole.
+        No such subject or trial, or a file that cannot be downloaded completely.
     WriteError
         The folder cannot be written to.
     """
@@ -128,7 +127,7 @@ def fetch_subject(
 def _check_content(
     url: str, folder: Path, progress: Progress | None, timeout_s: float
 ) -> Fetched | None:
-    """Return the file of this address, once its content has been read."""
+    """Return the file at a URL, downloaded if necessary, after checking its content."""
     frames: list[int | None] = []
 
     def check(path: Path) -> None:
@@ -147,7 +146,7 @@ def _check_content(
 
 
 def _read_content(path: Path, folder: Path) -> int | None:
-    """Read a file of the database: the number of frames of a motion, else None."""
+    """Read a file of the database to check it; return the frames of a motion, else None."""
     if path.suffix == ".amc":
         return _count_frames(path, folder)
     if path.suffix == ".asf":
@@ -165,7 +164,7 @@ def _read_content(path: Path, folder: Path) -> int | None:
 
 
 def _count_frames(path: Path, folder: Path) -> int:
-    """Return the length of a motion that is not truncated, of which the reader only warns."""
+    """Return the number of frames of a motion; raise ReadError if the file is truncated."""
     from kineme.formats import read
 
     (skeleton,) = folder.glob("*.asf")

@@ -1,10 +1,10 @@
-"""Fetching public files into a folder, each whole and checked, or not at all.
+"""Download public files into a folder, complete and checked.
 
-What breaks off or stalls is taken up where it stopped, in the same call and in a later one. Until a
-file is complete it lies in the folder ``.partial``, dated as the server dates it. The rest is asked
-for if this date still holds (RFC 9110, ``Range`` and ``If-Range``). A server that offers no ranges,
-or no date, sends the whole file again. Only a file that is complete and passes its check gets its
-name, by way of ``pooch``.
+Interrupted downloads continue where they stopped, in the same call or a later one. Incomplete files
+are in the folder ``.partial``, with the server's modification date. The rest is requested if this
+date is still valid (RFC 9110, ``Range`` and ``If-Range``). Servers without ranges or dates send the
+whole file again. ``pooch`` moves files to their final names only if they are complete and pass the
+check.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Progress = Callable[[str, int, int | None], None]  # file name, bytes so far, by
 
 ATTEMPTS = 5
 TIMEOUT_S = 30.0
-CHUNK = 1 << 13  # bytes that a broken connection may lose
+CHUNK = 1 << 13  # bytes that are lost if a connection breaks
 TRY_AGAIN = (408, 429, 500, 502, 503, 504)
 
 
@@ -40,11 +40,11 @@ def fetch(
     progress: Progress | None = None,
     timeout_s: float = TIMEOUT_S,
 ) -> Path | None:
-    """Return the file of this address in ``folder``; None if the server has no such file.
+    """Download a file to ``folder`` and return its path; None if the server does not have it.
 
-    ``check`` is called with the complete file and raises FileError for one that is not what it
-    should be, ``progress`` with name, bytes so far, and bytes in all or None. A connection that is
-    silent for ``timeout_s`` is tried again.
+    ``check`` is called with the complete file and raises FileError if it is invalid. ``progress``
+    is called with name, bytes so far, and total bytes or None. A connection without data for
+    ``timeout_s`` is retried.
     """
     with require_extra("pooch", "data"):
         import pooch
@@ -62,16 +62,16 @@ def fetch(
 
 
 class _MissingError(Exception):
-    """Raised where the server answers 404."""
+    """Raised if the server responds 404."""
 
 
 class _BrokenOffError(Exception):
-    """Raised where the connection ended early, but another attempt may get the rest."""
+    """Raised if the connection broke, but another attempt may succeed."""
 
 
 @dataclass
 class _Download:
-    """What pooch calls to get one file."""
+    """Downloader for pooch."""
 
     part: Path
     check: Check
@@ -89,13 +89,13 @@ class _Download:
         self.part.replace(output_file)
 
     def _complete(self, url: str) -> None:
-        """Attempt after attempt, as long as they bring something new."""
+        """Retry until the file is complete, or `ATTEMPTS` fail in a row."""
         furthest, failures = self._size(), 0
         while True:
             try:
                 return self._rest(url)
             except _BrokenOffError as error:
-                # An attempt that brought something new starts the count again.
+                # An attempt that received new data resets the count.
                 failures = 0 if self._size() > furthest else failures + 1
                 furthest = max(furthest, self._size())
                 if failures == ATTEMPTS:
@@ -105,61 +105,63 @@ class _Download:
                 time.sleep(min(self.timeout_s, 2.0**failures) / 4)
 
     def _rest(self, url: str) -> None:
-        """Ask for what is missing, and append it."""
+        """Request the missing part, and append it."""
         import requests
 
         size = self._size()
         headers = {"Accept-Encoding": "identity"}
         if size:
             date = formatdate(self.part.stat().st_mtime, usegmt=True)
-            # The server sends the whole file if its date is not this one any more.
+            # The server sends the whole file if it has changed since this date.
             headers |= {"Range": f"bytes={size}-", "If-Range": date}
         try:
-            with requests.get(url, headers=headers, stream=True, timeout=self.timeout_s) as answer:
-                start = self._accepted(url, answer, size)
-                self._append(answer, start)
+            with requests.get(
+                url, headers=headers, stream=True, timeout=self.timeout_s
+            ) as response:
+                start = self._accepted(url, response, size)
+                self._append(response, start)
         except requests.RequestException as error:
             raise _BrokenOffError(_explain_error(error, self.timeout_s)) from error
 
-    def _accepted(self, url: str, answer: Response, size: int) -> int:
-        """Return the byte that the answer begins with."""
-        if answer.status_code == 404:
+    def _accepted(self, url: str, response: Response, size: int) -> int:
+        """Check the response, and return the byte at which it begins."""
+        if response.status_code == 404:
             raise _MissingError
-        if answer.status_code in TRY_AGAIN:
-            raise _BrokenOffError(f"the server answers {answer.status_code} {answer.reason}")
-        if answer.status_code == 206:
-            if answer.headers.get("Content-Range", "").startswith(f"bytes {size}-"):
+        if response.status_code in TRY_AGAIN:
+            raise _BrokenOffError(f"the server answers {response.status_code} {response.reason}")
+        if response.status_code == 206:
+            if response.headers.get("Content-Range", "").startswith(f"bytes {size}-"):
                 return size
             self.part.unlink()
             raise _BrokenOffError("the server sends another part than it was asked for")
-        if answer.status_code == 416:  # nothing left of a file that has become shorter
+        if response.status_code == 416:  # the file on the server became shorter
             self.part.unlink()
             raise _BrokenOffError("the server refuses to send the rest")
-        if answer.status_code != 200:
-            raise ReadError(url, f"the server answers {answer.status_code} {answer.reason}")
+        if response.status_code != 200:
+            raise ReadError(url, f"the server answers {response.status_code} {response.reason}")
         return 0
 
-    def _append(self, answer: Response, start: int) -> None:
-        length = answer.headers.get("Content-Length", "")
+    def _append(self, response: Response, start: int) -> None:
+        length = response.headers.get("Content-Length", "")
         total = start + int(length) if length.isdecimal() else None
         size, complete = start, False
         try:
             with self.part.open("ab" if start else "wb") as file:
-                for chunk in answer.iter_content(CHUNK):
+                for chunk in response.iter_content(CHUNK):
                     size += file.write(chunk)
                     if self.progress is not None:
                         self.progress(self.part.name, size, total)
             complete = total is None or size == total
         finally:
             if not complete:
-                self._date(answer)
+                self._date(response)
         if not complete:
             raise _BrokenOffError(f"only {size} of {total} bytes came")
 
-    def _date(self, answer: Response) -> None:
-        """Give the part the server's date; without one it cannot be continued."""
+    def _date(self, response: Response) -> None:
+        """Set the file's date to the server's; delete the file if there is none."""
         try:
-            date = parsedate_to_datetime(answer.headers["Last-Modified"]).timestamp()
+            date = parsedate_to_datetime(response.headers["Last-Modified"]).timestamp()
         except (KeyError, ValueError):
             self.part.unlink(missing_ok=True)
         else:

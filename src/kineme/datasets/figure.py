@@ -1,12 +1,10 @@
-"""A human figure moved by joint angles.
+"""A human figure posed by joint angles.
 
-Twenty-two joints and five end sites with the names most BVH files use, at rest
-with its arms stretched out sideways. Segment lengths follow the proportions of
-body height in D. A. Winter, Biomechanics and Motor Control of Human Movement
-(fig. 4.1).
+It has 22 joints and five end sites with names that are common in BVH files, and a T-pose at rest.
+Segment lengths follow the proportions in D. A. Winter, Biomechanics and Motor Control of Human
+Movement (fig. 4.1).
 
-Angles are degrees and have plain names; zero for all of them is a figure
-standing upright, arms hanging:
+Angles are in degrees; if all are zero, the figure stands upright with hanging arms:
 
 ========== =====================================================================
 tilt       pelvis forward; ``list`` to the right, ``yaw`` to the left
@@ -19,7 +17,7 @@ swing      arm forward and up; ``raise`` sideways; ``roll`` inwards about itself
 elbow      forearm forward
 ========== =====================================================================
 
-The last three rows exist for each side: "left hip", "right hip".
+The rows from ``hip`` on exist for each side: "left hip", "right hip".
 """
 
 from __future__ import annotations
@@ -82,9 +80,9 @@ def make_figure(size: float = _HEIGHT) -> Skeleton:
 def compute_joint_rotations(
     skeleton: Skeleton, angles: Mapping[str, Floats], heading: Floats
 ) -> Floats:
-    """Rotations (frames, joints, 4) of the figure, from degrees (frames,) for each of ``ANGLES``.
+    """Return joint rotations (frames, joints, 4) from degrees (frames,) for each of ``ANGLES``.
 
-    ``heading`` is where the figure faces, degrees: 0 is +z, 90 is +x.
+    ``heading`` is the direction of the figure in degrees: 0 is +z, 90 is +x.
     """
     a = {name: np.radians(values) for name, values in angles.items()}
     facing = np.radians(heading)
@@ -101,7 +99,7 @@ def compute_joint_rotations(
         thigh = _from_euler("xz", -hip, sign * spread)
         # Local rotations of hip and knee follow from plain angles.
         shin = _from_euler("x", knee)
-        # The foot's angle is against the floor, so what the leg does is taken out.
+        # The foot's angle is relative to the floor, so the leg's rotation is removed.
         leg = rot.multiply(rot.multiply(local["Hips"], thigh), shin)
         sole = _from_euler("yx", facing + sign * _TOES_OUT, -foot)
         of_side = {

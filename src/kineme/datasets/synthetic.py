@@ -1,13 +1,12 @@
-"""Motions made from formulas, of which every border and repetition is known.
+"""Generate synthetic motions with known borders and repetitions.
 
-A recording is a sequence of actions. Between two of them lies a transition of
-half a second to a second, in which the figure slows down, changes over and
-takes up the next. No two repetitions are equal: their pace and size vary by a
-few per cent and the whole body sways. Everything random comes from the seed.
+A recording is a sequence of actions. Between two of them is a transition of 0.5 to 1 s, in which
+the figure slows down, blends into the next action and speeds up. Repetitions vary in pace and size
+by a few per cent, and the whole body sways. All random values depend on the seed only.
 
-The truth is a segmentation like any other: activities and transitions on one
-level, repetitions on the other (``cluster`` numbers the actions, ``label``
-names them; standing has no repetitions and no cluster).
+The truth is an ordinary segmentation: activities and transitions on one level, repetitions on the
+other (``cluster`` numbers the actions, ``label`` names them; standing has no repetitions and no
+cluster).
 """
 
 from __future__ import annotations
@@ -50,26 +49,26 @@ def synthesize(
     noise: float = 0.0,
     seed: int = 0,
 ) -> SyntheticRecording:
-    """Return a figure doing one action after the other, and where each begins and ends.
+    """Return the motion of a figure that performs actions in order, and its true segments.
 
     Parameters
     ----------
     actions : iterable of Action
-        What to do, in order.
+        Actions in order.
     fps : float, optional
         Frames per second.
     size : float, optional
         Height of the figure in metres.
     noise : float, optional
-        Standard deviation in metres of a shake of every joint, new in every frame: each turns by so
-        much that the far end of what it carries moves this far.
+        Standard deviation in metres of random noise in every frame: each joint turns so that the
+        far end of its chain moves by about this distance.
     seed : int, optional
-        Of everything random; the same seed gives the same recording.
+        Random seed; the same seed gives the same recording.
 
     Raises
     ------
     ParameterError
-        No actions, or a value that makes no recording.
+        No actions, or an invalid value.
 
     Examples
     --------
@@ -101,21 +100,21 @@ def synthesize(
 def random_recording(
     seed: int, *, activities: int = 6, fps: float = 120.0, noise: float = 0.0
 ) -> SyntheticRecording:
-    """Return a person walking between different exercises, each repeated three to eight times.
+    """Return a person who walks between exercises, each repeated three to eight times.
 
     Parameters
     ----------
     seed : int
-        Draws exercises, counts, paces, sizes, sides and the height of the person.
+        Random seed of exercises, counts, paces, sizes, sides and the height of the person.
     activities : int, optional
-        How many, every other one walking.
+        Number of activities; every other one is walking.
     fps, noise : float, optional
         As for `synthesize`.
 
     Raises
     ------
     ParameterError
-        More activities than there are different exercises for.
+        More activities than there are exercises.
 
     Examples
     --------
@@ -125,7 +124,7 @@ def random_recording(
     """
     rng = np.random.default_rng(seed)
     exercises = [name for name in ACTIONS if name not in ("walk", "stand")]
-    # Every other activity is an exercise, and no exercise comes twice.
+    # Every other activity is an exercise, and no exercise occurs twice.
     if not 1 <= activities <= 2 * len(exercises):
         raise ParameterError(f"activities must be 1 to {2 * len(exercises)}, not {activities}")
     drawn = iter(rng.permutation(exercises).tolist())

@@ -1,4 +1,4 @@
-"""When each action, repetition and transition of a synthetic recording takes place."""
+"""Schedule the actions, repetitions and transitions of a synthetic recording."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ _PACE_VARIES = 0.05  # standard deviation, relative
 
 @dataclass(frozen=True)
 class Action:
-    """Something to do: "walk", "run", "jump", "squat", "kick", ... (see ``ACTIONS``).
+    """An action: "walk", "run", "jump", "squat", "kick", ... (see ``ACTIONS``).
 
     Parameters
     ----------
     name : str
         A key of ``ACTIONS``.
     repetitions : int, optional
-        Double steps, jumps, kicks, ...; for "stand", seconds.
+        Number of strides, jumps, kicks, ...; for "stand", seconds.
     speed : float, optional
-        2 is twice as fast.
+        Relative speed; 2 is twice as fast.
     amplitude : float, optional
-        0.5 moves half as far.
+        Relative amplitude; 0.5 moves half as far.
     side : str, optional
         "right" or "left", for kicks, punches and waves.
 
@@ -68,7 +68,7 @@ class Action:
 
 @dataclass(frozen=True)
 class Part:
-    """An action with its place in time: first frames of its repetitions, and their end."""
+    """A scheduled action: first frames of its repetitions, their end, and fades in frames."""
 
     action: Action
     frames: NDArray[np.int64]
@@ -77,15 +77,15 @@ class Part:
 
 
 def schedule_actions(actions: Sequence[Action], fps: float, rng: np.random.Generator) -> list[Part]:
-    """Return the actions one after the other, each repetition a little shorter or longer."""
+    """Schedule actions in order, with random variation of each repetition's duration."""
     parts: list[Part] = []
     now, fade_in = 0, 0
     for place, action in enumerate(actions):
         seconds = ACTIONS[action.name].seconds / action.speed
-        # Each repetition with a length of its own, about the usual one.
-        lasting = seconds * (1 + rng.normal(0, _PACE_VARIES, action.repetitions))
-        # Borders from sums of seconds, so that rounding does not add up.
-        frames = now + np.rint(np.cumsum([0.0, *lasting]) * fps).astype(np.int64)
+        # Random durations around the usual one.
+        durations = seconds * (1 + rng.normal(0, _PACE_VARIES, action.repetitions))
+        # Round cumulative sums, so that rounding errors do not add up.
+        frames = now + np.rint(np.cumsum([0.0, *durations]) * fps).astype(np.int64)
         if np.diff(frames).min() < 3:
             raise ParameterError(
                 f"{action.name!r} at speed {action.speed:g} is too fast for {fps:g} Hz"
@@ -99,7 +99,7 @@ def schedule_actions(actions: Sequence[Action], fps: float, rng: np.random.Gener
 
 
 def make_true_segments(parts: list[Part], fps: float) -> Segmentation:
-    """Activities, transitions and repetitions as a segment table."""
+    """Return activities, transitions and repetitions as a segmentation."""
     kinds = list(dict.fromkeys(map(_get_kind, parts)))
     rows: list[Row] = []
 
@@ -120,7 +120,7 @@ def make_true_segments(parts: list[Part], fps: float) -> Segmentation:
 
 
 def make_segmentation(rows: Sequence[Row], n_frames: int, fps: float) -> Segmentation:
-    """Rows of known truth as a segment table."""
+    """Return rows of known truth as a segmentation."""
     keys = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
     return Segmentation.from_columns(
         dict(zip(keys, map(list, zip(*rows, strict=True)), strict=True)),
@@ -131,38 +131,38 @@ def make_segmentation(rows: Sequence[Row], n_frames: int, fps: float) -> Segment
 
 
 def compute_phase(part: Part) -> Floats:
-    """Cycles done at each frame, fades included: they run up to and down from full pace."""
+    """Return the phase in cycles at each frame; pace rises and falls during the fades."""
     frames = part.frames.astype(float)
     cycles = np.arange(len(frames), dtype=float)
-    # Monotone cubic through the borders: the pace changes smoothly and never goes backwards.
+    # Monotone cubic through the borders: the pace changes smoothly and is never negative.
     inside = PchipInterpolator(frames, cycles) if len(frames) > 2 else None
     at = np.arange(frames[0], frames[-1])
     between = inside(at) if inside else np.interp(at, frames, cycles)
-    # The run-up is a run-down backwards, before the first cycle.
+    # The run-up is a reversed run-down before the first cycle.
     run_up = _slow_down(part.fade_in, frames[1] - frames[0])[::-1]
     run_down = _slow_down(part.fade_out, frames[-1] - frames[-2])
     return np.concatenate([-run_up, between, cycles[-1] + run_down])
 
 
 def compute_weight(part: Part) -> Floats:
-    """1 during the action, rising and falling smoothly over the fades."""
+    """Return the weight of an action at each frame: 1, rising and falling during the fades."""
     rise = np.linspace(0, 1, part.fade_in, endpoint=False)
     fall = np.linspace(1, 0, part.fade_out, endpoint=False)
     weight = np.concatenate([rise, np.ones(part.frames[-1] - part.frames[0]), fall])
-    # The smooth step of the weight has no slope at either end.
+    # Smoothstep: no slope at either end.
     return np.asarray(weight * weight * (3 - 2 * weight))
 
 
 def _slow_down(fade: int, period: float) -> Floats:
-    """Cycles gone while the pace falls evenly to nothing within half of the fade."""
+    """Return cycles completed while the pace falls linearly to 0 in the first half of the fade."""
     ramp = max(fade / 2, 1.0)
     # After half of the fade the figure stands still.
     elapsed = np.minimum(np.arange(fade), ramp)
-    # The integral of a pace that falls evenly to 0.
+    # Integral of a pace that falls linearly to 0.
     return np.asarray((elapsed - elapsed**2 / (2 * ramp)) / period)
 
 
 def _get_kind(part: Part) -> tuple[str, str]:
-    """Return what makes two actions the same movement: the name, and the side where it matters."""
+    """Return what identifies the movement of an action: name, and side if relevant."""
     name = part.action.name
     return name, part.action.side if ACTIONS[name].one_sided else ""

@@ -1,17 +1,16 @@
-"""Segments as other packages know them, and back.
+"""Convert segments to and from the representations of other packages.
 
-Our spans are half-open frames ``[start, stop)``. The others differ in what
-they do with the ends:
+kineme's spans are half-open frames ``[start, stop)``. Others treat the ends differently:
 
 ========== =====================================================================
-ruptures   the ends of all segments: the last frame count is in, 0 is not
-aeon       change points: neither 0 nor the frame count
+ruptures   ends of all segments, including the number of frames but not 0
+aeon       change points, including neither 0 nor the number of frames
 sktime     a frame with intervals ``[start, stop)`` as ``ilocs``, and ``labels``
 mir_eval   ``(n, 2)`` seconds from 0 to the end, and a list of labels
 ========== =====================================================================
 
-Texts are those of `kineme.labels.spans`. What comes back is on the
-activity level.
+Texts are those of `kineme.labels.spans`. Conversion back creates segments of the activity
+level.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def to_ruptures(segmentation: Segmentation, *, level: Level = "activity") -> list[int]:
-    """Return the ends of all segments, ``n_frames`` the last, as ruptures' ``predict`` gives them.
+    """Return the ends of all segments including ``n_frames``, like ``predict`` of ruptures.
 
     Examples
     --------
@@ -49,7 +48,7 @@ def to_ruptures(segmentation: Segmentation, *, level: Level = "activity") -> lis
 
 
 def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
-    """Activities that end at the breakpoints; the last of them is the number of frames.
+    """Return activities that end at the breakpoints; the last one is the number of frames.
 
     Examples
     --------
@@ -57,10 +56,10 @@ def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
     >>> from_ruptures([40, 100], fps=10).activities.stop_s.tolist()
     [4.0, 10.0]
     """
-    ends = _check_frames(breakpoints, "breakpoints")
-    if not len(ends):
+    stops = _check_frames(breakpoints, "breakpoints")
+    if not len(stops):
         raise ParameterError("breakpoints must hold at least the number of frames")
-    return _make_activities([0, *ends], [""] * len(ends), fps)
+    return _make_activities([0, *stops], [""] * len(stops), fps)
 
 
 def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray[np.int64]:
@@ -82,7 +81,7 @@ def to_aeon(segmentation: Segmentation, *, level: Level = "activity") -> NDArray
 
 
 def from_aeon(change_points: ArrayLike, *, n_frames: int, fps: float) -> Segmentation:
-    """Activities that meet at the change points; claspy's, too, leave out both ends.
+    """Return activities that meet at change points without both ends, as aeon and claspy use.
 
     Examples
     --------
@@ -95,7 +94,7 @@ def from_aeon(change_points: ArrayLike, *, n_frames: int, fps: float) -> Segment
 
 
 def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.DataFrame:
-    """Intervals closed on the left as ``ilocs``, the texts as ``labels``.
+    """Return a data frame with left-closed intervals ``ilocs`` and texts ``labels``.
 
     Raises
     ------
@@ -119,7 +118,7 @@ def to_sktime(segmentation: Segmentation, *, level: Level = "activity") -> pd.Da
 
 
 def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
-    """Activities from intervals that touch; texts from ``labels`` where there are any.
+    """Return activities from contiguous intervals, with texts from ``labels`` if present.
 
     Examples
     --------
@@ -141,7 +140,7 @@ def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
 def to_mir_eval(
     segmentation: Segmentation, *, level: Level = "activity"
 ) -> tuple[NDArray[np.float64], list[str]]:
-    """Intervals ``(n, 2)`` in seconds and a text for each, as ``mir_eval.segment`` takes them.
+    """Return intervals ``(n, 2)`` in seconds and their texts for ``mir_eval.segment``.
 
     Examples
     --------
@@ -158,7 +157,7 @@ def to_mir_eval(
 
 
 def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) -> Segmentation:
-    """Activities from intervals in seconds that start at 0 and touch; at the nearest frames.
+    """Return activities from contiguous intervals in seconds from 0, at the nearest frames.
 
     Examples
     --------
@@ -169,7 +168,7 @@ def from_mir_eval(intervals: ArrayLike, labels: Sequence[str], *, fps: float) ->
     times = np.asarray(intervals, float)
     if times.ndim != 2 or times.shape[1] != 2 or not np.isfinite(times).all():
         raise ParameterError(f"intervals must be finite, (n, 2), not of shape {times.shape}")
-    # The nearest frame, halves up, as label files have it.
+    # Round halves up, as when reading label files.
     frames = np.floor(times * fps + 0.5).astype(np.int64)
     return _join_intervals(frames[:, 0], frames[:, 1], list(labels), fps)
 

@@ -1,4 +1,4 @@
-"""kineme as a segmenter of aeon: ``predict`` gives the change points of a series.
+"""kineme as an aeon segmenter: ``predict`` returns the change points of a series.
 
 Source: aeon.segmentation.base, aeon 1.6.
 """
@@ -21,7 +21,7 @@ with require_extra("aeon", "segmenters"):
 
 
 class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
-    """Change points of a series (time points, channels), as aeon's segmenters give them.
+    """Finds change points of a series (time points, channels), like aeon's segmenters.
 
     Parameters
     ----------
@@ -30,11 +30,11 @@ class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
     fps : float, optional
         See `preset`.
     level : {"activity", "primitive"}, optional
-        Whose borders are change points, ``activity`` or ``primitive``.
+        Level whose borders are change points.
     constants : mapping of str to anything, optional
-        Of the preset, to change.
+        Constants of the preset to override.
     n_segments : int, optional
-        How many are wanted, see `kineme.Segmenter`.
+        Number of segments, see `kineme.Segmenter`.
     """
 
     _tags = {"capability:multivariate": True, "fit_is_empty": True, "returns_dense": True}  # noqa: RUF012
@@ -60,5 +60,5 @@ class KinemeSegmenter(BaseSegmenter):  # type: ignore[misc]
 
     @classmethod
     def _get_test_params(cls, parameter_set: str = "default") -> dict[str, Any]:  # noqa: ARG003
-        """Parameters with which aeon's own checks try it."""
+        """Return parameters for aeon's checks."""
         return {"fps": 10.0}

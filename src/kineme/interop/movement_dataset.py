@@ -1,14 +1,13 @@
-"""Motions as xarray datasets in the layout of the package movement, and back.
+"""Convert motions to and from xarray datasets in the layout of the package movement.
 
-``position`` (time, space, keypoints, individuals), ``confidence`` (time, keypoints,
-individuals), the attributes ``ds_type``, ``fps``, ``time_unit`` and
-``source_software``. What kineme writes says besides that lengths are metres and
-y points up, and may hold the segments: ``activity``, ``primitive`` (numbers of
-the rows of each level), ``cluster`` and ``label`` (time), so that
+The layout has ``position`` (time, space, keypoints, individuals), ``confidence`` (time, keypoints,
+individuals) and the attributes ``ds_type``, ``fps``, ``time_unit`` and ``source_software``. kineme
+also writes that lengths are metres and y is up, and optionally the segments: ``activity``,
+``primitive`` (row numbers within each level), ``cluster`` and ``label`` (time), so that
 ``ds.where(ds.cluster == 3)`` works.
 
-The layout holds no skeleton and no rotations; what reading makes of the points
-is said in `kineme.formats.points`.
+The layout has no skeleton and no rotations; `kineme.formats.points` describes how points become a
+motion.
 
 Source: https://movement.neuroinformatics.dev, user guide, "movement datasets"; movement 0.15.
 """
@@ -43,20 +42,20 @@ DIMS = ("time", "space", "keypoints", "individuals")
 def to_movement(
     motion: Motion, segmentation: Segmentation | None = None, *, individual: str = "id_0"
 ) -> xr.Dataset:
-    """Return the motion as a poses dataset, confidence 1 where the body was recorded.
+    """Return the motion as a poses dataset, with confidence 0 in gaps and 1 elsewhere.
 
     Parameters
     ----------
     motion : Motion
     segmentation : Segmentation, optional
-        Of this motion, to go with it.
+        Segments of this motion to include.
     individual : str, optional
-        What the person is called.
+        Name of the person.
 
     Raises
     ------
     ParameterError
-        The segmentation is of another length.
+        The segmentation has another length.
     MissingDependencyError
         xarray is not installed.
 
@@ -117,24 +116,24 @@ def from_movement(
     Parameters
     ----------
     dataset : xr.Dataset
-        With ``position`` and perhaps ``confidence``.
+        Must have ``position``; ``confidence`` is optional.
     individual : str, optional
-        Whose motion; needed where there are several.
+        Name of the individual; required if there are several.
     fps : float, optional
-        In place of what the dataset says, as for `kineme.read`.
+        Frame rate that overrides the dataset, as for `kineme.read`.
     unit : str or float, optional
-        See `fps`.
-    up : str, optional
-        See `fps`.
+        Unit of length that overrides the dataset.
+        up : str, optional
+            Vertical axis that overrides the dataset.
     confidence : float, optional
-        Points with less confidence than this count as missing.
+        Points with a lower confidence are missing.
 
     Raises
     ------
     ParameterError
-        Another layout, no such individual, or several and none named.
+        Another layout, unknown individual, or several and none named.
     ReadError
-        Points that make no motion, or nothing that tells the frame rate.
+        Points that are not a motion, or an unknown frame rate.
 
     Examples
     --------
@@ -155,7 +154,7 @@ def from_movement(
     notes = [] if "z" in axes else ["two-dimensional: z is 0, and image rows count downwards"]
     if "confidence" in person:
         likelihood = np.asarray(person["confidence"].transpose("time", "keypoints"), np.float64)
-        # False for nan: without a confidence a point counts.
+        # False for nan: points without a confidence are kept.
         places[likelihood < confidence] = np.nan
     attributes = dataset.attrs
     source = FileContent(Path(str(attributes.get("source_file") or "dataset")), b"")
@@ -179,7 +178,7 @@ def from_movement(
 
 
 def _select_individual(dataset: xr.Dataset, name: str | None) -> xr.Dataset:
-    """Return what the dataset holds of one individual."""
+    """Return the data of one individual."""
     if "position" not in dataset or not {"time", "space", "keypoints"} <= {
         *dataset["position"].dims
     }:

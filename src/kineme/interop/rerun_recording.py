@@ -1,10 +1,9 @@
-"""A Rerun recording: the skeleton in space, and a lane of states for each level of segments.
+"""Write a Rerun recording with the skeleton in 3D, and a lane of states for each level.
 
-``body/joints`` and ``body/bones`` hold the skeleton, metres with y up;
-``segments/activity`` and ``segments/primitive`` change their state where a
-segment starts, shown under its text in the colour of its cluster. The timelines
-are ``time`` in seconds and ``frame``. Where the segments came from is the text
-``provenance``.
+``body/joints`` and ``body/bones`` hold the skeleton, in metres with y up. ``segments/activity`` and
+``segments/primitive`` change state at the start of each segment, with its text and the colour of
+its cluster. The timelines are ``time`` in seconds and ``frame``. The text ``provenance`` holds the
+provenance of the segments.
 
 Source: https://rerun.io/docs, archetypes Points3D, LineStrips3D, StateChange; rerun-sdk 0.41.
 """
@@ -31,26 +30,26 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 JOINT_RADIUS, BONE_RADIUS = 0.015, 0.008
-"""Metres."""
+"""Radii in metres."""
 
 
 def write_rerun(
     motion: Motion, segmentation: Segmentation | None, path: str | PathLike[str]
 ) -> None:
-    """Leave a Rerun recording (``.rrd``) at ``path``, whole or not at all.
+    """Write a Rerun recording (``.rrd``) atomically.
 
     Parameters
     ----------
     motion : Motion
     segmentation : Segmentation or None
-        Of this motion; None for the skeleton alone.
+        Segments of this motion; None for the skeleton only.
     path : str or PathLike
         The file.
 
     Raises
     ------
     ParameterError
-        The segmentation is of another length.
+        The segmentation has another length.
     WriteError
         The file cannot be written.
     MissingDependencyError
@@ -92,7 +91,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
     recording.log("body/bones", rr.LineStrips3D.from_fields(radii=BONE_RADIUS), static=True)
     frames = np.flatnonzero(~mark_spans(motion.gaps, motion.n_frames))
     positions = motion.positions[frames].astype(np.float32)
-    # One flat list of points, which is parted into frames below.
+    # A flat list of points, which is partitioned into frames below.
     joints = rr.Points3D.columns(positions=positions.reshape(-1, 3))
     times = _make_time_columns(frames, motion.fps)
     counts = np.full(len(frames), motion.skeleton.n_joints)
@@ -108,7 +107,7 @@ def _send_body(recording: Any, motion: Motion) -> None:
 
 
 def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None:
-    """Send the states of one level: each segment one of its own, shown under its text."""
+    """Send the states of one level: one per segment, displayed with its text."""
     import rerun as rr
 
     rows = segmentation.level(level)

@@ -1,4 +1,4 @@
-"""kineme as a detector of sktime: ``predict`` gives the segments of a series.
+"""kineme as an sktime detector: ``predict`` returns the segments of a series.
 
 Source: sktime.detection.base, sktime 1.2.
 """
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
-    """Segments of a series (time points, channels), as sktime's segmenters give them.
+    """Finds segments of a series (time points, channels), like sktime's segmenters.
 
     Parameters
     ----------
@@ -31,9 +31,9 @@ class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
     fps : float, optional
         See `preset`.
     level : {"activity", "primitive"}, optional
-        ``activity`` or ``primitive``.
+        Level of the segments.
     constants : mapping of str to anything, optional
-        Of the preset, to change.
+        Constants of the preset to override.
 
     Examples
     --------
@@ -65,7 +65,7 @@ class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
     def _predict(self, X: pd.DataFrame | pd.Series) -> pd.DataFrame:  # noqa: N803
         segmenter = Segmenter(self.preset, fps=self.fps, level=self.level, **(self.constants or {}))
         found = to_sktime(segmenter.fit(X).segmentation_, level=self.level)
-        if rows := segmenter.segmentation_.rows():  # frames are not the rows of X
+        if rows := segmenter.segmentation_.rows():  # convert from frames to rows of X
             import pandas as pd
 
             at = segmenter.segmentation_.table.level == self.level
@@ -75,5 +75,5 @@ class KinemeSegmenter(BaseDetector):  # type: ignore[misc]
 
     @classmethod
     def get_test_params(cls, parameter_set: str = "default") -> list[dict[str, Any]]:  # noqa: ARG003
-        """Parameters with which sktime's own checks try it."""
+        """Return parameters for sktime's checks."""
         return [{"fps": 30.0}, {"fps": 10.0, "level": "primitive"}]

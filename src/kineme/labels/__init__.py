@@ -1,19 +1,19 @@
-"""Segments as files, in a format chosen by its name, the file's content or suffix.
+"""Read and write segments in many formats, selected by name, content or suffix.
 
-The package's own hold everything:
+The native formats store everything:
 
 =========== ============  ====================================================
-``csv``     ``.csv``      the table alone, as pandas and spreadsheets read it;
-                          all else goes into ``NAME.provenance.json`` beside it
+``csv``     ``.csv``      the table, readable by pandas and spreadsheets; the
+                          rest is in ``NAME.provenance.json`` beside it
 ``json``    ``.json``     everything in one file, ``kineme.segments/2``
-``parquet`` ``.parquet``  the table; all else as metadata, ``kineme.segments``
+``parquet`` ``.parquet``  the table; the rest as metadata, ``kineme.segments``
 =========== ============  ====================================================
 
-Reading what was written gives an equal segmentation. A table whose provenance file is lost
-can still be read: the frame rate then follows from frames and seconds, and a note says so.
+Reading a written file returns an equal segmentation. A table without its provenance file can still
+be read: the frame rate is computed from frames and seconds, with a note.
 Tables of intervals (``start_s``, ``stop_s``, ``label``; comma or tab) are read as ``csv``.
 
-Those of other programs hold labels, see `kineme.labels.spans`:
+Formats of other programs store labels, see `kineme.labels.spans`:
 
 ============ ============= ===================================================
 ``audacity`` ``.txt``      one level
@@ -27,9 +27,9 @@ Those of other programs hold labels, see `kineme.labels.spans`:
 ``c3d``      ``.c3d``      events, read only
 ============ ============= ===================================================
 
-Where several have a suffix, the content tells them apart on reading, and the first listed is
-written unless ``format=`` names another. A format of your own is a `LabelFormat`, made known
-by `register` or by the entry point group ``kineme.label_formats``.
+If formats share a suffix, reading tells them apart by content, and writing uses the first one
+listed unless ``format=`` names another. Add your own format as a `LabelFormat` with `register` or
+by the entry point group ``kineme.label_formats``.
 """
 
 from kineme.labels.registry import (

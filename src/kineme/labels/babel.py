@@ -1,13 +1,13 @@
-"""BABEL annotations as JSON: one level, in seconds, with the length of the recording.
+"""BABEL annotations in JSON: one level, in seconds, with the length of the recording.
 
-A file is an object of recordings by their number, as in BABEL's own
-``train.json``; one recording alone is read, too. Written are ``frame_ann``
-with one label per segment (text as ``raw_label``, ``proc_label`` and only
-member of ``act_cat``) and an empty ``seq_ann``; no frame rate, no scores.
+A file is an object of recordings by number, like BABEL's ``train.json``; a single recording
+is read, too. Writing stores ``frame_ann`` with one label per segment (text as ``raw_label``,
+``proc_label`` and only member of ``act_cat``) and an empty ``seq_ann``, without frame rate and
+scores.
 
-BABEL's labels may overlap (``walk`` and ``wave``). Where they do, the span
-that both cover becomes a segment of its own, ``walk + wave``, and a warning
-says so. Where ``frame_ann`` is missing, ``seq_ann`` names the whole recording.
+BABEL's labels may overlap (``walk`` and ``wave``). The shared span becomes a separate
+segment ``walk + wave``, with a warning. Without ``frame_ann``, ``seq_ann`` labels the whole
+recording.
 
 Source: Punnakkal et al., BABEL: Bodies, Action and Behavior with English
 Labels, CVPR 2021; https://github.com/abhinanda-punnakkal/BABEL.
@@ -32,11 +32,11 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
 AT_ONCE = 4
-"""Labels that may cover a frame; more are a damaged file."""
+"""Largest number of labels of one frame; more indicate a damaged file."""
 
 
 def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave an object with one recording, number 0, at ``path``."""
+    """Write an object with one recording, number 0."""
     labels = [
         {
             "raw_label": format_text(row),
@@ -60,7 +60,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """Return the labels of the one recording at ``path``."""
+    """Read the labels of the only recording in a file."""
     content = load_json(path)
     if isinstance(content, dict) and "dur" not in content:
         if len(content) > 1:
@@ -74,7 +74,7 @@ def read(path: Path) -> Labels:
 
 
 def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
-    """Return the labels of one recording of BABEL as Python has it."""
+    """Convert the parsed JSON of one BABEL recording to labels."""
     length = _parse_seconds(recording, "dur", path)
     annotation = recording.get("frame_ann") or recording.get("seq_ann")
     one_span = not recording.get("frame_ann")
@@ -89,9 +89,9 @@ def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
         )
         for label in labels
     ]
-    apart, shared = _split_overlaps(spans, path)
+    disjoint, shared = _split_overlaps(spans, path)
     note = f"labels overlap; with the texts of several: {format_count(shared, 'segment')}"
-    return Labels(apart, "seconds", None, length, (note,) if shared else ())
+    return Labels(disjoint, "seconds", None, length, (note,) if shared else ())
 
 
 def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
@@ -102,26 +102,26 @@ def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:
 
 
 def _split_overlaps(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]:
-    """Return the spans cut where another begins or ends, with all texts; how many have several."""
-    solid = [span for span in spans if span.start < span.stop]
-    # Empty and backward spans are kept as they are: reading refuses or drops them later.
-    apart = [span for span in spans if not span.start < span.stop]
-    waiting = sorted(solid, key=lambda span: span.start, reverse=True)
+    """Split overlapping spans into spans with all texts; return also how many have several."""
+    valid = [span for span in spans if span.start < span.stop]
+    # Keep empty and reversed spans: they are rejected or dropped later.
+    result = [span for span in spans if not span.start < span.stop]
+    waiting = sorted(valid, key=lambda span: span.start, reverse=True)
     active: list[Span] = []
     shared = 0
-    # Between two successive times the same labels hold.
-    for start, stop in pairwise(sorted({time for span in solid for time in span[:2]})):
+    # The set of active labels is constant between successive times.
+    for start, stop in pairwise(sorted({time for span in valid for time in span[:2]})):
         active = [span for span in active if span.stop > start]
-        # The earliest waits at the end of the list.
+        # The list is sorted backwards: the earliest span is last.
         while waiting and waiting[-1].start <= start:
             active.append(waiting.pop())
         if len(active) > AT_ONCE:
             raise ReadError(path, f"has more than {AT_ONCE} labels at once, at {start} s")
         if active:
             texts = dict.fromkeys(span.text for span in active if span.text)
-            apart.append(Span(start, stop, " + ".join(texts)))
+            result.append(Span(start, stop, " + ".join(texts)))
         shared += len(active) > 1
-    return apart, shared
+    return result, shared
 
 
 def _recognises(path: Path) -> bool:

@@ -1,13 +1,11 @@
-"""Events of C3D files as labels: each lasts until the next one.
+"""Read events of C3D files as labels that last until the next event, and write events.
 
-An event is a point in time, such as ``Right Foot Strike``; a label is a span. The
-events wanted (all, or those of some names) cut the recording: a span is
-called after the event that starts it, what comes before the first is called
-nothing. Of events at the same frame the last one counts.
+An event is a point in time, such as ``Right Foot Strike``; a label is a span. All events, or
+those with given names, cut the recording. A span is named after the event at its start; the part
+before the first event has no name. The last of several events in one frame counts.
 
-`kineme.read_segments` takes all events; of a gait, `read_events` with ``names=["Right Foot
-Strike"]`` makes each cycle of the right leg one span. `write_events` puts events into a copy
-of a file.
+`kineme.read_segments` uses all events. `read_events` with ``names=["Right Foot Strike"]`` makes
+each gait cycle of the right leg one span. `write_events` adds events to a copy of a file.
 """
 
 from __future__ import annotations
@@ -26,31 +24,30 @@ from kineme.labels.spans import Labels, Span, as_segmentation
 from kineme.segments.segmentation import Segmentation
 
 SIDES = ("left", "right", "general")
-"""First words of a name that tell of which side an event is."""
+"""First words of event names that denote the side."""
 SAME_S = 0.2
-"""Seconds within which two events of one name are one."""
+"""Seconds within which two events with one name are the same."""
 
 
 def read_events(path: str | PathLike[str], *, names: Collection[str] | None = None) -> Segmentation:
-    """Return the spans between events as activities, each called after the event that starts it.
+    """Return the spans between events as activities, each named after its first event.
 
     Parameters
     ----------
     path : path-like
         A C3D file.
     names : collection of str, optional
-        Of the events that cut; all by default.
+        Names of the events that cut; all by default.
 
     Returns
     -------
     Segmentation
-        At the rate and length of the recording; what comes before the first event is a
-        transition.
+        With rate and length of the recording; the part before the first event is a transition.
 
     Raises
     ------
     ReadError
-        No C3D file, no events in it, or none of these names.
+        Not a C3D file, no events, or none with these names.
 
     Examples
     --------
@@ -68,29 +65,29 @@ def write_events(
     times: ArrayLike,
     names: Iterable[str],
 ) -> int:
-    """Write a copy of a C3D file that has these events besides its own.
+    """Write a copy of a C3D file with events added.
 
     Parameters
     ----------
     source : path-like
-        The C3D file, which stays as it is.
+        The C3D file, which is not changed.
     path : path-like
-        The copy. Its other parameters, points and analog samples are those of the source.
+        The copy. Parameters, points and analog samples are copied from the source.
     times : (n,) array
         Seconds from the first frame.
     names : iterable of str
-        Of each event. ``left foot strike`` becomes side and label: ``Left``, ``Foot Strike``.
+        Name of each event. ``left foot strike`` becomes side and label: ``Left``, ``Foot Strike``.
 
     Returns
     -------
     int
-        How many events were added. One within 0.2 s of an event of the file that has its name,
-        whatever the case, is left out: the file's stands.
+        Number of events added. Events within 0.2 s of one with the same name (ignoring case) in
+        the file are skipped.
 
     Raises
     ------
     ReadError
-        ``source`` is no C3D file, or has no frame rate.
+        ``source`` is not a C3D file, or has no frame rate.
     WriteError
         ``path`` is ``source``, cannot be written, or there are more than 255 events.
 
@@ -143,7 +140,7 @@ def write_events(
 
 
 def _split_side(name: str) -> tuple[str, str]:
-    """Side and label as Vicon's programs write them; a name without a side as it is."""
+    """Split a name into side and label in Vicon's spelling; the side may be empty."""
     side, _, label = " ".join(name.split()).partition(" ")
     if side.lower() not in SIDES or not label:
         return "", " ".join(name.split())
@@ -151,7 +148,7 @@ def _split_side(name: str) -> tuple[str, str]:
 
 
 def read(path: Path, names: Collection[str] | None = None) -> Labels:
-    """Return the spans between the events of a C3D file, in seconds from its first frame."""
+    """Read the spans between events of a C3D file, in seconds from its first frame."""
     from kineme.formats.files import load
     from kineme.formats.markers.c3d_file import parse_c3d
 
@@ -166,7 +163,7 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
     for name in names or ():
         if name not in present:
             raise ReadError(path, f"has no event {name!r}; there are {', '.join(present)}")
-    # Of several events in one frame the last one counts.
+    # The last of several events in one frame counts.
     frames = {round(at * file.rate): name for at, name in inside if not names or name in names}
     starts = sorted(frames)
     stops = [*starts[1:], len(file.points)]
@@ -184,5 +181,5 @@ FORMAT = LabelFormat(
     suffixes=(".c3d",),
     holds="level",
     read=read,
-    recognises=lambda _: False,  # it is a recording first of all
+    recognises=lambda _: False,  # C3D files are recordings
 )

@@ -1,13 +1,13 @@
-"""Labels of many recordings: one table of all, or a folder with a file for each.
+"""Read labels of many recordings from one table, or from a folder with a file for each.
 
 A table has the columns ``recording``, ``start_s``, ``stop_s`` and ``label`` (or
-``start_frame``, ``stop_frame``); a recording is named with or without its suffix. In a folder,
+``start_frame``, ``stop_frame``); recordings are named with or without suffix. In a folder,
 the labels of ``walk.bvh`` are in a file called ``walk`` in any label format (``walk.eaf``,
-``walk.labels.csv``). What either says of a single recording is read by `read_labels`.
+``walk.labels.csv``). `read_labels` returns those of a single recording.
 
-A frame has the label in whose span ``[start, stop)`` its time lies. Labels of public sets overlap
-here and there, run backwards or beyond the end: of two that overlap the one further down in the
-file holds, one that runs backwards is left out, and a note in the provenance says so.
+A frame has the label whose span ``[start, stop)`` contains its time. Labels of public datasets
+sometimes overlap, run backwards or exceed the recording. If two overlap, the later one in the file
+counts; reversed ones are left out. Notes in the provenance report this.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 SLACK = 1e-6
-"""Frames by which a time may miss a frame and still be its own: seconds have few digits."""
+"""Rounding tolerance of times, in frames: seconds in files have few digits."""
 
 
 class Extent(NamedTuple):
-    """How long a recording is, and when its frames are."""
+    """Length, frame rate and clock of a recording."""
 
     n_frames: int
     fps: float
@@ -53,13 +53,13 @@ class Extent(NamedTuple):
 
 @dataclass(frozen=True)
 class LabelSource:
-    """File that holds the labels of a recording; its labels, where that is a table of many."""
+    """File with the labels of a recording, and the labels if the file holds several recordings."""
 
     path: Path
     labels: Labels | None = None
 
     def of(self, *, n_frames: int, fps: float, clock: Clock | None = None) -> Segmentation:
-        """Return the labels in frames of their recording; what none covers is a transition."""
+        """Return the labels as a segmentation; frames without a label are transitions."""
         content: Labels | Segmentation | None = self.labels
         name = csv_table.FORMAT.name
         if content is None:
@@ -82,10 +82,10 @@ class LabelSource:
 def find_labels(
     recordings: Iterable[Path], labels: str | PathLike[str]
 ) -> Mapping[Path, LabelSource]:
-    """Where the labels of each recording are; recordings that have none are left out.
+    """Return the source of labels for each recording that has some.
 
-    They are in a table with a column ``recording``, or in a folder with a file for each. ReadError
-    where nothing there is of any of the recordings.
+    ``labels`` is a table with a column ``recording``, or a folder with a file for each. Raise
+    ReadError if no recording has labels.
     """
     return find_labels_and_unmatched(recordings, labels)[0]
 
@@ -93,20 +93,20 @@ def find_labels(
 def find_labels_and_unmatched(
     recordings: Iterable[Path], labels: str | PathLike[str]
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
-    """What `find_labels` gives, and the recordings that a table names and that are not there."""
-    files, home = list(recordings), Path(labels)
-    named = _find_in_folder(home) if home.is_dir() else _read_table(home)
+    """Return the result of `find_labels`, and the names in a table that match no recording."""
+    files, folder = list(recordings), Path(labels)
+    sources = _find_in_folder(folder) if folder.is_dir() else _read_table(folder)
     # Tables may name a recording with or without its suffix.
-    pairs = ((path, named.get(path.name) or named.get(path.stem)) for path in files)
+    pairs = ((path, sources.get(path.name) or sources.get(path.stem)) for path in files)
     found = {path: source for path, source in pairs if source is not None}
     if not found:
         first = files[0].stem if files else "none"
-        owners = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
-        of = ", ".join(map(repr, named)) or "none"
-        raise ReadError(labels, f"has no labels of {owners}{first!r}, but of {of:.60}")
+        prefix = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
+        available = ", ".join(map(repr, sources)) or "none"
+        raise ReadError(labels, f"has no labels of {prefix}{first!r}, but of {available:.60}")
     present = {name for path in files for name in (path.name, path.stem)}
-    strays = [] if home.is_dir() else [name for name in named if name not in present]
-    return found, strays
+    unmatched = [] if folder.is_dir() else [name for name in sources if name not in present]
+    return found, unmatched
 
 
 def read_labels(
@@ -117,7 +117,7 @@ def read_labels(
     fps: float,
     clock: Clock | None = None,
 ) -> Segmentation:
-    """What a label file says of a recording: its own rows, where others are in the table, too."""
+    """Read the labels of one recording, also from a table of several recordings."""
     table = find_read_format(labels) is csv_table.FORMAT and "recording" in read_columns(
         Path(labels)
     )
@@ -128,7 +128,7 @@ def read_labels(
 
 
 def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
-    """Return the labels as spans of a recording's frames that neither overlap nor run backwards.
+    """Convert labels to spans of frames that neither overlap nor run backwards.
 
     Examples
     --------
@@ -152,24 +152,24 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     lost = [old for old, new in pairs if old.start <= old.stop and new.start >= new.stop]
     beyond = sum(old.stop * rate > n_frames + 1 for old, new in pairs if new.start < new.stop)
     before = sum(old.start * rate < -1 for old, new in pairs if new.start < new.stop)
-    # Counted from the front: spans that meet what is covered already.
-    earlier: defaultdict[Level, _Covered] = defaultdict(_Covered)
+    # Count spans, in file order, that overlap earlier ones.
+    earlier: defaultdict[Level, _SpanUnion] = defaultdict(_SpanUnion)
     overlaps = sum(
         earlier[span.level].add(span.start, span.stop) != [(span.start, span.stop)]
         for span in forward
     )
-    # From the end of the file, so that of two that overlap the later one holds.
-    later: defaultdict[Level, _Covered] = defaultdict(_Covered)
-    kept: list[Span] = []
+    # Go backwards through the file, so that later spans take precedence.
+    later: defaultdict[Level, _SpanUnion] = defaultdict(_SpanUnion)
+    result: list[Span] = []
     for span in reversed(forward):
         free = later[span.level].add(span.start, span.stop)
-        count = span.repetitions if len(free) == 1 else None  # else nobody says of which part
-        kept += [
+        count = span.repetitions if len(free) == 1 else None  # unknown for parts of a span
+        result += [
             span._replace(start=start, stop=stop, repetitions=count)
-            # The list is turned round below, and parts must come out in order.
+            # Reversed here, since the whole list is reversed below.
             for start, stop in reversed(free)
         ]
-    kept.reverse()
+    result.reverse()
     counts = {
         "overlapping others": overlaps,
         "running backwards, left out": backward,
@@ -178,31 +178,31 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     }
     notes = [f"{what}: {format_count(count, 'label')}" for what, count in counts.items() if count]
     notes += note_lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
-    return Labels(kept, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
+    return Labels(result, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
 
 
 def _find_first_frame(time: float, n_frames: int) -> int:
     """Return the first frame at or after a time in frames; the end for times beyond it."""
-    # A frame has a label from the frame on whose time it begins: rounded up, with slack for digits.
+    # Round up with tolerance: the first frame whose time is not before the label.
     return ceil(min(max(time, -TOO_FAR), n_frames) - SLACK)
 
 
-class _Covered:
-    """What spans cover, as spans in order that do not touch each other."""
+class _SpanUnion:
+    """Union of spans, stored as sorted disjoint spans."""
 
     def __init__(self) -> None:
         self._starts: list[float] = []
         self._stops: list[float] = []
 
     def add(self, start: float, stop: float) -> list[tuple[float, float]]:
-        """Cover a span, too; what of it was free, in order."""
+        """Add a span; return its parts that were not covered before, in order."""
         # Covered spans that overlap or touch the new one; both lists are sorted.
         meeting = slice(bisect_left(self._stops, start), bisect_right(self._starts, stop))
         starts, stops = self._starts[meeting], self._stops[meeting]
-        # These become one span with the new one.
+        # Merge them with the new span.
         self._starts[meeting] = [min([start, *starts])]
         self._stops[meeting] = [max([stop, *stops])]
-        # Free is what lies between the covered spans, and before and after them.
+        # The free parts lie between, before and after the covered spans.
         free = zip([start, *stops], [*starts, stop], strict=True)
         return [(begin, end) for begin, end in free if begin < end]
 
@@ -216,7 +216,7 @@ def _read_table(path: Path) -> dict[str, LabelSource]:
 
 
 def _find_in_folder(folder: Path) -> dict[str, LabelSource]:
-    """Return the label files by every name that a recording of theirs may have."""
+    """Return the label files in a folder by the possible names of their recordings."""
     found: dict[str, LabelSource] = {}
     for path in sorted(folder.iterdir()):
         if path.is_file() and holds_labels(path):

@@ -1,18 +1,16 @@
-"""Segments as CSV: a header line, one line per row, UTF-8, comma (or tab), dot.
+"""Segments in CSV: a header line, one line per row, UTF-8, comma (or tab), decimal point.
 
-No comment lines: ``pandas.read_csv`` and spreadsheets take the file as it is.
-What does not fit into a table (frame rate, provenance, timings) goes into
-``NAME.provenance.json`` beside ``NAME.csv``, with a digest of the cuts: a table whose
-cuts were moved since says so in its notes. Without that file the frame rate is found
-again from the last row, and the table keeps all it says. An empty number is nan. A label
-that spreadsheets would run as a formula has a ``'`` before it. Columns are found by name;
-others are ignored.
+There are no comment lines, so ``pandas.read_csv`` and spreadsheets read the file directly.
+Frame rate, provenance and timings are in ``NAME.provenance.json`` beside ``NAME.csv``, with a
+digest of the cuts: if cuts were edited since, a note reports it. Without that file the frame
+rate is computed from the last row. Empty numbers are nan. Labels that spreadsheets would run as
+formulas start with ``'``. Columns are found by name; unknown ones are ignored.
 
-A table of intervals that people keep by hand is read as well: ``label`` with ``start_s``
-and ``stop_s`` (seconds, or dates such as 2026-01-31T09:30:00.25), or with ``start_frame``
-and ``stop_frame``, in any order, with ``level``, ``kind``, ``cluster`` and ``count``
-(repetitions) where there are any. What no row covers is a transition. A column ``recording``
-must name one recording only; tables of many are read by `kineme.labels.collections`.
+Handwritten tables of intervals are read as well: ``label`` with ``start_s`` and ``stop_s``
+(seconds, or dates such as 2026-01-31T09:30:00.25), or with ``start_frame`` and ``stop_frame``,
+in any order, and optionally ``level``, ``kind``, ``cluster`` and ``count`` (repetitions). Uncovered
+frames are transitions. A column ``recording`` must name only one recording; tables of several are
+read by `kineme.labels.collections`.
 """
 
 from __future__ import annotations
@@ -57,20 +55,20 @@ SPANS: dict[Unit, tuple[str, str]] = {
 
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave the table at ``path`` and the rest beside it."""
-    beside = name_provenance(path)
+    """Write the table to ``path`` and the rest to the provenance file beside it."""
+    provenance_path = name_provenance(path)
     head = make_head(segmentation) | {CUTS_KEY: _digest_columns(segmentation.table.columns())}
     more: dict[str, Sequence[Any]] = {**segmentation.more_columns()}
     if any(comments := assign_comments(segmentation)):
         more[COMMENT] = comments
     rows = zip(map(_format_cells, segmentation), *more.values(), strict=True)
-    with atomic_write(beside) as head_draft, open_new_text(path) as file:
+    with atomic_write(provenance_path) as head_draft, open_new_text(path) as file:
         head_draft.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8")
         write_rows(file, [*COLUMNS, *more], ([*cells, *others] for cells, *others in rows))
 
 
 def read(path: Path) -> Segmentation | Labels:
-    """Return what is at ``path``, with what lies beside it if it is there."""
+    """Read a segment table with its provenance file, or a table of intervals."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         first = file.readline()
         comma = find_separator(first)
@@ -80,27 +78,27 @@ def read(path: Path) -> Segmentation | Labels:
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _list_columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
-    found = _attach_provenance(columns, path)
-    return found if comments is None else set_comments_by_row(found, comments)
+    segmentation = _attach_provenance(columns, path)
+    return segmentation if comments is None else set_comments_by_row(segmentation, comments)
 
 
 def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
-    """Return the table, with what lies beside it."""
-    beside = name_provenance(path)
-    if beside.is_file():
-        # A table that was cut or extended no longer fits what lies beside it.
-        head = parse(beside.read_text(encoding="utf-8-sig"), beside)
+    """Return the table with the content of its provenance file, if there is one."""
+    provenance_path = name_provenance(path)
+    if provenance_path.is_file():
+        # A shortened or extended table does not match its provenance file.
+        head = parse(provenance_path.read_text(encoding="utf-8-sig"), provenance_path)
         if head.get("n_frames") != max(columns["stop_frame"]):
             raise ReadError(
                 path,
-                f"ends at frame {max(columns['stop_frame'])}, but {beside.name} speaks of "
+                f"ends at frame {max(columns['stop_frame'])}, but {provenance_path.name} speaks of "
                 f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
             )
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
         table = join_head(columns, rest, path)
         changes = find_differences(
             path,
-            beside,
+            provenance_path,
             head,
             _digest_columns(columns),
             head_rate=table.fps,
@@ -114,19 +112,19 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
 
 
 def name_provenance(path: Path) -> Path:
-    """Where the rest of a CSV table is kept: ``cuts.csv`` and ``cuts.provenance.json``."""
+    """Return the path of a table's provenance file: ``cuts.provenance.json`` for ``cuts.csv``."""
     return path.with_suffix(".provenance.json")
 
 
 def choose_roundest_rate(n_frames: int, seconds: float) -> float:
-    """Of the frame rates at which so many frames last so long, the one with fewest digits."""
-    # From 0 digits on: the first rate that gives the very seconds of the table.
+    """Return the frame rate with the fewest digits that gives exactly this duration."""
+    # Try 0 digits first; the first rate that reproduces the seconds wins.
     rounded = (round(n_frames / seconds, digits) for digits in range(16))
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
 
 
 def read_intervals(path: Path) -> dict[str, Labels]:
-    """Return the labels of a table of intervals, by recording; by "" without such a column."""
+    """Read a table of intervals; return labels by recording, or by "" without that column."""
     unit: Unit = "seconds"
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
@@ -139,7 +137,7 @@ def read_intervals(path: Path) -> dict[str, Labels]:
                 name: row[name] if comma == "," else replace_decimal_comma(row[name])
                 for name in SPANS[unit]
             }
-            # Seconds may be a date or time of day: those since 1970, or since midnight.
+            # Times may be dates (seconds since 1970) or times of day (since midnight).
             start, stop = (
                 parse_date(cell.strip())
                 if unit == "seconds" and is_date(cell.strip())
@@ -155,7 +153,7 @@ def read_intervals(path: Path) -> dict[str, Labels]:
 
 
 def _read_intervals(path: Path) -> Labels:
-    """Return the labels of a table of intervals of one recording."""
+    """Read a table of intervals of one recording."""
     found = read_intervals(path)
     if len(found) > 1:
         names = ", ".join(found)
@@ -168,7 +166,7 @@ def _read_intervals(path: Path) -> Labels:
 
 
 def _parse_cluster(row: dict[str, str]) -> int:
-    """Return a cluster's number, as in an exported library; other words are people's own."""
+    """Return the cluster number in a row; -1 for other texts."""
     text = row.get("cluster", "").strip()
     return int(text) if re.fullmatch("[0-9]{1,9}", text) else -1
 
@@ -221,15 +219,15 @@ def _digest_columns(columns: Mapping[str, Any]) -> str:
 
 
 def _read_rate(columns: dict[str, list[Any]]) -> float | None:
-    """Return the frame rate that the last row tells, if it tells one."""
-    # The row that ends last tells frames and seconds most exactly.
+    """Return the frame rate computed from the last row; None if impossible."""
+    # The last row has the longest time, hence the most exact ratio.
     n_frames, seconds = max(zip(columns["stop_frame"], columns["stop_s"], strict=True))
     valid = 0 < n_frames < 2**53 and 0 < seconds < math.inf
     return choose_roundest_rate(n_frames, seconds) if valid else None
 
 
 def _guess_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
-    """Return what lies beside a table, with length and frame rate from its last row."""
+    """Return a head for a table without provenance file, from its last row."""
     n_frames, fps = max(columns["stop_frame"]), _read_rate(columns)
     if fps is None:
         seconds = max(columns["stop_s"])
@@ -245,7 +243,7 @@ def _format_cells(row: Segment) -> list[Any]:
 
 
 def _recognises(path: Path) -> bool:
-    """Return whether the first line has the columns of a segment table or of intervals."""
+    """Return whether the first line has the columns of segments or intervals."""
     found = columns_of(path)
     return any({*names, "label"} <= found for names in SPANS.values())
 

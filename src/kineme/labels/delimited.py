@@ -1,8 +1,8 @@
-"""Read and write tables of text with one header line, and tell formats apart by their first bytes.
+"""Read and write text tables with one header line, and help to recognise formats.
 
-A table and its side file are renamed one after the other. A writer that is killed between
-the two leaves files of different recordings beside each other. So the side file names the
-SHA-256 of its table's cuts (`digest_cuts`), and reading compares the two (`find_differences`).
+A table and its side file are renamed one after the other. A writer killed between the two leaves
+files that do not match. Therefore the side file holds the SHA-256 of its table's cuts
+(`digest_cuts`), and reading compares the two (`find_differences`).
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ from kineme.segments.table import Level
 def read_rows(
     file: TextIO, path: Path, header: Iterable[Sequence[str]], *, delimiter: str = ","
 ) -> Iterator[tuple[int, dict[str, str]]]:
-    """Line and cells by column name of each row below the header.
+    """Yield line number and cells by column name of each row below the header.
 
-    The header is the first row that holds every name of one of the sets in
-    ``header``; what stands above it is skipped. Cells a row lacks are empty.
+    The header is the first row that contains all names of one of the sets in ``header``; lines
+    above it are skipped. Missing cells are empty.
     """
     rows = csv.reader(file, delimiter=delimiter, strict=True)
     names: list[str] = []
@@ -52,9 +52,10 @@ def read_rows(
 def write_rows(
     file: TextIO, header: Sequence[str], rows: Iterable[Sequence[object]], *, delimiter: str = ","
 ) -> None:
-    """A header line and one line per row; cells in quotes only where they must be.
+    """Write a header line and one line per row, quoting cells only if needed.
 
-    No spreadsheet runs a text in it, see `as_text`; `read_rows` gives the text back.
+    Texts are escaped so that spreadsheets do not run them as formulas, see `as_text`;
+    `read_rows` reverses this.
     """
     writer = csv.writer(file, delimiter=delimiter, lineterminator="\n")
     for cells in chain([header], rows):
@@ -63,24 +64,24 @@ def write_rows(
 
 @contextmanager
 def open_new_text(path: Path, *, newline: str = "") -> Iterator[TextIO]:
-    """Open a text file that takes the place of ``path`` once all is written."""
+    """Open a text file that replaces ``path`` atomically when it is closed."""
     with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline=newline) as file:
         yield file
 
 
 def format_source(segmentation: Segmentation) -> str:
-    """Return the file that was segmented, in characters that UTF-8 can hold."""
+    """Return the path of the segmented file as valid UTF-8 text."""
     path = (segmentation.provenance.get("input") or {}).get("path") or ""
     return str(path).encode(errors="backslashreplace").decode()
 
 
 def parse_level(text: str | None) -> Level:
-    """Return the level that a cell names; activity where it names none."""
+    """Return the level in a cell, "activity" by default."""
     return "primitive" if text == "primitive" else "activity"
 
 
 def parse_number(text: str, name: str, path: Path, line: int) -> float:
-    """``text`` as a finite number."""
+    """Return ``text`` as a finite number; raise ReadError otherwise."""
     try:
         value = float(text)
     except ValueError:
@@ -91,7 +92,7 @@ def parse_number(text: str, name: str, path: Path, line: int) -> float:
 
 
 def parse_integer(text: str, name: str, path: Path, line: int) -> int:
-    """``text`` as a whole number."""
+    """Return ``text`` as an integer; raise ReadError otherwise."""
     value = parse_number(text, name, path, line)
     if value != int(value):
         raise ReadError(path, f"{name} must be a whole number, not {text!r:.60}", line=line)
@@ -99,7 +100,7 @@ def parse_integer(text: str, name: str, path: Path, line: int) -> int:
 
 
 def read_first_bytes(path: Path) -> bytes:
-    """Return the first bytes of a file; none if it cannot be read."""
+    """Return the first bytes of a file without byte order mark; empty if it cannot be read."""
     try:
         return read_head(path).removeprefix(BOM_UTF8)
     except OSError:
@@ -107,7 +108,7 @@ def read_first_bytes(path: Path) -> bytes:
 
 
 def read_last_bytes(path: Path) -> bytes:
-    """Return the last bytes of a file, where Parquet keeps what it knows of itself."""
+    """Return the last bytes of a file, where Parquet stores metadata; empty if unreadable."""
     try:
         return read_tail(path)
     except OSError:
@@ -115,7 +116,7 @@ def read_last_bytes(path: Path) -> bytes:
 
 
 def read_columns(path: Path) -> set[str]:
-    """Return the cells of a file's first line, commas or tabs between them."""
+    """Return the cells of a file's first line."""
     first = read_first_bytes(path).decode(errors="replace").partition("\n")[0].strip("\r")
     try:
         cells = next(csv.reader([first], delimiter=find_separator(first)), [])
@@ -125,23 +126,23 @@ def read_columns(path: Path) -> set[str]:
 
 
 def find_separator(first_line: str) -> str:
-    """What stands between the cells: tabs if there are any, semicolons if there are no commas."""
+    """Return the separator in a line: tab, or semicolon if there are no commas, else comma."""
     if "\t" in first_line:
         return "\t"
     return ";" if ";" in first_line and "," not in first_line else ","
 
 
 CUTS_KEY = "cuts_sha256"
-"""Where a side file has the digest of its table's cuts."""
+"""Key of the digest of a table's cuts in its side file."""
 
 SAME_RATE = 5e-4
-"""Share by which two frame rates differ that are one, once spreadsheets rounded the seconds."""
+"""Relative difference of frame rates that count as equal; spreadsheets round seconds."""
 
 
 def digest_cuts(cuts: Iterable[tuple[object, object, object]]) -> str:
-    """What a side file says of its table: level, first frame and end of every row, in any order.
+    """Return a digest of the level, first frame and end of every row, in any order.
 
-    Labels are not in it, so that people may edit them.
+    Labels are not included, so that people may edit them.
     """
     lines = sorted(",".join(map(str, cut)) for cut in cuts)
     return sha256("\n".join(lines).encode()).hexdigest()
@@ -156,10 +157,10 @@ def find_differences(
     head_rate: float | None,
     row_rate: float | None,
 ) -> tuple[str, ...]:
-    """Return what to say of a table and its side file that were not written together.
+    """Return notes on a table and side file that were not written together.
 
-    ``found`` is the `digest` of the table; side files that are older than it have none, and are
-    believed. The rates are those in the side file and of frames and seconds in the table.
+    ``found`` is the digest of the table's cuts; side files without a digest are trusted.
+    ``head_rate`` is from the side file, ``row_rate`` computed from frames and seconds of the table.
     """
     if CUTS_KEY not in side:
         return ()

@@ -1,22 +1,22 @@
-"""Tables of events: BIDS with its sidecar, and BORIS.
+"""Event tables of BIDS (with sidecar) and BORIS.
 
-*BIDS* (``events.tsv``): both levels, clusters and confidences. Columns ``onset``, ``duration``
-(seconds) and ``trial_type`` are those of the standard; ``level``, ``cluster``, ``confidence``,
-``start_frame``, ``stop_frame``, ``action`` and ``border_confidence`` are described in the sidecar,
-which also has ``SamplingFrequency`` and ``RecordingDuration`` as in Motion-BIDS, and a digest of
-the cuts. A missing value is ``n/a``. What a sidecar already says about columns is kept.
+*BIDS* (``events.tsv``): both levels, clusters and confidences. ``onset``, ``duration`` (seconds)
+and ``trial_type`` are standard columns; ``level``, ``cluster``, ``confidence``, ``start_frame``,
+``stop_frame``, ``action`` and ``border_confidence`` are described in the sidecar. The sidecar also
+holds ``SamplingFrequency`` and ``RecordingDuration`` as in Motion-BIDS, and a digest of the cuts.
+Missing values are ``n/a``. Existing descriptions in a sidecar are kept.
 
-Reading needs ``onset``, ``duration`` and ``trial_type`` only; seconds count.
+Reading requires only ``onset``, ``duration`` and ``trial_type``, and uses the seconds.
 
-*BORIS* (CSV): a START and a STOP row per segment, both levels. Written as BORIS's "tabular events":
-``Time`` in seconds beside ``Image index`` (the first frame of a START, one past the last of a STOP,
-counted from 0), frame rate and length of the recording on every row, the level as ``Behavioral
-category``. Scores are not kept.
+*BORIS* (CSV): a START and a STOP row per segment, both levels. Written as "tabular events":
+``Time`` in seconds and ``Image index`` (first frame for START, one past the last for STOP, from 0),
+frame rate and length of the recording in every row, the level as ``Behavioral category``. Scores
+are not stored.
 
-Read are the tabular events of old and new versions (header line below a preamble or on top; START
-and STOP under ``Behavior type`` or ``Status``) and the aggregated ones (``Start (s)``, ``Stop
-(s)``). POINT events last no time and are left out with a warning. Rows of several subjects or
-observations must not overlap.
+Reads tabular events of old and new versions (header line below a preamble or on top; START and STOP
+in ``Behavior type`` or ``Status``) and aggregated events (``Start (s)``, ``Stop (s)``). POINT
+events have no duration and are left out with a warning. Rows of several subjects or observations
+must not overlap.
 
 Sources: https://bids-specification.readthedocs.io, "Events"; BORIS user guide, "Export events".
 """
@@ -75,22 +75,22 @@ MISSING = "n/a"
 
 
 def write_bids(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave the events at ``path`` and the sidecar beside them."""
-    beside = name_sidecar(path)
+    """Write the events to ``path`` and the sidecar beside it."""
+    sidecar_path = name_sidecar(path)
     facts = {
         "SamplingFrequency": segmentation.fps,
         "RecordingDuration": segmentation.n_frames / segmentation.fps,
     }
     cuts = ((row.level, row.start_frame, row.stop_frame) for row in rows)
     digest = {CUTS_KEY: digest_cuts(cuts)}
-    sidecar = {**COLUMNS, **_read_sidecar_to_keep(beside), **facts, **digest}
-    with atomic_write(beside) as side_draft, open_new_text(path) as file:
+    sidecar = {**COLUMNS, **_read_sidecar_to_keep(sidecar_path), **facts, **digest}
+    with atomic_write(sidecar_path) as side_draft, open_new_text(path) as file:
         side_draft.write_text(json.dumps(sidecar, indent=2) + "\n", encoding="utf-8")
         write_rows(file, ["onset", "duration", *COLUMNS], map(_format_cells, rows), delimiter="\t")
 
 
 def read_bids(path: Path) -> Labels:
-    """Return the events at ``path``, with what a sidecar beside them says."""
+    """Read events with the facts in their sidecar, if there is one."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = read_rows(file, path, [NEEDED], delimiter="\t")
         spans, cuts, rates = [], [], []
@@ -99,19 +99,19 @@ def read_bids(path: Path) -> Labels:
             spans.append(span)
             rates.append((span.stop, _parse_rate(cells, span.stop)))
             cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
-    beside = name_sidecar(path)
-    sidecar = _read_sidecar(beside)
-    facts = _parse_facts(sidecar, beside)
+    sidecar_path = name_sidecar(path)
+    sidecar = _read_sidecar(sidecar_path)
+    facts = _parse_facts(sidecar, sidecar_path)
     rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
     notes = find_differences(
-        path, beside, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
+        path, sidecar_path, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
     )
     return Labels(spans, "seconds", rate, length, notes)
 
 
 def name_sidecar(path: Path) -> Path:
-    """Where the description is kept: ``walk_events.tsv`` and ``walk_events.json``."""
+    """Return the path of a sidecar: ``walk_events.json`` for ``walk_events.tsv``."""
     return path.with_suffix(".json")
 
 
@@ -145,38 +145,38 @@ def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
 
 
 def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
-    """Return the frame rate that a row tells by its last frame and second, if it has both."""
+    """Return the frame rate computed from the stop of a row, or None."""
     text = cells.get("stop_frame", MISSING)
     valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
     return int(text) / stop_s if valid else None
 
 
-def _parse_facts(sidecar: dict[str, Any], beside: Path) -> dict[str, float | None]:
+def _parse_facts(sidecar: dict[str, Any], path: Path) -> dict[str, float | None]:
     facts: dict[str, float | None] = {}
     for name in ("SamplingFrequency", "RecordingDuration"):
         value = sidecar.get(name)
         if value is not None and (type(value) not in (int, float) or not 0 < value < 1e15):
-            raise ReadError(beside, f"{name} must be a positive number, not {value!r:.60}")
+            raise ReadError(path, f"{name} must be a positive number, not {value!r:.60}")
         facts[name] = value
     return facts
 
 
-def _read_sidecar_to_keep(beside: Path) -> dict[str, Any]:
+def _read_sidecar_to_keep(path: Path) -> dict[str, Any]:
     try:
-        found = _read_sidecar(beside)
+        found = _read_sidecar(path)
     except ReadError as error:
-        raise WriteError(beside, f"is in the way of the sidecar: {error.reason}") from error
+        raise WriteError(path, f"is in the way of the sidecar: {error.reason}") from error
     if "schema" in found:
-        raise WriteError(beside, "is in the way: it is a segment table, and would be the sidecar")
+        raise WriteError(path, "is in the way: it is a segment table, and would be the sidecar")
     return found
 
 
-def _read_sidecar(beside: Path) -> dict[str, Any]:
-    if not beside.is_file():
+def _read_sidecar(path: Path) -> dict[str, Any]:
+    if not path.is_file():
         return {}
-    found = load_json(beside)
+    found = load_json(path)
     if not isinstance(found, dict):
-        raise ReadError(beside, "a sidecar must be a JSON object")
+        raise ReadError(path, "a sidecar must be a JSON object")
     return found
 
 
@@ -217,7 +217,7 @@ Cells = dict[str, str]
 
 
 def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave two rows per segment at ``path``, in time order."""
+    """Write two rows per segment in time order."""
     media = format_source(segmentation)
     facts = {
         "Observation id": Path(media).stem,
@@ -243,7 +243,7 @@ def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path)
             ("STOP", row.stop_s, row.stop_frame),
         )
     ]
-    # What stops at a frame comes before what starts there.
+    # STOP comes before START at the same frame.
     events.sort(key=lambda event: (event["Image index"], event["Behavior type"] == "START"))
     with open_new_text(path) as file:
         lines = ({**facts, **event} for event in events)
@@ -253,7 +253,7 @@ def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path)
 
 
 def read_boris(path: Path) -> Labels:
-    """Return the state events at ``path``."""
+    """Read the state events of a BORIS table."""
     headers = [("Time", "Behavior"), ("Start (s)", "Stop (s)", "Behavior")]
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(read_rows(file, path, headers))
@@ -267,14 +267,14 @@ def read_boris(path: Path) -> Labels:
 
 
 def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
-    """Yield each STOP with the START of the same behavior before it."""
+    """Yield a span for each STOP with the preceding START of the same behavior."""
     starts: dict[tuple[str, ...], float] = {}
     for line, cells in rows:
         kind = _parse_kind(cells)
         if kind == "POINT":
             continue
         same = ("Observation id", "Subject", "Behavior", "Behavioral category")
-        # States of several subjects and observations may be open at once.
+        # Several subjects and observations may have open states.
         key = tuple(cells.get(name, "") for name in same)
         time = parse_number(cells["Time"], "Time", path, line)
         if kind == "START" and key not in starts:
@@ -308,7 +308,7 @@ def _parse_kind(cells: Cells) -> str:
 
 
 def _parse_fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | None:
-    """Return what the first row says about the recording, if that is a positive number."""
+    """Return a fact about the recording from the first row, if it is a positive number."""
     for name in names:
         try:
             value = float(rows[0][1][name]) if rows else 0.0

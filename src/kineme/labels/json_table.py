@@ -1,4 +1,4 @@
-"""Segments as JSON, schema ``kineme.segments/2``, and as Parquet with the same schema.
+"""Segments in JSON, schema ``kineme.segments/2``, and in Parquet with the same schema.
 
 One object:
 
@@ -8,10 +8,10 @@ One object:
       "fps": 120.0,                frames per second of the source file
       "provenance": {...},         as in Segmentation
       "timings": {"graph": 0.02},  seconds per stage
-      "annotation": {...},         what people did, where they did anything
-      "hierarchy": {               where there are other details: all, ascending
+      "annotation": {...},         edits by people, if any
+      "hierarchy": {               if there are several details: all, ascending
         "detail": 1.0,             that of "segments"
-        "levels": [                each with its table by columns; that of "segments" without
+        "levels": [                each with its table by columns, except that of "segments"
           {"detail": 0.5, "columns": {"level": ["activity"], "kind": ["activity"], ...}},
           {"detail": 1.0}
         ]
@@ -23,13 +23,10 @@ One object:
       ]
     }
 
-The columns are those of `kineme.segments.table`; a number that nobody knows is
-``null``. A reader must ignore names it does not know; a change that old
-readers would misunderstand gets the next number. In ``kineme.segments/1``, which is read as
-well, ``confidence`` is called ``score``, a primitive is of kind ``activity``, and what is in the
-annotation stands in the provenance.
+The columns are those of `kineme.segments.table`; unknown numbers are ``null``. Readers must ignore
+unknown names; the number in the schema increases with changes that old readers would misread.
 
-A Parquet file has the table's columns as they are, no index; all but "segments" is JSON in its
+A Parquet file holds the table's columns without an index; everything but "segments" is JSON in its
 metadata under the key ``kineme.segments``.
 """
 
@@ -62,17 +59,17 @@ from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, find_
 
 SCHEMA = "kineme.segments/2"
 INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
-"""Of the tables at other details; the rest follows from these."""
+"""Columns stored for tables at other details; the rest is derived from these."""
 
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave everything at ``path``."""
+    """Write everything to a JSON file."""
     with atomic_write(path) as draft:
         draft.write_text(dumps(segmentation), encoding="utf-8")
 
 
 def dumps(segmentation: Segmentation) -> str:
-    """Return the JSON text: small parts indented, one line per segment."""
+    """Return the JSON text: an indented head, and one line per segment."""
     content = make_head(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
     head = _indent(content).removesuffix("\n}")
@@ -84,17 +81,17 @@ def dumps(segmentation: Segmentation) -> str:
 
 
 def as_object(segmentation: Segmentation) -> dict[str, Any]:
-    """Return what the JSON text holds, as Python has it."""
+    """Return the content of the JSON text as Python objects."""
     return make_head(segmentation) | {"segments": [*_make_rows(segmentation.table)]}
 
 
 def read(path: Path) -> Segmentation:
-    """Return the segmentation at ``path``."""
+    """Read a segmentation from a JSON file."""
     return loads(path.read_bytes(), path)
 
 
 def loads(content: bytes, path: Path) -> Segmentation:
-    """Return the segmentation in what a file of that path holds."""
+    """Parse a segmentation from JSON; ``path`` is used in errors."""
     data = parse(content.decode("utf-8-sig"), path)
     rows = data.get("segments")
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
@@ -103,7 +100,7 @@ def loads(content: bytes, path: Path) -> Segmentation:
         missing = find_lacking(row)
         if missing:
             raise ReadError(path, f"segment {number} has no {missing[0]!r}")
-    # Cells that a row lacks are what holds where nothing is known.
+    # Missing cells get the default of their column.
     columns = {
         name: _replace_null([row.get(name, column.default) for row in rows], name)
         for name, column in COLUMNS.items()
@@ -112,7 +109,7 @@ def loads(content: bytes, path: Path) -> Segmentation:
 
 
 def make_head(segmentation: Segmentation) -> dict[str, Any]:
-    """Everything but the table, as JSON holds it."""
+    """Return everything but the table for JSON."""
     head = {
         "schema": SCHEMA,
         "n_frames": segmentation.n_frames,
@@ -128,7 +125,7 @@ def make_head(segmentation: Segmentation) -> dict[str, Any]:
 
 
 def parse(text: str, path: Path) -> dict[str, Any]:
-    """Return the object in ``text``, if it is of a schema this version reads."""
+    """Parse a JSON object; raise ReadError if this version cannot read its schema."""
     data = decode_json(text, path)
     schema = data.get("schema") if isinstance(data, dict) else None
     if not isinstance(data, dict) or not str(schema).startswith("kineme.segments/"):
@@ -142,7 +139,7 @@ def parse(text: str, path: Path) -> dict[str, Any]:
 
 
 def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segmentation:
-    """Return the segmentation of a table and what `make_head` gave."""
+    """Return the segmentation of a table and a head from `make_head`."""
     n_frames, fps = head.get("n_frames"), head.get("fps")
     if type(n_frames) is not int:
         raise ReadError(path, f'"n_frames" must be a whole number, not {n_frames!r:.40}')
@@ -152,7 +149,7 @@ def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     for name, value in notes.items():
         if not isinstance(value, dict):
             raise ReadError(path, f'"{name}" must be an object, not {value!r:.40}')
-    found = Segmentation.from_columns(
+    segmentation = Segmentation.from_columns(
         columns,
         n_frames=n_frames,
         fps=fps,
@@ -161,15 +158,15 @@ def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
         annotation=Annotation.from_json(head.get("annotation", {})),
     )
     if "hierarchy" not in head:
-        return found
+        return segmentation
     try:
-        return replace(found, hierarchy=_parse_hierarchy(head["hierarchy"], found))
+        return replace(segmentation, hierarchy=_parse_hierarchy(head["hierarchy"], segmentation))
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise ReadError(path, f'"hierarchy" is none: {error}') from error
 
 
 def _make_levels(hierarchy: Hierarchy) -> dict[str, Any]:
-    """Return a hierarchy as JSON holds it."""
+    """Return a hierarchy for JSON."""
     levels: list[dict[str, Any]] = []
     for detail, table in zip(hierarchy.details, hierarchy.tables, strict=True):
         levels.append({"detail": detail})
@@ -180,7 +177,7 @@ def _make_levels(hierarchy: Hierarchy) -> dict[str, Any]:
 
 
 def _parse_hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
-    """Return what `_make_levels` gave, around a table."""
+    """Return the hierarchy from the output of `_make_levels`."""
     tables = {}
     for level in data["levels"]:
         columns = level.get("columns")
@@ -195,28 +192,28 @@ def _parse_hierarchy(data: dict[str, Any], found: Segmentation) -> Hierarchy:
 
 
 def _replace_null(values: list[Any], name: str) -> list[Any]:
-    """Return the cells of a column; a number that nobody knows is null in JSON."""
+    """Replace None by nan in a column of numbers."""
     if COLUMNS[name].type is not float:
         return values
     return [math.nan if value is None else value for value in values]
 
 
 def _make_rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
-    """One object per row."""
+    """Yield one object per row."""
     columns = [_list_values(column) for column in table.columns().values()]
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
 
 
 def _indent(content: dict[str, Any]) -> str:
-    """What `json.dumps` writes with an indent, several times as fast: tables have many marks."""
+    """Return the output of `json.dumps` with an indent, but several times faster."""
     try:
         return msgspec.json.format(json.dumps(content), indent=2)
-    except msgspec.DecodeError:  # half of a pair of surrogates, in the name of a file
+    except msgspec.DecodeError:  # a lone surrogate in a file name
         return json.dumps(content, indent=2)
 
 
 def _format_lines(table: SegmentTable) -> Iterator[str]:
-    """What `json.dumps` writes for `_make_rows`, column by column: tables have many rows."""
+    """Return the lines of `json.dumps` for `_make_rows`, but built by columns for speed."""
     columns = map(_as_text, table.columns().values())
     line = "    {" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
     return map(line.__mod__, zip(*columns, strict=True))
@@ -225,19 +222,19 @@ def _format_lines(table: SegmentTable) -> Iterator[str]:
 def _as_text(column: NDArray[Any]) -> list[str]:
     values: list[Any] = column.tolist()
     if column.dtype.kind == "U":
-        # Labels repeat in many rows: each is quoted once.
+        # Labels repeat in many rows, so quote each only once.
         quoted = {text: json.dumps(text) for text in {*values}}
         return [quoted[text] for text in values]
     texts = msgspec.json.encode(values)[1:-1].decode().split(",") if values else []
-    size = np.abs(column)  # it is several times as fast, and writes other exponents
-    # Numbers that both write differently are written anew, so that files stay the same.
+    size = np.abs(column)
+    # msgspec is several times faster but formats exponents differently; rewrite these numbers.
     for row in np.flatnonzero((size > 0) & (size < 1e-4) | (size >= 1e16)).tolist():
         texts[row] = json.dumps(values[row])
     return texts
 
 
 def _list_values(column: NDArray[Any]) -> list[Any]:
-    """Return the cells of a column; a number that nobody knows is None."""
+    """Return the cells of a column with None for nan."""
     values: list[Any] = column.tolist()
     if column.dtype.kind != "f":
         return values
@@ -285,11 +282,11 @@ def read_parquet(path: Path) -> Segmentation:
     present = [name for name in COLUMNS if name in names]
     table = read_parquet_columns(content, file, present)
     columns = {name: table.column(name).to_numpy() for name in present}
-    found = join_head(columns, head, path)
+    segmentation = join_head(columns, head, path)
     if COMMENT not in names:
-        return found
+        return segmentation
     comments = read_parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
-    return set_comments_by_row(found, [str(text or "") for text in comments])
+    return set_comments_by_row(segmentation, [str(text or "") for text in comments])
 
 
 PARQUET = LabelFormat(

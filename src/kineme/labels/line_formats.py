@@ -1,24 +1,24 @@
-"""Text files of one label, frame or clip a line: Audacity, MS-TCN, and clips for motion matching.
+"""Text formats with one item per line: Audacity, MS-TCN, and clip lists for motion matching.
 
-*Audacity*: start, stop and text in seconds, tabs between; one level, no frame rate. A label whose
-start is its stop is a point, which is no segment. Lines that begin with a backslash (the
-frequencies of a spectral selection) are skipped.
+*Audacity*: start and stop in seconds and text, separated by tabs; one level, no frame rate. Point
+labels (start equals stop) are not segments. Lines that begin with a backslash (frequencies of a
+spectral selection) are skipped.
 https://manual.audacityteam.org/man/importing_and_exporting_labels.html
 
-*MS-TCN*: one label per line and frame, as MS-TCN and its followers keep their data (Abu Farha,
-Gall, CVPR 2019; https://github.com/yabufarha/ms-tcn).
+*MS-TCN*: one label per frame and line, the format of MS-TCN and related projects (Abu Farha, Gall,
+CVPR 2019; https://github.com/yabufarha/ms-tcn).
 
     corpus/mapping.txt              "0 walk", "1 jump", ...: a number per class
     corpus/groundTruth/take.txt     "walk" once per frame
 
-New classes are added to the mapping; classes that are there keep their numbers. Blanks in a label
-become ``_``: the mapping is split at blanks by all who read it. Neighbours of one class become one
-segment; ``transition``, ``background`` and ``SIL`` are transitions. Reading needs no mapping.
+New classes are appended to the mapping; existing ones keep their numbers. Blanks in labels become
+``_``, since readers split the mapping at blanks. Successive frames of one class become one segment;
+``transition``, ``background`` and ``SIL`` are transitions. Reading needs no mapping.
 
-*Clips*: a CSV of ``file``, ``start``, ``stop`` (frames, excluded), ``mirror``, as the list at the
-head of orangeduck's ``generate_database.py`` has them; seconds and text as ``label`` beside them.
-Written are one level, unmirrored; clusters only where there is no label. Read are the rows of one
-file (a mirrored twin of a clip is the clip again); the frame rate follows from frames and seconds.
+*Clips*: a CSV of ``file``, ``start``, ``stop`` (frames, exclusive) and ``mirror`` like the list in
+orangeduck's ``generate_database.py``, with seconds and ``label`` added. Writing stores one level,
+unmirrored, with cluster numbers for unlabelled segments. Reading accepts the clips of one file
+(mirrored duplicates are merged); the frame rate is computed from frames and seconds.
 https://github.com/orangeduck/Motion-Matching
 """
 
@@ -100,7 +100,7 @@ def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
     mapping = path.parent.parent / "mapping.txt"
     classes = _list_classes(mapping)
     for text in texts:
-        # New classes go on after the largest number.
+        # New classes continue after the largest number.
         classes.setdefault(text, 1 + max(classes.values(), default=-1))
     with atomic_write(mapping) as class_draft, open_new_text(path, newline="\n") as file:
         lines = (f"{number} {text}\n" for text, number in classes.items())
@@ -126,7 +126,7 @@ def _read_ms_tcn(path: Path) -> Labels:
 
 
 def _list_classes(mapping: Path) -> dict[str, int]:
-    """Return the classes that are there, by name."""
+    """Return the numbers of the classes in a mapping, by name."""
     if not mapping.is_file():
         return {}
     classes = {}
@@ -142,7 +142,7 @@ def _list_classes(mapping: Path) -> dict[str, int]:
 
 
 def _is_ms_tcn(path: Path) -> bool:
-    """Return whether the first line is one word or more, and no row of a table."""
+    """Return whether the first line is a text and not a row of a table."""
     first = read_first_bytes(path).decode(errors="replace").partition("\n")[0].strip()
     return bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+."
 

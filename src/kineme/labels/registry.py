@@ -1,8 +1,8 @@
-"""Read and write segments in any label format, found by its name, the content or the suffix.
+"""Read and write segments in any label format, selected by name, content or suffix.
 
-A format is one object (`LabelFormat`), below the functions that read and write it. The
-package's own are named here and imported when first asked for; other packages add theirs
-by `register`, or by naming the object in the entry point group ``kineme.label_formats``.
+A format is a `LabelFormat` object, defined below its functions. Built-in formats are listed here
+and imported on first use. Other packages add formats with `register`, or by the entry point group
+``kineme.label_formats``.
 """
 
 from __future__ import annotations
@@ -38,35 +38,35 @@ Write = Callable[[Sequence[Segment], Segmentation, Path], None]
 
 @dataclass(frozen=True)
 class LabelFormat:
-    """One way of keeping segments in a file.
+    """A file format for segments.
 
     Parameters
     ----------
     name : str
-        What ``format=`` and the command line call it.
+        Name for ``format=`` and the command line.
     help : str
-        What it is for, in a few words; shown wherever formats are offered.
+        Short description, shown in lists of formats.
     suffixes : tuple of str
-        Suffixes of such files, in lower case and with the dot, the usual one first. Several
-        formats may share one: what a file holds then decides, see ``recognises``.
+        File suffixes in lower case with the dot, the usual one first. If several formats share a
+        suffix, the content of the file decides, see ``recognises``.
     holds : {"all", "levels", "level"}
-        The whole segmentation; the labels of both levels; or those of one level at a time.
+        What a file stores: the whole segmentation, labels of both levels, or of one level.
     read : callable
-        From a path to a `Segmentation`, or to `Labels` where frame rate, length or gaps
-        remain to be filled in. Raises `ReadError`; an `OSError` or `UnicodeDecodeError`
-        becomes one.
+        Takes a path and returns a `Segmentation`, or `Labels` if frame rate, length or gaps are
+        still to be filled in. Raises `ReadError`; `OSError` and `UnicodeDecodeError` are
+        converted to it.
     write : callable, optional
-        ``write(segments, segmentation, path)`` leaves the given segments of a segmentation at
-        a path. None: the format is only read.
+        ``write(segments, segmentation, path)`` writes the given segments of a segmentation to a
+        path. None for formats that are only read.
     recognises : callable, optional
-        Whether a file (a path with one of the suffixes) holds labels in this format and is
-        no recording. None: the suffix is enough.
+        Takes a path with one of the suffixes; returns whether it holds labels in this format and
+        is not a recording. None if the suffix is sufficient.
     written_suffix : str, optional
-        The suffix as it is written, where that is not the first of ``suffixes``.
+        Suffix for writing, if it is not the first of ``suffixes``.
     several : bool
-        Whether it is several files that belong together; to download, they are packed.
+        Whether it consists of several files; they are zipped for downloads.
     folder : str, optional
-        Name of the folder that the file must lie in.
+        Required name of the folder that contains the file.
 
     Examples
     --------
@@ -94,7 +94,7 @@ class LabelFormat:
 
     @property
     def download_suffix(self) -> str:
-        """Suffix of what is taken away: of the file, or of several packed into one."""
+        """Return the suffix of a download: that of the file, or ``.zip`` for several files."""
         return ".zip" if self.several else self.written_suffix
 
 
@@ -119,16 +119,16 @@ FORMATS: Registry[LabelFormat] = Registry(
         "c3d_events:FORMAT",
     ),
 )
-"""In the order in which they are shown, and tried."""
+"""Label formats in the order in which they are listed and tried."""
 
 
 def label_formats() -> Mapping[str, LabelFormat]:
-    """Return the label formats by name, the package's own first.
+    """Return the label formats by name, built-in ones first.
 
     Returns
     -------
     Mapping of str to LabelFormat
-        In the order in which they are shown, and tried.
+        In the order in which they are listed and tried.
 
     Examples
     --------
@@ -139,19 +139,19 @@ def label_formats() -> Mapping[str, LabelFormat]:
 
 
 def register(new: LabelFormat, *, replace: bool = False) -> None:
-    """Make a format known to `read_segments`, `write_segments`, command line and studio.
+    """Add a format to `read_segments`, `write_segments`, command line and studio.
 
     Parameters
     ----------
     new : LabelFormat
-        What is added.
+        The format.
     replace : bool
-        Whether it takes the place of a format of the same name.
+        Whether to replace a format with the same name.
 
     Raises
     ------
     ParameterError
-        There is a format of this name, or it is none.
+        A format with this name exists, or ``new`` is not a `LabelFormat`.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def register(new: LabelFormat, *, replace: bool = False) -> None:
 
 
 def list_written_suffixes() -> tuple[str, ...]:
-    """Return the suffixes by which `write_segments` knows a format.
+    """Return the suffixes from which `write_segments` can choose a format.
 
     Returns
     -------
@@ -186,26 +186,26 @@ def write_segments(
     format: str | None = None,  # noqa: A002 (what everybody calls it)
     level: Level | None = None,
 ) -> None:
-    """Write a segmentation in a format; all of it, or nothing.
+    """Write a segmentation to a file atomically.
 
     Parameters
     ----------
     segmentation : Segmentation
         What to write.
     path : path-like
-        The file; its suffix tells the format where ``format`` does not.
+        The file; its suffix selects the format unless ``format`` is given.
     format : str, optional
         A name in `kineme.labels.label_formats`.
     level : {"activity", "primitive"}, optional
-        Of the segments to write; by default both in formats that hold both, else
-        ``activity``. The package's own formats always hold both.
+        Level of the segments to write; by default both if the format supports it, else
+        ``activity``. Native formats always hold both.
 
     Raises
     ------
     ParameterError
-        No such format or level.
+        Unknown format or level.
     WriteError
-        Unknown suffix, something the format cannot hold, or the file cannot be written.
+        Unknown suffix, content that the format cannot hold, or the file cannot be written.
     MissingDependencyError
         Parquet without pyarrow.
 
@@ -243,42 +243,42 @@ def read_segments(
     n_frames: int | None = None,
     clock: Clock | None = None,
 ) -> Segmentation:
-    """Return the segmentation in a file of any label format.
+    """Read a segmentation from a file in any label format.
 
     Parameters
     ----------
     path : path-like
-        The file. Where ``format`` is not given, its suffix tells the format; where several
-        share one (a ``.txt`` is Audacity's, or one label per frame), what it holds does.
+        The file. Without ``format``, its suffix selects the format; if several formats share the
+        suffix (``.txt`` may be Audacity or one label per frame), its content.
     format : str, optional
         A name in `kineme.labels.label_formats`.
     fps : float, optional
-        Frame rate of the recording, for formats that do not tell it.
+        Frame rate of the recording, for formats that do not store it.
     n_frames : int, optional
-        Length of the recording, where the last label may end before it.
+        Length of the recording, if the last label may end before it.
     clock : Clock, optional
-        That of the recording (``provenance.clock``), with `fps` and `n_frames`: labels in seconds
-        are by it, and those in a pause or outside the recording are left out.
+        Clock of the recording (``provenance.clock``); requires `fps` and `n_frames`. Labels in
+        seconds are times of this clock, and those in pauses or outside the recording are left out.
 
     Returns
     -------
     Segmentation
-        What no label covers is a transition.
+        Frames without a label are transitions.
 
     Raises
     ------
     ParameterError
-        No such format, or a frame rate or length that is not positive.
+        Unknown format, or a frame rate or length that is not positive.
     ReadError
-        Missing, damaged, of another format, of a newer version; or at odds with ``fps`` or
-        ``n_frames``.
+        The file is missing, damaged, of another format or newer version, or contradicts ``fps``
+        or ``n_frames``.
     MissingDependencyError
         Parquet without pyarrow.
 
     Warns
     -----
     KinemeWarning
-        Labels were left out or joined; once a file, with everything worth knowing.
+        Labels were left out or joined; one warning per file.
 
     Examples
     --------
@@ -298,11 +298,11 @@ def read_segments(
         if clock is not None and fps is not None and n_frames is not None:
             content = convert_clock_times(content, clock, length_s=n_frames / fps)
         with translate_read_errors(path):
-            content, unusual = as_segmentation(
+            content, warning_texts = as_segmentation(
                 content, Path(path), label_format.name, fps=fps, n_frames=n_frames
             )
-        if unusual:
-            warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
+        if warning_texts:
+            warnings.warn(f"{path}: {'; '.join(warning_texts)}", KinemeWarning, stacklevel=2)
     if fps is not None and rate is not None and not isclose(rate, fps, rel_tol=1e-6):
         raise ReadError(path, f"says {rate:g} frames per second, but fps is {fps:g}")
     if n_frames is not None and content.n_frames != n_frames:
@@ -315,52 +315,52 @@ def read_segments(
 def read_content(
     path: str | PathLike[str], name: str | None = None
 ) -> tuple[LabelFormat, Segmentation | Labels]:
-    """Return the format of a file and what it holds by itself, before anything is filled in."""
+    """Return the format and raw content of a file, before missing facts are filled in."""
     label_format = find_read_format(path, name)
     with translate_read_errors(path):
         return label_format, label_format.read(Path(path))
 
 
 def find_read_format(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """Return the format in which a file is read: the one named, else by its content and suffix."""
+    """Return the format for reading a file: the named one, else by content and suffix."""
     if name is not None:
         return _find_named(name)
-    fitting, suffix = _find_by_suffix(path), Path(path).suffix.lower()
-    if not fitting and not Path(path).exists():
+    candidates, suffix = _find_by_suffix(path), Path(path).suffix.lower()
+    if not candidates and not Path(path).exists():
         raise ReadError(path, "there is no such file")
-    if not fitting:
+    if not candidates:
         every = (known for candidate in FORMATS.values() for known in candidate.suffixes)
         stored = ", ".join(dict.fromkeys(every))
         raise ReadError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
-    fitting.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
-    return next((each for each in fitting if _recognises(each, Path(path))), fitting[0])
+    candidates.sort(key=lambda candidate: candidate.written_suffix.lower() != suffix)
+    return next((each for each in candidates if _recognises(each, Path(path))), candidates[0])
 
 
 def find_write_format(path: str | PathLike[str], name: str | None = None) -> LabelFormat:
-    """Return format in which a file is written: the one named, else the first with its suffix."""
-    fitting = _find_by_suffix(path) if name is None else [_find_named(name)]
-    writers = [candidate for candidate in fitting if candidate.write]
+    """Return the format for writing a file: the named one, else the first with its suffix."""
+    candidates = _find_by_suffix(path) if name is None else [_find_named(name)]
+    writers = [candidate for candidate in candidates if candidate.write]
     suffix, stored = Path(path).suffix.lower(), ", ".join(list_written_suffixes())
     if writers:
-        # One that writes this suffix comes before one that only reads it.
+        # Prefer a format that usually writes this suffix over one that also reads it.
         return min(writers, key=lambda candidate: candidate.written_suffix.lower() != suffix)
-    if fitting:
-        raise WriteError(path, f"{fitting[0].name} is only read: segments go into {stored}")
+    if candidates:
+        raise WriteError(path, f"{candidates[0].name} is only read: segments go into {stored}")
     raise WriteError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
 
 
 def holds_labels(path: str | PathLike[str]) -> bool:
-    """Return whether a file is one that labels are kept in, by its suffix and its first bytes.
+    """Return whether a file holds labels, judging by its suffix and first bytes.
 
     Parameters
     ----------
     path : path-like
-        A file; a recording in a format that labels share (CSV, Parquet) is none.
+        A file. Recordings in formats that labels also use (CSV, Parquet) do not count.
 
     Returns
     -------
     bool
-        False, too, where the file cannot be opened.
+        Also False if the file cannot be opened.
 
     Examples
     --------
@@ -369,7 +369,7 @@ def holds_labels(path: str | PathLike[str]) -> bool:
     (True, False)
     """
     target = Path(path)
-    if target.name.endswith(".provenance.json"):  # of the table beside it
+    if target.name.endswith(".provenance.json"):  # belongs to the table beside it
         return False
     return any(_recognises(candidate, target) for candidate in _find_by_suffix(path))
 

@@ -1,21 +1,19 @@
-"""Spans with a text each: what label formats hold, and the way there and back.
+"""Spans with texts, the content of label formats, and conversion to and from segments.
 
-A segment becomes one text: its label; without one ``transition``, ``cluster 3``
-or ``activity``, on either level. A text that is read is taken for what those words say, any
-other for the label of an activity. So a labelled segment loses its cluster, a
-labelled transition its kind, and every segment its confidence, but where the format
-has columns for them.
+A segment becomes one text: its label, or else ``transition``, ``cluster 3`` or ``activity``, on
+either level. Reading interprets these words; any other text is the label of an activity. So a
+labelled segment loses its cluster, a labelled transition its kind, and every segment its
+confidence, unless the format has columns for them.
 
-Reading tiles: what no span covers is a transition. Spans of one level must not
-overlap; those shorter than a frame are left out with a warning. Seconds become
-the nearest frame, which gives back the very frames that were written.
+Reading fills gaps: frames without a span are transitions. Spans of one level must not overlap;
+those shorter than a frame are left out with a warning. Seconds are rounded to the nearest frame,
+which restores the frames that were written.
 
-Seconds may be those of a clock (`convert_clock_times`). A recording that pauses has fewer seconds
-than its clock, and one that begins at half past nine has none of those that its clock shows. People
-label by the clock: of the time column, of the day, since 1970. They may also be counted from the
-first frame, pauses included, or without pauses, as the package's own tables do. That by which most
-of their time lies in the recording is taken, and a note says so. Labels that meet nothing are left
-out by name.
+Seconds may be times of a clock (`convert_clock_times`). A paused recording has fewer seconds than
+its clock, and a clock may start at half past nine. Label times may be those of the clock (time
+column, time of day, since 1970), seconds from the first frame including pauses, or without pauses
+as in kineme's own tables. The interpretation by which most labelled time lies in the recording is
+used, with a note. Labels outside the recording are left out and listed.
 """
 
 from __future__ import annotations
@@ -40,14 +38,14 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, choose_kind
 
 TOO_FAR = 2**53
-"""Frames from which a float cannot tell neighbours apart."""
+"""Frame number from which on a float cannot represent every integer."""
 COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
 
 Row = tuple[Level, Kind, int, int, int, str, float]
 
 
 class Span(NamedTuple):
-    """From ``start`` to ``stop``, in the unit of its `Labels`, something was called ``text``.
+    """A text from ``start`` to ``stop``, in the unit of its `Labels`.
 
     Examples
     --------
@@ -66,22 +64,22 @@ class Span(NamedTuple):
 
 @dataclass(frozen=True)
 class Labels:
-    """What a file holds, and what it says about the recording; None where it is silent.
+    """Content of a label file with facts about the recording; None if unknown.
 
     Parameters
     ----------
     spans : sequence of Span
-        In any order; a stop is where the next span may start.
+        In any order; stops are exclusive.
     unit : {"seconds", "frames"}
-        Of starts, stops and length.
+        Unit of starts, stops and length.
     fps : float, optional
         Frames per second of the recording.
     length : float, optional
-        Of the recording.
+        Length of the recording.
     notes : tuple of str
-        What is worth a warning, such as labels that had to be joined.
+        Texts for a warning, for example about joined labels.
     remarks : tuple of str
-        What was inferred, for the provenance alone.
+        Inferences, for the provenance only.
 
     Examples
     --------
@@ -99,14 +97,14 @@ class Labels:
 
 
 def format_text(row: Segment) -> str:
-    """Return the text of a segment: its label, or what else tells it from others."""
+    """Return the text of a segment: its label, else its kind or cluster."""
     if row.label or row.kind == "transition":
         return row.label or "transition"
     return f"cluster {row.cluster}" if row.cluster >= 0 else "activity"
 
 
 def parse_text(text: str) -> tuple[Kind, int, str]:
-    """Kind, on the activity level, cluster and label of a text: the inverse of `format_text`."""
+    """Return kind (of an activity), cluster and label of a text; inverse of `format_text`."""
     if text == "transition":
         return "transition", -1, ""
     if text in ("activity", ""):
@@ -118,12 +116,11 @@ def parse_text(text: str) -> tuple[Kind, int, str]:
 def as_segmentation(
     labels: Labels, path: Path, name: str, *, fps: float | None = None, n_frames: int | None = None
 ) -> tuple[Segmentation, tuple[str, ...]]:
-    """Return the segmentation that labels speak of, and sentences on what of it is worth a warning.
+    """Convert labels to a segmentation; return also texts for a warning.
 
-    What no label covers is a transition. Where all spans are of the primitive level they become
-    activities, which every segmentation has; the provenance has the level, ``["labels"]["level"]``.
-    Counts of repetitions, where the labels have some, are kept there, too,
-    ``["labels"]["counts"]``: one per row of the activity level, or None.
+    Frames without a label are transitions. If all spans are primitives, they become activities,
+    since every segmentation needs these; ``provenance["labels"]["level"]`` records it. Counts of
+    repetitions, if any, go to ``provenance["labels"]["counts"]``: one per activity row, or None.
     """
     if not labels.spans:
         recording = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
@@ -144,7 +141,7 @@ def as_segmentation(
     elif n_frames is None:
         n_frames, frames = last, format_count(last, "frame")
         notes.append(f"length of {frames} taken from the end of the last label")
-    elif last > n_frames + 1:  # 1: some programs close with the frame after the last
+    elif last > n_frames + 1:  # some programs end with the frame after the last
         raise ReadError(
             path,
             f"has labels up to frame {last}, {last / rate:.3f} s, but the recording has "
@@ -152,19 +149,19 @@ def as_segmentation(
         )
     if n_frames < 1:
         raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
-    unusual = list(labels.notes)
-    # Cut off at the end of the recording, without those of which no frame is left.
+    warnings = list(labels.notes)
+    # Cut at the end of the recording, and drop spans without a frame.
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
-    full = [row for row in inside if row[2] < row[3]]
-    if len(full) < len(rows):
-        short = format_count(len(rows) - len(full), "label")
-        unusual.append(f"shorter than a frame, left out: {short}")
-    tiled = _fill_levels(full, n_frames, path)
+    nonempty = [row for row in inside if row[2] < row[3]]
+    if len(nonempty) < len(rows):
+        short = format_count(len(rows) - len(nonempty), "label")
+        warnings.append(f"shorter than a frame, left out: {short}")
+    tiled = _fill_levels(nonempty, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
-    level = "activity" if any(row[0] == "activity" for row in full) else "primitive"
+    level = "activity" if any(row[0] == "activity" for row in nonempty) else "primitive"
     if level == "primitive":
         source["level"] = level
-    # By first frame, which tells rows of a level apart.
+    # Keyed by first frame, which is unique within a level.
     counts = {
         row[2]: span.repetitions
         for row, span in zip(rows, labels.spans, strict=True)
@@ -177,15 +174,15 @@ def as_segmentation(
             dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
             n_frames=n_frames,
             fps=rate,
-            provenance={"labels": source, "notes": [*notes, *unusual]},
+            provenance={"labels": source, "notes": [*notes, *warnings]},
         )
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
-    return segmentation, tuple(unusual)
+    return segmentation, tuple(warnings)
 
 
 def join_lines(text: str) -> str:
-    """Return the text with a blank for all that a label may not hold: tabs, line ends, controls."""
+    """Replace tabs, line ends and control characters in a label by blanks."""
     if text.isprintable():
         return text
     bad = ("Cc", "Cs", "Zl", "Zp")
@@ -193,7 +190,7 @@ def join_lines(text: str) -> str:
 
 
 def _make_row(span: Span, per_unit: float, path: Path) -> Row:
-    """Return a row of the table, with frames for the unit of the file."""
+    """Convert a span to a row of the table, in frames."""
     start, stop = _to_frame(span.start, per_unit, path), _to_frame(span.stop, per_unit, path)
     if stop < start:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
@@ -210,23 +207,23 @@ def _to_frame(value: float, per_unit: float, path: Path) -> int:
     return math.floor(frame + 0.5)
 
 
-def _fill_levels(full: list[Row], n_frames: int, path: Path) -> list[Row]:
-    """Return the rows of each level, gaps between them filled but not across an activity's end."""
-    if all(row[0] == "primitive" for row in full):
+def _fill_levels(rows: list[Row], n_frames: int, path: Path) -> list[Row]:
+    """Return the rows of each level with gaps filled; fillers do not cross activity borders."""
+    if all(row[0] == "primitive" for row in rows):
         activity: Level = "activity"
-        full = [
+        rows = [
             (activity, choose_kind(activity, transition=row[1] == "transition"), *row[2:])
-            for row in full
+            for row in rows
         ]
-    inner = [row for row in full if row[0] == "primitive"]
-    tiled = list(_fill_between([row for row in full if row[0] == "activity"], n_frames, [], path))
+    inner = [row for row in rows if row[0] == "primitive"]
+    tiled = list(_fill_between([row for row in rows if row[0] == "activity"], n_frames, [], path))
     if inner:
         tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
     return tiled
 
 
 def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
-    """Yield the rows of one level in time order, and transitions where there are none."""
+    """Yield the rows of one level in time order, with transitions between them."""
     at = 0
     level = rows[0][0] if rows else "activity"
     for row in sorted(rows, key=lambda row: row[2:4]):
@@ -243,7 +240,7 @@ def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path
 
 
 def _make_gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
-    # Borders strictly inside of the gap: a transition must not cross an activity's end.
+    # Split at borders strictly inside the gap: transitions must not cross them.
     inside = borders[bisect_right(borders, start) : bisect_left(borders, stop)]
     for left, right in pairwise([start, *inside, stop]):
         if left < right:
@@ -251,11 +248,11 @@ def _make_gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterat
 
 
 NAMED = 4
-"""Labels that a note names before it only counts."""
+"""Number of labels that a note lists; it counts the others."""
 
 
 def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:
-    """Return the labels in seconds of the recording, and notes on how they were taken.
+    """Convert labels from clock times to seconds of the recording, with notes.
 
     Examples
     --------
@@ -272,7 +269,7 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
     seconds, remarks = _convert_seconds(times, clock, length_s)
     # A label may begin before the recording.
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
-    # Labels that run backwards are kept, so that they are refused by name later.
+    # Keep reversed labels: they are rejected by name later.
     backward = times[:, 1] < times[:, 0]
     meets = backward | ((begin < np.minimum(end, length_s)) & (end > 0))
     placed = [
@@ -288,7 +285,7 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
 
 
 def note_lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
-    """Return a note that names the labels which no frame has; none where there are none."""
+    """Return a note listing labels without any frame; empty if there are none."""
     if not spans:
         return ()
     named = [f"{span.text!r:.60} {span.start:.10g} to {span.stop:.10g} {unit}" for span in spans]
@@ -299,17 +296,17 @@ def note_lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
 def _convert_seconds(
     times: Floats, clock: Clock, length_s: float
 ) -> tuple[Floats, tuple[str, ...]]:
-    """Return the seconds of starts and stops, and a note unless they are the clock's own."""
-    first = f"times counted from the first frame, at which the clock shows {clock.shown(0.0)}"
-    answers: list[tuple[Floats, tuple[str, ...]]] = [
+    """Return starts and stops in seconds, and a note unless they are times of the clock."""
+    first = f"times counted from the first frame, at which the clock shows {clock.format_time(0.0)}"
+    interpretations: list[tuple[Floats, tuple[str, ...]]] = [
         (clock.second(times), ()),
-        (clock.since_first().second(times), (first,)),
+        (clock.make_relative().second(times), (first,)),
         (times, ("times taken as frames over the rate, without pauses",)),
     ]
 
     def shared_s(answer: tuple[Floats, tuple[str, ...]]) -> float:
-        # The parts of labels that lie in the recording, to the millisecond.
+        # Labelled time within the recording, rounded to milliseconds.
         inside = np.clip(answer[0], 0.0, length_s)
         return round(float(np.maximum(inside[:, 1] - inside[:, 0], 0.0).sum()), 3)
 
-    return max(answers, key=shared_s)
+    return max(interpretations, key=shared_s)

@@ -1,32 +1,31 @@
-"""Tiers of annotations: ELAN's documents and tables, and Praat's TextGrids.
+"""Formats with tiers of annotations: ELAN documents and tables, and Praat TextGrids.
 
-*ELAN* (``.eaf``): a tier per level, whole milliseconds. Frame rate and length go into document
-properties (``kineme.fps``, ``kineme.n_frames``), which ELAN keeps. Clusters are kept where there is
-no label, scores never. Recordings at 1000 frames per second or more are refused: a millisecond
-would hold several frames.
+*ELAN* (``.eaf``): one tier per level, whole milliseconds. Frame rate and length are stored in
+document properties (``kineme.fps``, ``kineme.n_frames``), which ELAN preserves. Clusters are stored
+for unlabelled segments, scores never. Recordings at 1000 frames per second or more are rejected,
+since a millisecond would hold several frames.
 
-The video of the recording is named as its medium: that of ``provenance["video"]``, with the second
-of it at which the recording starts, else a file of the recording's name beside it.
+The linked medium is the video in ``provenance["video"]``, with the recording's start in it, or else
+a video with the recording's name beside it.
 
-Read are the tiers called ``activity`` and ``primitive``; in a file without them the only tier that
-has annotations. Annotations that hang on other ones have no time of their own and are ignored.
+Reading uses the tiers ``activity`` and ``primitive``, or else the only tier with annotations.
+Annotations that depend on others have no times and are ignored.
 
-pympi-ling reads and writes such files, too, but parses without a guard against entities; the tests
-hold both against each other. A file with a document type is refused, so that no entity can grow it.
+pympi-ling reads and writes these files, too, but does not guard against XML entities; tests compare
+both. Files with a document type are rejected, which prevents entity expansion.
 
-ELAN's tab-delimited text (`ELAN_TABLE`) is read, too. Without a line of names a line is tier,
-participant, begin, end and perhaps duration, each in one or more ways of writing times, and the
-text last. With one, columns are ``Begin Time - …`` and ``End Time - …``, and then ``Tier`` or one
+ELAN's tab-delimited text (`ELAN_TABLE`) is read, too. Without a header, a line holds tier,
+participant, begin, end and optionally duration, each in one or more time formats, and the text
+last. With a header, columns are ``Begin Time - …`` and ``End Time - …``, and either ``Tier`` or one
 column for each tier. Tiers are chosen as in ``.eaf``.
 
-*Praat* (``.TextGrid``): an interval tier per level, seconds, with the length of the recording.
-Written in Praat's long text form, UTF-8. A TextGrid's tiers tile as segments do; an empty interval
-is a gap and is read as a transition. No frame rate, no scores, clusters only where there is no
-label. Read are both text forms, UTF-8 or UTF-16, by Praat's own rule: numbers that stand alone,
-``"texts"`` with doubled quotes and ``<flags>`` count, all else is decoration. Tiers are chosen as
-in ``.eaf``; point tiers are ignored. praatio reads these files, too; the tests hold both against
-each other. A reader of one's own is shorter than what it takes to turn its many exceptions and its
-silent corrections into one clear error.
+*Praat* (``.TextGrid``): one interval tier per level, in seconds, with the length of the recording,
+written in Praat's long text format as UTF-8. Intervals of a tier cover the recording; empty ones
+become transitions. There is no frame rate and no score; clusters are stored for unlabelled
+segments. Reading accepts both text formats in UTF-8 or UTF-16 by Praat's rule: free-standing
+numbers, ``"texts"`` with doubled quotes and ``<flags>`` count, the rest is ignored. Tiers are
+chosen as in ``.eaf``; point tiers are ignored. praatio reads these files, too, and tests compare
+both, but it raises many different exceptions and corrects errors silently.
 
 Sources: EAF format 3.0, https://www.mpi.nl/tools/elan/EAF_Annotation_Format_3.0_and_ELAN.pdf; ELAN
 manual, "Export as tab-delimited text"; Praat manual, "TextGrid file formats".
@@ -66,7 +65,7 @@ SCHEMA = {
 
 
 def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave a document with a tier per level of the rows at ``path``."""
+    """Write an ELAN document with one tier per level."""
     if segmentation.fps >= PER_SECOND:
         raise WriteError(
             path,
@@ -79,7 +78,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     _add_medium(header, segmentation)
     for name, value in (("fps", repr(segmentation.fps)), ("n_frames", segmentation.n_frames)):
         ET.SubElement(header, "PROPERTY", NAME=f"kineme.{name}").text = str(value)
-    # Each time once: segments that touch share a time slot.
+    # Segments that touch share a time slot.
     times = sorted({time for row in rows for time in _round_to_milliseconds(row)})
     slots = {time: f"ts{number}" for number, time in enumerate(times, 1)}
     order = ET.SubElement(root, "TIME_ORDER")
@@ -95,7 +94,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
         holder = ET.SubElement(tiers[row.level], "ANNOTATION")
         span = ET.SubElement(holder, "ALIGNABLE_ANNOTATION", ANNOTATION_ID=f"a{position}")
         span.attrib |= {"TIME_SLOT_REF1": start, "TIME_SLOT_REF2": stop}
-        # XML cannot hold two characters that labels can.
+        # XML does not allow these two characters.
         text = format_text(row).replace("\ufffe", "\ufffd").replace("\uffff", "\ufffd")
         ET.SubElement(span, "ANNOTATION_VALUE").text = text
     ET.SubElement(
@@ -111,7 +110,7 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
 
 
 def read(path: Path) -> Labels:
-    """Return the annotations at ``path``."""
+    """Read the annotations of an ELAN document."""
     root = _parse_document(path)
     if root.tag != "ANNOTATION_DOCUMENT":
         raise ReadError(path, f"is not an ELAN document but a {root.tag!r:.60}")
@@ -132,22 +131,22 @@ def read(path: Path) -> Labels:
 
 
 def _add_medium(header: ET.Element, segmentation: Segmentation) -> None:
-    """Say which video the annotations are of, where one is known."""
+    """Add the video of the recording to the header, if known."""
     source, video = (segmentation.provenance.get(name) or {} for name in ("input", "video"))
-    given = Path(video.get("path") or "")
-    place = given if given.is_file() else find_video(Path(source.get("path") or ""))
-    if place is None:
+    named = Path(video.get("path") or "")
+    path = named if named.is_file() else find_video(Path(source.get("path") or ""))
+    if path is None:
         return
-    medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=place.absolute().as_uri())
-    medium.set("MIME_TYPE", MEDIA_TYPES.get(place.suffix.lower(), "video/*"))
-    medium.set("RELATIVE_MEDIA_URL", f"./{place.name}")
+    medium = ET.SubElement(header, "MEDIA_DESCRIPTOR", MEDIA_URL=path.absolute().as_uri())
+    medium.set("MIME_TYPE", MEDIA_TYPES.get(path.suffix.lower(), "video/*"))
+    medium.set("RELATIVE_MEDIA_URL", f"./{path.name}")
     origin = round(PER_SECOND * float(video.get("offset_s") or 0))
     if origin:
         medium.set("TIME_ORIGIN", str(origin))
 
 
 def choose_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
-    """Return level of each tier that is read: those named after one, or the only one there is."""
+    """Return the tiers to read and their levels: those named after a level, or the only one."""
     found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
     if found or not names:
         return found
@@ -160,7 +159,7 @@ def choose_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
 
 
 class _Builder(NoEntities, ET.TreeBuilder):
-    """Elements of a document that defines no entities."""
+    """Tree builder that rejects documents with entities."""
 
 
 def _parse_document(path: Path) -> ET.Element:
@@ -226,19 +225,21 @@ Annotation = tuple[str, float, float, str]
 
 
 def read_table(path: Path) -> Labels:
-    """Read the annotations at ``path``."""
+    """Read the annotations of ELAN's tab-delimited text."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         rows = list(csv.reader(file, delimiter="\t", quoting=csv.QUOTE_NONE))
-    full = [
+    lines = [
         (line, row) for line, row in enumerate(rows, 1) if any(row) and not row[0].startswith('"#')
     ]
-    if not full:
+    if not lines:
         return Labels([])
-    is_named = any(map(_TIMES.fullmatch, full[0][1]))
-    found = list(_read_named_columns(full, path) if is_named else _read_unnamed_columns(full, path))
-    levels = choose_tiers(list(dict.fromkeys(tier for tier, *_ in found)), path)
+    is_named = any(map(_TIMES.fullmatch, lines[0][1]))
+    annotations = list(
+        _read_named_columns(lines, path) if is_named else _read_unnamed_columns(lines, path)
+    )
+    levels = choose_tiers(list(dict.fromkeys(tier for tier, *_ in annotations)), path)
     return Labels(
-        [Span(start, stop, text, levels[t]) for t, start, stop, text in found if t in levels]
+        [Span(start, stop, text, levels[t]) for t, start, stop, text in annotations if t in levels]
     )
 
 
@@ -274,7 +275,7 @@ def _read_unnamed_columns(
     first = rows[0][1]
     columns = [i for i in range(2, len(first) - 1) if _TIME.fullmatch(first[i])]
     clocks = [i for i in columns if _CLOCK.fullmatch(first[i])]
-    # begin and end stand first, each in all ways of writing times that were chosen
+    # begin comes first, then end, each in all exported time formats
     chosen = clocks or columns
     if len(chosen) < 2:
         raise ReadError(path, "has no begin and end of annotations", line=rows[0][0])
@@ -306,7 +307,7 @@ TOKEN = re.compile(r'"((?:[^"]|"")*+)"|(?<!\S)([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)
 
 
 def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave a TextGrid with a tier per level of the rows at ``path``."""
+    """Write a TextGrid with one tier per level."""
     length = segmentation.n_frames / segmentation.fps
     tiers: dict[str, list[Segment]] = {}
     for row in rows:
@@ -322,7 +323,7 @@ def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Pa
 
 
 def read_textgrid(path: Path) -> Labels:
-    """Return the intervals at ``path``."""
+    """Read the intervals of a TextGrid."""
     tokens = _split_tokens(path)
     if _read_text(tokens, path) != "ooTextFile" or _read_text(tokens, path) != "TextGrid":
         raise ReadError(path, "is not a TextGrid in text form")
@@ -349,7 +350,7 @@ def _format_lines(rows: Sequence[Segment]) -> Iterator[str]:
 
 
 def _split_tokens(path: Path) -> Iterator[str | float]:
-    """Texts and numbers in order."""
+    """Yield the texts and numbers of a TextGrid in order."""
     data = path.read_bytes()
     wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
     for match in TOKEN.finditer(data.decode("utf-16" if wide else "utf-8-sig")):

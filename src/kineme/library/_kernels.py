@@ -1,4 +1,4 @@
-"""Compiled comparison of windows. The naive twin is in ``tests/helpers/naive``."""
+"""Compiled comparison of windows. ``tests/helpers/naive`` has a plain reference version."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ MOST = np.int32(np.iinfo(np.int32).max)
 
 @njit("void(Array(int8, 2, 'C', readonly=True), int32[:, ::1], int32, int32[::1])", **OPTIONS)
 def find_smallest_distances(windows, parts, finer, least):
-    """The square of each window's distance from the nearest part of an example.
+    """Write the squared distance of each window from the nearest part of an example to ``least``.
 
-    ``windows`` (n, numbers) are whole numbers, ``parts`` (m, numbers) those of an example, as much
-    ``finer``, and so is what is left in ``least`` (n), squared.
+    ``windows`` (n, numbers) are integers. ``parts`` (m, numbers) of the example and the distances
+    are ``finer`` times as large.
     """
     for i in range(len(windows)):
         window = windows[i]
@@ -25,6 +25,6 @@ def find_smallest_distances(windows, parts, finer, least):
             total = np.int32(0)
             for k in range(len(other)):
                 apart = np.int32(finer * window[k] - other[k])
-                total = np.int32(total + np.int32(apart * apart))  # whole numbers: in any order
+                total = np.int32(total + np.int32(apart * apart))  # integer sums can be vectorised
             best = min(best, total)
         least[i] = best

@@ -1,4 +1,4 @@
-"""Building a library: what is new is read, segmented and described; what is there is kept."""
+"""Build a library: analyse new recordings, reuse existing analyses, and write the tables."""
 
 from __future__ import annotations
 
@@ -49,13 +49,13 @@ from kineme.methods.segmenter import SegmentOptions
 from kineme.transfer.clusters import CONSTANTS, Spans
 
 Head = Mapping[str, Any]
-"""What ``library.json`` says; nothing where there is none yet."""
-Former = Mapping[Path, tuple[str, str]]
-"""Name and analysis of recordings that the library has."""
+"""Content of ``library.json``; empty if there is none yet."""
+FormerRecordings = Mapping[Path, tuple[str, str]]
+"""Name and analysis key of the recordings in the library, by path."""
 REMOVED = "left.json"
-"""Clusters of recordings that were taken out, by the key of the analysis, for when they return."""
-Kept = tuple[list[float], list[float], list[int]]
-"""Starts, stops and clusters of activities."""
+"""File of the clusters of removed recordings by analysis key, in case they are added again."""
+ActivityColumns = tuple[list[float], list[float], list[int]]
+"""Starts, stops (seconds) and clusters of activities."""
 DAMAGED = "is damaged: remove it; clusters of recordings that come back get new numbers then"
 
 NEVER_FOUND = "there is no such file or folder"
@@ -64,22 +64,22 @@ NOT_FOUND = "is not there: its recordings are kept; --remove takes them out"
 
 @dataclass(frozen=True)
 class Built:
-    """What a build did.
+    """Result of a build.
 
     Attributes
     ----------
     folder : Path
-        Of the library.
+        Folder of the library.
     paths : tuple of Path
-        The recordings in it.
+        Recordings in the library.
     new : int
-        How many of them were read and segmented.
+        Number of recordings that were read and segmented.
     removed : int
-        How many are not in it any more.
+        Number of recordings that were removed.
     recursive : bool
-        Whether folders in folders were looked into.
+        Whether subfolders were searched.
     failed : Mapping of Path to str
-        What could not be read or segmented, and why.
+        Recordings that could not be read or segmented, and why.
     """
 
     folder: Path
@@ -102,35 +102,35 @@ def build(
     client: Any = None,
     progress: Progress | None = None,
 ) -> Built:
-    """Make a library of recordings, or bring one up to date.
+    """Create or update a library of recordings.
 
-    Sources add to those that the library knows. Recordings that are new or changed are read and
-    segmented, those that are gone from a source are taken out. A build that was ended before goes
-    on; one that failed for some recordings tries these again.
+    Sources are added to those of the library. New or changed recordings are read and segmented;
+    recordings that disappeared from a source are removed. An interrupted build continues, and
+    failed recordings are tried again.
 
     Parameters
     ----------
     sources : path-like, or iterable of path-like
-        Recordings and folders of them; none for those that the library knows.
+        Recordings and folders of recordings; empty to update the known sources.
     into : path-like
-        Folder of the library; made where there is none.
+        Folder of the library; created if missing.
     remove : iterable of path-like
-        Sources to take out, with their recordings.
+        Sources to remove, with their recordings.
     recursive : bool, optional
-        Look into the folders of a folder, too; as the last time by default.
+        Search subfolders, too; as in the last build by default.
     read_options : ReadOptions, optional
-        How recordings are read; as the last time by default.
+        Options for reading; as in the last build by default.
     segment_options : SegmentOptions, optional
-        How recordings are segmented; as the last time by default. Where either differs from
-        the last time, everything is done anew.
+        Options for segmenting; as in the last build by default. If either differs from the
+        last build, all recordings are analysed again.
     jobs : int
-        Processes at most. With more than 1, a script must guard what it runs with
-        ``if __name__ == "__main__"``, as always with processes.
+        Number of processes. With more than 1, a script must guard its code with
+        ``if __name__ == "__main__"``, as always with multiprocessing.
     client : dask.distributed.Client or str, optional
-        Work on this cluster instead, or on that of the scheduler at an address. Its workers see
-        recordings and library at the same places.
+        Use this cluster instead, or that of the scheduler at an address. Its workers need
+        recordings and library under the same paths.
     progress : callable, optional
-        Called with a sentence on how far it is.
+        Called with a description of the progress.
 
     Returns
     -------
@@ -139,11 +139,11 @@ def build(
     Raises
     ------
     ParameterError
-        No source, or options that make no sense.
+        No source, or invalid options.
     ReadError
-        The folder is of another kind or version.
+        The folder is not a library of this version.
     WriteError
-        The folder cannot be written, or another build is at work on it.
+        The folder cannot be written, or another build is running on it.
     MissingDependencyError
         pyarrow is not installed.
 
@@ -160,8 +160,8 @@ def build(
     if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
-    made = ((read_options, ReadOptions), (segment_options, SegmentOptions))
-    for options, kind in made:
+    checked = ((read_options, ReadOptions), (segment_options, SegmentOptions))
+    for options, kind in checked:
         check_type(options, (kind, type(None)), "build", f"{kind.__name__}() makes one")
     with start_processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
@@ -173,21 +173,21 @@ def build(
 
 
 def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progress) -> Built:
-    """Return the library brought up to date, for one that holds it."""
+    """Update the library, which the caller has locked."""
     progress("looking for recordings")
     before = _read_former_recordings(plan.folder, head)
-    found = list_recordings(
+    recordings = list_recordings(
         plan.sources, recursive=plan.recursive, without=make_absolute(plan.folder)
     )
     missing_sources = [source for source in plan.sources if not source.exists()]
-    not_found = {path: entry for path, entry in before.items() if path not in found}
+    not_found = {path: entry for path, entry in before.items() if path not in recordings}
     absent = _group_missing(plan, not_found, missing_sources)
-    gathered = gather(plan, list(found), executor, progress)
+    gathered = gather(plan, list(recordings), executor, progress)
     failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
     keys = {path: plan.key(digest) for path, digest in gathered.digests.items()}
     keys |= {path: before[path][1] for path in absent}
     names = name_recordings(
-        {path: source for path, source in {**found, **absent}.items() if path in keys},
+        {path: source for path, source in {**recordings, **absent}.items() if path in keys},
         {path: name for path, (name, _) in before.items()},
     )
     entries = sorted((name, path, keys[path]) for path, name in names.items())
@@ -204,8 +204,8 @@ def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progre
     )
 
 
-def _read_former_recordings(folder: Path, head: Head) -> Former:
-    """Return the recordings that the library has."""
+def _read_former_recordings(folder: Path, head: Head) -> FormerRecordings:
+    """Return the recordings in the library, by path."""
     if not head:
         return {}
     table = read_table(folder, head["tables"], "recordings")
@@ -214,9 +214,9 @@ def _read_former_recordings(folder: Path, head: Head) -> Former:
 
 
 def _group_missing(
-    plan: Plan, not_found: Former, missing_sources: Sequence[Path]
+    plan: Plan, not_found: FormerRecordings, missing_sources: Sequence[Path]
 ) -> dict[Path, Path]:
-    """Recordings of sources that are not there, by source: as on a disk that was taken out."""
+    """Return recordings with a missing source, such as a removed disk, and that source."""
     return {
         path: source
         for path, (_, key) in not_found.items()
@@ -228,12 +228,12 @@ def _group_missing(
 def _update_tables(
     plan: Plan,
     head: Head,
-    before: Former,
+    before: FormerRecordings,
     entries: Sequence[Entry],
     failed: Mapping[Path, str],
     progress: Progress,
 ) -> str:
-    """The name of the tables of these recordings, which the head of the library tells now."""
+    """Write the tables of these recordings and the head that names them; return their name."""
     content = {
         "schema": SCHEMA,
         "kineme": __version__,
@@ -244,8 +244,8 @@ def _update_tables(
         "clustering": asdict(CONSTANTS),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
-    same = {path: (name, key) for name, path, key in entries} == before
-    if same and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
+    is_unchanged = {path: (name, key) for name, path, key in entries} == before
+    if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
         from kineme.library.compiling import compile_tables, list_activities
@@ -257,24 +257,24 @@ def _update_tables(
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
-        made, following = compile_tables(
+        new_tables, following = compile_tables(
             plan.folder, entries, {**returned, **former}, following, progress
         )
         keys = dict(before.values())
         by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
         _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
-        tables = write_tables(plan.folder, made)
-        write_index(plan.folder, tables, made["recordings"].to_pydict())
-    now = {**content, "following": following, "tables": tables}
-    if now != head:
-        write_json(plan.folder / HEAD, now)
+        tables = write_tables(plan.folder, new_tables)
+        write_index(plan.folder, tables, new_tables["recordings"].to_pydict())
+    head_now = {**content, "following": following, "tables": tables}
+    if head_now != head:
+        write_json(plan.folder / HEAD, head_now)
     return str(tables)
 
 
 def _read_removed(folder: Path) -> dict[str, Spans]:
-    """Return the activities of recordings that were taken out, by key."""
+    """Return the activities of removed recordings, by analysis key."""
     try:
-        content = read_json(folder / REMOVED, Kept)
+        content = read_json(folder / REMOVED, ActivityColumns)
     except ReadError as error:
         raise ReadError(folder / REMOVED, DAMAGED) from error
     for starts, stops, clusters in content.values():
@@ -290,7 +290,7 @@ def _read_removed(folder: Path) -> dict[str, Spans]:
 def _write_removed(
     folder: Path, removed: Mapping[str, Spans], before: Mapping[str, Spans], keys: Iterable[str]
 ) -> None:
-    """Keep activities of recordings, removed earlier or there before, that have no key now."""
+    """Store the activities of recordings that are not in the library any more."""
     present = set(keys)
     content = {
         key: [column.tolist() for column in spans]
@@ -302,7 +302,7 @@ def _write_removed(
 
 
 def _delete_unused_files(folder: Path, keys: set[str], tables: str) -> None:
-    """Delete files of earlier builds that nothing names, and drafts of builds that were ended."""
+    """Delete files of earlier builds that are not used any more, and drafts of killed builds."""
     owned = OwnedFolder(folder)
     for home in ((), (ANALYSES,), (TABLES, tables)):
         owned.delete(*home, is_ours=is_draft)
@@ -311,5 +311,5 @@ def _delete_unused_files(folder: Path, keys: set[str], tables: str) -> None:
         for path in [*(folder / TABLES).iterdir()]:
             if path.name != tables and is_tables_folder(path.name):
                 owned.delete(TABLES, path.name, is_ours=is_table_file)
-                with suppress(OSError):  # somebody keeps a file in it
+                with suppress(OSError):  # not empty: it holds other files
                     path.rmdir()

@@ -1,8 +1,8 @@
-"""Clips across a library: what movements there are, and the best loops of each cluster.
+"""Measure which movements a library covers, and write the best loops of each cluster.
 
-Loops of all recordings are ranked by the cost that ranks those of one. One that is nearly a
-duplicate of a better one is left out: its poses, head, hands and feet from the pelvis, are within
-`NEAR_M` at some phase of the round, and it lasts as long up to `NEAR_SHARE`.
+Loops of all recordings are ranked by the same cost as those of one recording. Near duplicates of a
+better loop are left out: their poses (head, hands and feet relative to the pelvis) are within
+`NEAR_M` at some phase of the cycle, and durations differ by at most `NEAR_SHARE`.
 """
 
 from __future__ import annotations
@@ -31,32 +31,32 @@ from kineme.recordings.operations import cut
 from kineme.segments.table import COLUMNS, Segment
 
 Per = Literal["cluster", "direction", "recording"]
-"""Of what the best loops are chosen: of a cluster, of each direction or recording in it."""
+"""Groups from which the best loops are chosen: clusters, or directions or recordings in them."""
 NEAR_M = 0.03
-"""Metres, root mean square of five points, below which two loops are the same movement."""
+"""RMS distance of five points in metres below which two loops are the same movement."""
 NEAR_SHARE = 0.1
-"""Share of the longer one by which the durations of two such loops may differ."""
+"""Largest difference in duration of two such loops, as a fraction of the longer one."""
 
 
 class Coverage(NamedTuple):
-    """What a library has of one cluster in one direction.
+    """Activities of one cluster in one direction of travel.
 
     Attributes
     ----------
     cluster : int
-        -1 is what is in no cluster.
+        -1 for activities in no cluster.
     label, direction : str
         The name of the cluster; one of `kineme.clips.tags.DIRECTIONS`.
     clips : int
         Activities.
     seconds : float
-        Of all of them.
+        Total duration.
     slowest_m_s, fastest_m_s : float
-        Least and largest mean speed over the floor.
+        Lowest and highest mean speed over the floor.
     left_deg, right_deg : float
-        Largest turn to either side, 0 where there is none.
+        Largest turn to either side, 0 if there is none.
     starts, stops : int
-        Clips in which the body starts from standing, or stops.
+        Number of clips in which the body starts from standing, or stops.
     """
 
     cluster: int
@@ -73,9 +73,9 @@ class Coverage(NamedTuple):
 
 
 def measure_coverage(tables: OpenTables) -> list[Coverage]:
-    """Return what a library has of each cluster in each direction; recordings are read for it."""
-    found: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
-    found, labels = defaultdict(list), dict[int, str]()
+    """Return the coverage of each cluster in each direction; reads all recordings of bodies."""
+    facts_by_group: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
+    facts_by_group, labels = defaultdict(list), dict[int, str]()
     for motion, rows in _read_bodies(tables):
         travel = measure_travel(motion)
         for row in rows if travel is not None else ():
@@ -84,11 +84,11 @@ def measure_coverage(tables: OpenTables) -> list[Coverage]:
             span, labels[row.cluster] = (row.start_frame, row.stop_frame), row.label
             tags, speed = travel.tags(*span), float(np.hypot(*travel.velocity(*span)))
             fact = row.duration_s, speed, travel.turn(*span), "start" in tags, "stop" in tags
-            found[row.cluster, tags[0]].append(fact)
-    covered = []
-    for (cluster, direction), facts in found.items():
+            facts_by_group[row.cluster, tags[0]].append(fact)
+    coverages = []
+    for (cluster, direction), facts in facts_by_group.items():
         seconds, speeds, turns, starts, stops = zip(*facts, strict=True)
-        covered.append(
+        coverages.append(
             Coverage(
                 cluster,
                 labels[cluster],
@@ -104,7 +104,7 @@ def measure_coverage(tables: OpenTables) -> list[Coverage]:
             )
         )
     directions: list[str] = [*DIRECTIONS]
-    return sorted(covered, key=lambda each: (each.cluster, directions.index(each.direction)))
+    return sorted(coverages, key=lambda each: (each.cluster, directions.index(each.direction)))
 
 
 def write_best_loops(
@@ -114,7 +114,7 @@ def write_best_loops(
     per: Per = "cluster",
     **options: Unpack[ClipOptions],
 ) -> list[Path]:
-    """Write the best loops of each cluster, of all recordings or of each; see `Library.loops`."""
+    """Write the best loops of each group; see `Library.loops`."""
     from kineme.clips.split import Source, write_clips
 
     options["loops"] = True
@@ -129,7 +129,7 @@ def write_best_loops(
             for index, row in enumerate(rows)
             if row.kind != "transition"
             and row.cluster >= 0
-            # Activities are for clusters that repeat nowhere.
+            # Whole activities serve only for clusters without repetitions.
             and (row.level == "primitive") == (row.cluster in repeated)
         ]
         name = motion.provenance.path or ""
@@ -153,7 +153,7 @@ def write_best_loops(
 
 @dataclass(frozen=True)
 class _Candidate:
-    """A loop that may be written: the row of its recording, and its poses at `PHASES`."""
+    """A possible loop: its row in the recording, and its poses at `PHASES`."""
 
     recording: str
     index: int
@@ -163,8 +163,8 @@ class _Candidate:
     seconds: float
     poses: Floats | None
 
-    def is_like(self, other: _Candidate) -> bool:
-        """Return whether both are nearly the same, at whatever phase they begin."""
+    def is_near_duplicate(self, other: _Candidate) -> bool:
+        """Return whether both are nearly equal, whatever phase they begin at."""
         if self.poses is None or other.poses is None:
             return False
         if abs(self.seconds - other.seconds) > NEAR_SHARE * max(self.seconds, other.seconds):
@@ -179,7 +179,7 @@ class _Candidate:
 def _list_candidates(
     motion: Motion, rows: Sequence[Segment], wanted: Sequence[int], recording: str
 ) -> Iterator[_Candidate]:
-    """Yield the rows of a recording that can become loops."""
+    """Yield the wanted rows of a recording that can become loops."""
     own, travel = [rows[index] for index in wanted], measure_travel(motion)
     qualities = measure_loops(motion, own, find_planted_feet(motion)) if own else {}
     for place, quality in qualities.items():
@@ -187,10 +187,10 @@ def _list_candidates(
         clip = cut(motion, row.start_frame, row.stop_frame)
         try:
             poses = compute_body_frame(clip, end_effectors(clip).indices)
-            # The last phase is one step before the first comes again.
+            # The last phase is one step before the first one of the next cycle.
             at = np.linspace(0, clip.n_frames - 1, PHASES, endpoint=False)
             sampled = interpolate_frames(poses, at)
-        except KinemeError:  # of another body than that of people: nothing tells duplicates
+        except KinemeError:  # not a human body: duplicates cannot be recognised
             sampled = None
         tags = travel.tags(row.start_frame, row.stop_frame) if travel else ("",)
         yield _Candidate(
@@ -199,32 +199,32 @@ def _list_candidates(
 
 
 def _choose_best(candidates: Sequence[_Candidate], most: int | None) -> list[_Candidate]:
-    """Return the best candidates, none of them nearly a duplicate of a better one."""
-    kept: list[_Candidate] = []
+    """Return the best candidates without near duplicates."""
+    chosen: list[_Candidate] = []
     for each in sorted(candidates, key=lambda each: each.quality.cost):
-        if len(kept) == most:
+        if len(chosen) == most:
             break
-        if not any(each.is_like(other) for other in kept):
-            kept.append(each)
-    return kept
+        if not any(each.is_near_duplicate(other) for other in chosen):
+            chosen.append(each)
+    return chosen
 
 
 def _list_repeated(tables: OpenTables) -> set[int]:
-    """Return the clusters that have primitives."""
+    """Return the clusters with primitives."""
     segments = tables.columns("segments")
     primitives = (segments["level"] == "primitive") & (segments["kind"] != "transition")
     return set(segments["cluster"][primitives].tolist())
 
 
 def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
-    """Yield the recordings of bodies and their segments, edits applied; warn of those gone."""
+    """Yield recordings of bodies with their edited segments; warn if a file cannot be read."""
     recordings, segments = tables.recordings, tables.columns("segments")
     for name, kind in zip(recordings["recording"], recordings["vocabulary"], strict=True):
         if kind != BODIES or name not in tables.rows:
             continue
         try:
             motion = tables.read(name)
-        except KinemeError as error:  # its file is gone; the library still knows the rest
+        except KinemeError as error:  # missing file: go on with the others
             warn(f"{name} is left out: {error}")
             continue
         first, stop = tables.rows[name]

@@ -1,4 +1,4 @@
-"""From the analyses of a library to its tables, with clusters in common."""
+"""Compile the analyses of a library into tables with shared clusters."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ from kineme.transfer.clusters import (
 Columns = dict[str, Any]
 
 CACHED = 500
-"""Local clusters whose features are kept for the next comparison: those of a round."""
+"""Number of local clusters whose features are cached: those of one round of comparisons."""
 
 
 def compile_tables(
@@ -58,25 +58,25 @@ def compile_tables(
     following: int,
     progress: Progress,
 ) -> tuple[dict[str, Any], int]:
-    """Return the tables of a library by name, and the first number that no cluster was given.
+    """Return the tables of a library by name, and the first unused cluster number.
 
-    ``entries`` are in the order of their names, ``before`` are the activities that recordings had,
-    see `list_activities`: clusters that are found again keep their numbers.
+    ``entries`` are sorted by name. ``before`` holds the former activities of recordings, see
+    `list_activities`: clusters that are found again keep their numbers.
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     keys = [key for _, _, key in entries]
-    local, found = _join_clusters(analyses, keys, folder / ANALYSES, progress)
-    shared = _assign_clusters(analyses, local, found.cluster)
+    local, assignment = _join_clusters(analyses, keys, folder / ANALYSES, progress)
+    shared = _assign_clusters(analyses, local, assignment.cluster)
     new = {
         name: list_spans(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = keep_numbers(before, new, following=following)
-    renumbered = np.array([*numbers.values(), -1], np.int64)  # labels are 0, 1, …
+    renumbered = np.array([*numbers.values(), -1], np.int64)  # index -1 stays -1
     tables = {
         "recordings": _tabulate_recordings(entries, analyses),
         "segments": _tabulate_segments(entries, analyses, [renumbered[each] for each in shared]),
-        "local_clusters": _tabulate_local_clusters(entries, local, found, renumbered),
+        "local_clusters": _tabulate_local_clusters(entries, local, assignment, renumbered),
         "embeddings": _tabulate_embeddings(entries, analyses),
     }
     return {name: make_table(name, columns) for name, columns in tables.items()}, max(
@@ -85,7 +85,7 @@ def compile_tables(
 
 
 def list_activities(folder: Path, tables: str | None) -> dict[str, Spans]:
-    """Return the activities of each recording with their clusters, in tables of a library."""
+    """Return the activities of each recording with their clusters from the library's tables."""
     if tables is None:
         return {}
     table = read_table(folder, tables, "segments")
@@ -106,33 +106,33 @@ def _join_clusters(
     folder: Path,
     progress: Progress,
 ) -> tuple[list[LocalCluster], Assignment]:
-    """Return the local clusters of all recordings, and the cluster in common of each.
+    """Return the local clusters of all recordings, and the shared cluster of each.
 
     ``keys`` name the analyses in ``folder``.
     """
     none = np.empty(0, np.int64)
-    every, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
+    all_clusters, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
     for kind in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):
-        # By key, which tells the content: sums must not depend on what files are called.
-        numbers = [i for i, each in enumerate(analyses) if each.facts["vocabulary"] == kind]
+        # Sorted by content key, so that rounding errors of sums do not depend on file names.
+        numbers = [i for i, cluster in enumerate(analyses) if cluster.facts["vocabulary"] == kind]
         numbers.sort(key=keys.__getitem__)
         groups = [find_local_clusters(analyses[number].table, number) for number in numbers]
-        local = [each for group in groups for each in group]
+        local = [cluster for group in groups for cluster in group]
         if not local:
             continue
         if kind == BODIES or len(numbers) == 1:
             clusters = _make_cluster_set(local, analyses, keys, folder)
-            found = link_clusters(clusters, keys, CONSTANTS, progress=progress)
+            assignment = link_clusters(clusters, keys, CONSTANTS, progress=progress)
         else:
-            found = assign_to_centres(
+            assignment = assign_to_centres(
                 [partial(read_channel_samples, folder, keys[number]) for number in numbers],
                 [analyses[number].facts["moments"] for number in numbers],
-                [[each.spans for each in group] for group in groups],
+                [[cluster.spans for cluster in group] for group in groups],
             )
-        parts.append(found.shift(count))
-        every += local
-        count += int(found.cluster.max()) + 1
-    return every, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
+        parts.append(assignment.shift(count))
+        all_clusters += local
+        count += int(assignment.cluster.max()) + 1
+    return all_clusters, Assignment(*map(np.concatenate, zip(*parts, strict=True)))
 
 
 def _make_cluster_set(
@@ -152,7 +152,7 @@ def _make_cluster_set(
 def _assign_clusters(
     analyses: Sequence[Analysis], local: Sequence[LocalCluster], clusters: Ints
 ) -> list[Ints]:
-    """Return the cluster in common of each segment of each analysis, -1 without one."""
+    """Return the shared cluster of each segment of each analysis, -1 for none."""
     label = {
         (each.recording, each.cluster): cluster
         for each, cluster in zip(local, clusters.tolist(), strict=True)
@@ -199,16 +199,16 @@ def _tabulate_segments(
 
 
 def _tabulate_local_clusters(
-    entries: Sequence[Entry], local: Sequence[LocalCluster], found: Assignment, numbers: Ints
+    entries: Sequence[Entry], local: Sequence[LocalCluster], assignment: Assignment, numbers: Ints
 ) -> Columns:
     names = ("start_s", "stop_s", "seconds")
     return {
         "recording": [entries[each.recording][0] for each in local],
         "own_cluster": [each.cluster for each in local],
-        "cluster": numbers[found.cluster],
-        "next_cluster": numbers[found.next_cluster],
-        "confidence": found.confidence,
-        "spread": found.spread,
+        "cluster": numbers[assignment.cluster],
+        "next_cluster": numbers[assignment.next_cluster],
+        "confidence": assignment.confidence,
+        "spread": assignment.spread,
         **{name: [getattr(each, name) for each in local] for name in names},
     }
 
@@ -234,6 +234,6 @@ def _count_rows(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Colum
 
 
 def _concatenate(parts: Iterable[NDArray[Any]]) -> NDArray[Any]:
-    """Return the parts one after the other, of which there may be none."""
-    given = list(parts)
-    return np.concatenate(given) if given else np.empty(0)
+    """Concatenate arrays; return an empty one if there are none."""
+    arrays = list(parts)
+    return np.concatenate(arrays) if arrays else np.empty(0)

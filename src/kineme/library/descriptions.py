@@ -1,12 +1,12 @@
-"""What a library keeps of a recording: segments, matching features, an embedding of each segment.
+"""Compute what a library stores of a recording: segments, matching features and embeddings.
 
-Bodies are described by `kineme.features.canonical`, which do not know the person. Channels are
-described by their posture and energy (`kineme.features.channels`), in half the standard
-deviation of each in the recording, so that one threshold serves both, whatever the number of
-channels; they compare with recordings of the same channels only.
+Bodies are described by `kineme.features.canonical`, which does not depend on the person. Channels
+are described by posture and energy (`kineme.features.channels`), scaled by their standard deviation
+in the recording, so that one threshold serves for bodies and any number of channels. They are
+comparable between recordings of the same channels only.
 
-Everything of the library that knows what features are is here. What samples channels is imported
-only where an analysis is made: a search does not wait for it.
+The module that samples channels is imported only when an analysis is made, which keeps searches
+fast to start.
 """
 
 from __future__ import annotations
@@ -36,16 +36,17 @@ from kineme.recordings.arrays import to_samples
 from kineme.transfer.embeddings import describe_curve, embedding
 
 UNIT = 0.5
-"""Of the root mean square over channels; a distance of 0.85 then is where right matches end."""
-NOWHERE = 100.0
-"""Value of each feature in gaps: too far from all others for a match."""
+"""Scale of channel features relative to the RMS over channels; correct matches end at a distance
+of 0.85 then, as for bodies."""
+IN_GAP = 100.0
+"""Value of all features in gaps: too far from others for a match."""
 
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """Features (samples, dims) of a recording, for search; they compare within a vocabulary.
+    """Features (samples, dims) of a recording for search, comparable within a vocabulary.
 
-    ``reason`` says why there are none, and the vocabulary is empty then. A body has ``poses``
+    Without features the vocabulary is empty, and ``reason`` says why. A body has ``poses``
     (samples, 17) for embeddings.
     """
 
@@ -55,12 +56,12 @@ class Description:
     reason: str = ""
     poses: Floats | None = None
 
-    def between(self, start_s: float, stop_s: float) -> Float32s:
-        """Return the samples from one second to another, one at least."""
+    def select(self, start_s: float, stop_s: float) -> Float32s:
+        """Return the samples between two times, at least one."""
         return self.features[self._samples(start_s, stop_s)]
 
     def embedding(self, start_s: float, stop_s: float) -> Float32s:
-        """Return a segment in `EMBEDDED` numbers; all 0 where there are no features."""
+        """Return the embedding (`EMBEDDED` numbers) of a segment; 0 if there are no features."""
         samples = self._samples(start_s, stop_s)
         if self.poses is not None:
             return embedding(self.poses[samples])
@@ -75,7 +76,7 @@ class Description:
 
 
 def describe(recording: Motion | Signals, options: SegmentOptions) -> Description:
-    """Return the features of a recording; none, with the reason, where it has no body."""
+    """Return the features of a recording, or the reason if it has no recognised body."""
     if isinstance(recording, Signals):
         vocabulary = sha256("\0".join(recording.names).encode()).hexdigest()[:8]
         features = compute_signal_features(recording, emg=options.emg)
@@ -89,7 +90,7 @@ def describe(recording: Motion | Signals, options: SegmentOptions) -> Descriptio
 
 
 def compute_signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
-    """Features (samples, dims) of channels, `SENSORS.rate` a second."""
+    """Return features (samples, dims) of channels at `SENSORS.rate` per second."""
     preset = SENSORS.at_most(signals.fps)
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     spans = signals.spans()
@@ -102,17 +103,18 @@ def compute_signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
         scaled, preset.working_fps, rate=preset.rate, window=preset.averaging, bands=preset.bands
     )
     unit = UNIT * np.sqrt(scaled.shape[1])
-    found: Float32s = (statistics / unit).astype(np.float32)
+    samples: Float32s = (statistics / unit).astype(np.float32)
     if not signals.gaps:
-        return found
+        return samples
     n = int((signals.n_frames - 1) / signals.fps * preset.rate + 1e-9) + 1
-    features = np.full((n, found.shape[1]), NOWHERE, np.float32)
-    first = 0.0  # seconds recorded before the span
+    features = np.full((n, samples.shape[1]), IN_GAP, np.float32)
+    first = 0.0  # recorded seconds before the span, without gaps
     for start, stop in spans:
+        # Samples of the whole recording that lie in the span, and their row in `found`.
         at = np.arange(np.ceil(start / signals.fps * preset.rate), n)
         at = at[at / preset.rate < stop / signals.fps].astype(np.int64)
         sample = np.rint((at / preset.rate - start / signals.fps + first) * preset.rate)
-        features[at] = found[np.minimum(sample.astype(np.int64), len(found) - 1)]
+        features[at] = samples[np.minimum(sample.astype(np.int64), len(samples) - 1)]
         first += (stop - start) / signals.fps
     return features
 
@@ -120,16 +122,16 @@ def compute_signal_features(signals: Signals, *, emg: bool = False) -> Float32s:
 def make_analysis(
     recording: Motion | Signals, options: SegmentOptions
 ) -> tuple[Analysis, NDArray[np.float32], NDArray[np.float32] | None]:
-    """What is kept of a recording, its features (samples, dims), and samples of its channels.
+    """Return the analysis of a recording, its features (samples, dims), and channel samples.
 
-    These are of signals only: a row each of second, means and deviations.
+    Channel samples exist for signals only; a row holds the second, means and deviations.
     """
     from kineme.transfer.channel_samples import compute_channel_samples
 
-    found, _ = segment_with_options(recording, options)
+    segmentation, _ = segment_with_options(recording, options)
     described = describe(recording, options)
-    embeddings = np.zeros((len(found.table), EMBEDDED), np.float32)
-    for row, each in enumerate(found.table):
+    embeddings = np.zeros((len(segmentation.table), EMBEDDED), np.float32)
+    for row, each in enumerate(segmentation.table):
         if each.kind != "transition":
             embeddings[row] = described.embedding(each.start_s, each.stop_s)
     samples = None
@@ -145,6 +147,6 @@ def make_analysis(
         "features_fps": described.fps,
         "samples": len(described.features),
         "moments": 0 if samples is None else len(samples),
-        "notes": [*found.provenance["notes"], *filter(None, [reason])],
+        "notes": [*segmentation.provenance["notes"], *filter(None, [reason])],
     }
-    return Analysis(facts, found.table, embeddings), described.features, samples
+    return Analysis(facts, segmentation.table, embeddings), described.features, samples

@@ -1,6 +1,6 @@
-"""What people say of clusters: names, merges, splits; kept apart from what was computed.
+"""Edits of clusters by people: names, merges, splits; stored apart from computed tables.
 
-An edit is of numbers, which stay where a cluster is found again. It is applied whenever tables
+Edits refer to cluster numbers, which stay the same between builds. They are applied when tables
 are read: splits first, then merges, then names.
 """
 
@@ -30,7 +30,7 @@ SCHEMA = "kineme.library.edits/1"
 
 @dataclass(frozen=True)
 class Split:
-    """What a cluster has in some recordings is another cluster."""
+    """Move the segments of a cluster in some recordings to another cluster."""
 
     cluster: int
     into: int
@@ -39,14 +39,14 @@ class Split:
 
 @dataclass(frozen=True)
 class Edits:
-    """What people said.
+    """All edits of a library.
 
     Parameters
     ----------
     names : Mapping of int to str
-        Of clusters.
+        Names of clusters.
     merged : Mapping of int to int
-        Clusters that are another one.
+        Merged clusters, and the cluster each belongs to.
     splits : tuple of Split
 
     Examples
@@ -62,26 +62,26 @@ class Edits:
 
     @property
     def following(self) -> int:
-        """Return the first number above those of all clusters in the edits."""
+        """Return the first cluster number above all numbers in the edits."""
         return max([-1, *self.names, *self.merged, *(split.into for split in self.splits)]) + 1
 
     def number(self, cluster: int) -> int:
-        """Return the cluster that a computed one belongs to now."""
+        """Return the cluster that a computed one was merged into, or itself."""
         return self.merged.get(cluster, cluster)
 
     def name(self, cluster: int) -> str:
-        """Return the name of a cluster, empty where it has none."""
+        """Return the name of a cluster, empty if it has none."""
         return self.names.get(self.number(cluster), "")
 
     def with_name(self, cluster: int, name: str) -> Edits:
-        """Return the edits with a name; an empty one takes it away."""
+        """Return the edits with a name for a cluster; an empty name removes it."""
         if name != name.strip() or not name.isprintable():
             raise ParameterError(f"a name is one line of plain text, not {name!r:.60}")
         names = {**self.names, self.number(cluster): name}
         return replace(self, names={number: text for number, text in names.items() if text})
 
     def with_merge(self, cluster: int, others: Sequence[int]) -> Edits:
-        """Return the edits with others made part of a cluster, which keeps its number and name."""
+        """Return the edits with others merged into a cluster, which keeps its number and name."""
         target = self.number(cluster)
         moved = {self.number(other) for other in others} - {target}
         merged = {old: target if new in moved else new for old, new in self.merged.items()}
@@ -89,23 +89,23 @@ class Edits:
         return replace(self, merged={**merged, **dict.fromkeys(sorted(moved), target)}, names=names)
 
     def with_split(self, cluster: int, into: int, recordings: Sequence[str]) -> Edits:
-        """The edits with what a cluster has in some recordings as a cluster of its own."""
+        """Return the edits with the segments of a cluster in some recordings as a new cluster."""
         target = self.number(cluster)
         parts = [target, *(old for old, new in self.merged.items() if new == target)]
         splits = tuple(Split(part, into, tuple(recordings)) for part in sorted(parts))
         return replace(self, splits=(*self.splits, *splits))
 
-    def applied(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
-        """Computed cluster numbers of rows of these recordings as they are now."""
-        now = clusters.copy()
+    def apply(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
+        """Return cluster numbers of rows after the edits, given their recordings."""
+        result = clusters.copy()
         for split in self.splits:
-            now[(now == split.cluster) & np.isin(recordings, split.recordings)] = split.into
+            result[(result == split.cluster) & np.isin(recordings, split.recordings)] = split.into
         for old, new in self.merged.items():
-            now[now == old] = new
-        return now
+            result[result == old] = new
+        return result
 
     def write(self, folder: Path) -> None:
-        """Leave them in the folder of a library."""
+        """Write the edits to the folder of a library."""
         content = {
             "schema": SCHEMA,
             "names": {str(number): name for number, name in sorted(self.names.items())},
@@ -119,7 +119,7 @@ class Edits:
 
 
 def read_edits(folder: Path) -> Edits:
-    """Return what people said of a library so far."""
+    """Return the edits stored in the folder of a library."""
     path = folder / EDITS
     content = read_json(path)
     if not content:
@@ -144,7 +144,7 @@ def read_edits(folder: Path) -> Edits:
 
 
 def _parse_cluster(written: Any) -> int:
-    """Return the number of a cluster; ValueError for one that no table can hold."""
+    """Return a cluster number from JSON; raise ValueError if it is out of range."""
     number = int(written)
     if not -1 <= number < MOST_CLUSTERS:
         raise ValueError(f"no cluster has the number {number}")
@@ -152,15 +152,15 @@ def _parse_cluster(written: Any) -> int:
 
 
 def apply_edits(table: Any, edits: Edits) -> Any:
-    """Return a computed table as it is now: clusters split and merged, names beside them.
+    """Return a computed table with the edits applied and columns of names added.
 
-    A ``label`` goes with ``cluster``, an ``action_label`` with ``action`` where there is one.
+    ``label`` holds the names of ``cluster``, ``action_label`` those of ``action`` if present.
     """
     recordings = as_array(table.column("recording"))
     for name, label in (("cluster", "label"), ("next_cluster", None), ("action", "action_label")):
         if name not in table.column_names:
             continue
-        clusters = edits.applied(as_array(table.column(name)), recordings)
+        clusters = edits.apply(as_array(table.column(name)), recordings)
         table = table.set_column(table.column_names.index(name), name, as_column(clusters, int))
         if label is not None:
             column = _list_names(clusters, edits)
@@ -176,7 +176,7 @@ def apply_edits(table: Any, edits: Edits) -> Any:
 
 
 def _list_names(clusters: Ints, edits: Edits) -> Any:
-    """Return the name of each cluster, as pyarrow has texts."""
+    """Return the name of each cluster as a pyarrow array."""
     unique, inverse = np.unique(clusters, return_inverse=True)
     names = as_column([edits.name(number) for number in unique.tolist()], str)
     return names.take(as_column(inverse, int))

@@ -1,8 +1,8 @@
-"""Where tasks are worked on: in this process, in several, or on a cluster; and how far they are.
+"""Run tasks in this process, in several processes or on a cluster, and report progress.
 
-An executor takes a function and what it is to be called with, and gives back what came of each, as
-they come. `InProcess` is this process, `Processes` are several of this machine, `Cluster` the
-workers of a `dask.distributed` scheduler; another kind is one class more.
+An executor calls a function with each task and yields results as they complete. `InProcess` uses
+this process, `Processes` several on this machine, `Cluster` the workers of a `dask.distributed`
+scheduler. Other executors implement `Executor`.
 """
 
 from __future__ import annotations
@@ -35,48 +35,48 @@ PRELOADED = (
     "kineme.methods.kineme.found",
     "pyarrow.parquet",
 )
-"""What takes long to import."""
-_SOON = threading.Event()
-"""Set once processes are being started, before the tasks are known."""
+"""Modules that take long to import."""
+_STARTED = threading.Event()
+"""Set once the fork server is being started."""
 EXTRA = "cluster"
-"""The extra that installs what clusters need."""
+"""Extra that installs the dependencies of clusters."""
 AHEAD = 1000
-"""Tasks that the scheduler has at a time."""
-_ONE = threading.Lock()
+"""Tasks submitted to the scheduler at a time."""
+_ONE_TASK = threading.Lock()
 Progress = Callable[[str], None]
 
 
 @runtime_checkable
 class Executor(Protocol):
-    """Where tasks are worked on."""
+    """Runs tasks."""
 
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Yield each task and what came of it, as they come.
+        """Yield each task with its result as they complete.
 
-        None comes of a task whose process died; other tasks are not affected. What ``work``, a
-        function of a module, raises ends all; to close the iterator ends the work on what is left.
-        ``workers`` is how many processes are worth to be started for these tasks, any by default;
-        0: none, but those that are there already may work on them.
+        The result is None for a task whose process died; other tasks are not affected. An exception
+        in ``work``, a module-level function, ends all; closing the iterator cancels the rest.
+        ``workers`` limits the processes to start for these tasks, unlimited by default; with 0
+        only existing processes are used.
         """
         ...
 
 
 class InProcess:
-    """The process that asks, one task after the other; a task that ends it ends all."""
+    """Run tasks one by one in the calling process."""
 
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come; see `Executor`."""
-        del workers  # there is one
+        del workers  # always one
         for task in tasks:
             yield task, work(task)
 
 
 class Processes:
-    """So many processes of this machine at most, kept from one call to the next."""
+    """Run tasks in up to ``jobs`` processes of this machine, which are kept between calls."""
 
     def __init__(self, jobs: int):
         self._jobs = jobs
@@ -85,25 +85,25 @@ class Processes:
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Yield each task and what came of it, as they come; see `Executor`.
+        """Yield each task with its result as they complete; see `Executor`.
 
-        For one task alone no process is started either, unless that is begun already.
+        A single task runs in this process unless other processes exist already.
         """
-        if not (self._pool or _SOON.is_set()) and (workers == 0 or len(tasks) == 1):
+        if not (self._pool or _STARTED.is_set()) and (workers == 0 or len(tasks) == 1):
             yield from InProcess().completed(work, tasks)
             return
         waiting = list(reversed(tasks))
         while waiting:
             suspects = yield from self._run(work, waiting, min(self._jobs, workers or self._jobs))
-            for task in suspects:  # alone, so that it is known who ends its process
+            for task in suspects:  # run each alone to find the one that kills its process
                 dying = yield from self._run(work, [task], 1)
                 if dying:
                     yield task, None
 
     def close(self, *, wait: bool = False) -> None:
-        """End the processes once their present tasks are done, and wait for that.
+        """End the processes once their current tasks are done.
 
-        Python that ends at the same time as they do may complain of it.
+        Without ``wait``, Python may print errors if it exits at the same time.
         """
         if self._pool is not None:
             self._pool.shutdown(wait=wait, cancel_futures=True)
@@ -112,7 +112,7 @@ class Processes:
     def _run(
         self, work: Callable[[Task], Outcome], waiting: list[Task], most: int
     ) -> Generator[tuple[Task, Outcome], None, list[Task]]:
-        """Work on tasks from the end of the list; those in work when one died are returned."""
+        """Run tasks from the end of the list; return those running when a process died."""
         if self._pool is None:
             self._pool = make_process_pool(self._jobs, PRELOADED)
         running: dict[Future[Outcome], Task] = {}
@@ -129,14 +129,14 @@ class Processes:
             self.close()
             return list(running.values())
         finally:
-            if running:  # nobody asks any more
+            if running:  # the caller stopped iterating
                 self.close()
         return []
 
 
 @contextmanager
 def start_processes(jobs: int) -> Iterator[Executor]:
-    """So many processes of this machine at most; 1 is this one."""
+    """Provide an executor with so many processes; 1 uses this process."""
     if jobs == 1:
         yield InProcess()
         return
@@ -150,18 +150,18 @@ def start_processes(jobs: int) -> Iterator[Executor]:
 
 
 def start_fork_server() -> None:
-    """Start the server that processes are forked from: that takes a second beside this one."""
+    """Start the fork server in advance; it takes a second, in parallel with this process."""
     if sys.platform == "linux":
         make_process_context(PRELOADED)
-        _SOON.set()
+        _STARTED.set()
 
 
 class Cluster:
-    """The workers of a `dask.distributed.Client`.
+    """Run tasks on the workers of a `dask.distributed.Client`.
 
-    They see the recordings and the library at the same places as the client does. A worker has one
-    task at a time, and as many threads for it as dask gave it. Dask tries a task anew whose worker
-    died, three times by default (``distributed.scheduler.allowed-failures``).
+    Workers need the recordings and the library under the same paths as the client. A worker runs
+    one task at a time with all its threads. Dask repeats a task whose worker died, three times by
+    default (``distributed.scheduler.allowed-failures``).
     """
 
     def __init__(self, client: Any):
@@ -180,7 +180,7 @@ class Cluster:
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
         """Yield each task and what came of it, as they come; see `Executor`."""
-        del workers  # they are there already
+        del workers  # dask has started them
         done = _import_distributed().as_completed(loop=self._client.loop, raise_errors=False)
         waiting, running = iter(tasks), {}
 
@@ -201,9 +201,9 @@ class Cluster:
 
 @contextmanager
 def connect(client: Any) -> Iterator[Executor]:
-    """The cluster of a client, or of the scheduler at an address such as ``tcp://10.0.0.1:8786``.
+    """Provide the executor of a client or a scheduler address such as ``tcp://10.0.0.1:8786``.
 
-    An executor is taken as it is.
+    An executor is passed through.
     """
     if not isinstance(client, str):
         yield client if isinstance(client, Executor) else Cluster(client)
@@ -223,7 +223,7 @@ def _import_distributed() -> Any:
 
 
 def _get_outcome(future: Any) -> Any:
-    """Return what came of a task; None where its workers died."""
+    """Return the result of a task; None if its workers died."""
     if future.status == "finished":
         return future.result()
     error = future.exception() if future.status == "error" else None
@@ -243,30 +243,31 @@ def _get_version() -> str:
 
 
 def _run_exclusively(work: Callable[[Task], Outcome], task: Task) -> Outcome:
-    """Work on a task, the only one in its process: settings of BLAS hold for a whole process."""
+    """Run a task alone in its process, since BLAS settings are global to a process."""
     from distributed import get_worker
 
     worker = get_worker()
     if worker.nanny is not None:  # a process of its own
         os.environ.setdefault("KINEME_THREADS", str(worker.state.nthreads))
-    with _ONE:
+    with _ONE_TASK:
         return work(task)
 
 
-def track_progress(progress: Progress, things: int, work: float) -> Callable[[int, float], None]:
-    """Return what tells how many things are done, and how long the work on the others will take.
+def track_progress(progress: Progress, items: int, work: float) -> Callable[[int, float], None]:
+    """Return a function that reports the number of finished items and the remaining time.
 
-    So many things make so much work, in any unit. It is called with what was done since.
+    ``work`` is the total amount of work in any unit. Call the function with the number of newly
+    finished items and their work.
     """
     started = time.monotonic()
-    things_done, work_done = 0, 0.0
+    items_done, work_done = 0, 0.0
 
-    def done(more_things: int, more_work: float) -> None:
-        nonlocal things_done, work_done
-        things_done, work_done = things_done + more_things, work_done + more_work
+    def done(more_items: int, more_work: float) -> None:
+        nonlocal items_done, work_done
+        items_done, work_done = items_done + more_items, work_done + more_work
         left_s = (time.monotonic() - started) * (work - work_done) / max(work_done, 1)
         shown = f"{left_s:.0f} s" if left_s < 90 else f"{left_s / 60:.0f} min"
-        more = f", {shown} left" if things_done < things else ""
-        progress(f"{things_done} of {things}{more}")
+        more = f", {shown} left" if items_done < items else ""
+        progress(f"{items_done} of {items}{more}")
 
     return done

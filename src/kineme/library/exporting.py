@@ -1,4 +1,4 @@
-"""What is taken out of a library: tables, answers in SQL, clips of hits, pictures of clusters."""
+"""Export from a library: tables, SQL queries, clips of hits, pictures of clusters."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     from kineme.plot.sheets import Strip
 
 CLUSTERS = "clusters"
-"""The table that is made of the others when it is asked for."""
-AT_ONCE = 12
-"""Strips in the picture of all clusters."""
+"""Name of the table that is computed from the others on request."""
+MOST_STRIPS = 12
+"""Largest number of strips in the picture of all clusters."""
 ALL = "clusters.png"
 
 
 def get_table(tables: OpenTables, name: str) -> Any:
-    """One of `DESCRIBED`, or ``clusters``, edits applied, a pyarrow.Table."""
+    """Return one of `DESCRIBED` or ``clusters`` with edits applied, as a pyarrow.Table."""
     if name == CLUSTERS:
         return tabulate_clusters(list_clusters(tables))
     if name not in DESCRIBED:
@@ -42,7 +42,7 @@ def get_table(tables: OpenTables, name: str) -> Any:
 
 
 def run_query(tables: OpenTables, sql: str) -> Any:
-    """Return the answer to a question in SQL over all tables of a library, a pyarrow.Table."""
+    """Return the result of an SQL query over all tables of a library, as a pyarrow.Table."""
     with require_extra("duckdb", EXTRA):
         import duckdb
     if not isinstance(sql, str):
@@ -52,16 +52,16 @@ def run_query(tables: OpenTables, sql: str) -> Any:
         for name in (*DESCRIBED, CLUSTERS):
             connection.register(name, get_table(tables, name))
         try:
-            found = connection.sql(sql)
-            if found is None:
+            relation = connection.sql(sql)
+            if relation is None:
                 raise ParameterError("this asks for no rows: begin it with select")
-            return found.to_arrow_table()
+            return relation.to_arrow_table()
         except duckdb.Error as error:
             raise ParameterError(" ".join(str(error).split())[:400]) from error
 
 
 def write_table(table: Any, path: str | PathLike[str]) -> None:
-    """Write a pyarrow.Table as Parquet, CSV or TSV, by the suffix; texts without embeddings."""
+    """Write a pyarrow.Table as Parquet, CSV or TSV by suffix; text files omit embeddings."""
     suffix = Path(path).suffix.lower()
     if suffix == ".parquet":
         _, parquet = import_arrow()
@@ -79,7 +79,7 @@ def write_table(table: Any, path: str | PathLike[str]) -> None:
 
 
 def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[str]) -> list[Path]:
-    """Write what a search found as clips, those of one recording together, in an empty folder."""
+    """Write the hits of a search as clips, grouped by recording, to an empty folder."""
     from kineme.clips.split import write_clips
 
     by_recording: dict[str, list[Hit]] = {}
@@ -96,12 +96,12 @@ def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[s
 
 
 def _format_cell(value: object) -> object:
-    """Return what stands in a table of text: nothing where nothing is known."""
+    """Return the cell of a text table: empty for None and nan."""
     return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
 
 
 def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
-    """Return a hit in frames of its recording, one at least."""
+    """Return a hit as a segment of its recording, at least one frame long."""
     fps = recording.fps
     start, stop = to_samples((hit.start_s, hit.stop_s), fps, recording.n_frames)
     return Segment(
@@ -119,9 +119,9 @@ def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
 
 
 def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
-    """A picture of each cluster, and before it one of those of most seconds below each other.
+    """Write a picture of each cluster, and one of the clusters with the most seconds.
 
-    Clusters whose recording is gone have none.
+    Clusters whose recording cannot be read are skipped. The overview is first in the result.
     """
     from kineme.plot.sheets import write_sheet
 
@@ -129,26 +129,26 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
-    drawn: list[tuple[Cluster, Motion | Signals]] = []
+    strips: list[tuple[Cluster, Motion | Signals]] = []
     written = []
     for cluster in list_clusters(tables):
         try:
             recording = tables.read(cluster.example)
-        except KinemeError:  # its file is gone; the library still knows the rest
+        except KinemeError:  # missing file: go on with the others
             continue
         recording = recording.seconds(cluster.start_s, cluster.stop_s)
-        drawn.append((cluster, recording))
+        strips.append((cluster, recording))
         path = folder / f"{_make_file_name(cluster)}.png"
         write_sheet([_make_strip(cluster, recording)], path)
         written.append(path)
-    if drawn:
-        write_sheet([_make_strip(*each) for each in drawn[:AT_ONCE]], folder / ALL)
+    if strips:
+        write_sheet([_make_strip(*each) for each in strips[:MOST_STRIPS]], folder / ALL)
         written.insert(0, folder / ALL)
     return written
 
 
 def _make_strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
-    """Return a span of a recording under what a line says of its cluster."""
+    """Return the strip of a recording with a title that describes its cluster."""
     from kineme.plot.sheets import Strip
 
     named = f"{cluster.cluster} {cluster.label}".strip()
@@ -162,6 +162,6 @@ def _make_strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
 
 
 def _make_file_name(cluster: Cluster) -> str:
-    """Return a name for the file of a cluster, of letters that every system takes."""
+    """Return a portable file name for a cluster, without suffix."""
     label = re.sub(r"[^\w-]+", "-", cluster.label).strip("-")[:40]
     return "-".join(filter(None, [f"cluster-{cluster.cluster}", label]))

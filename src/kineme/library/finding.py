@@ -1,4 +1,4 @@
-"""All recordings of a library, looked through for what is like examples."""
+"""Search all recordings of a library for spans similar to examples."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from kineme.library.searching import (
     Hit,
     Named,
     Parts,
-    Sought,
+    Query,
     choose_best,
     find_matches_in_parts,
     find_parts,
@@ -37,10 +37,10 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
 
 TYPICAL = 5
-"""Segments that stand for a cluster in a search, the most typical ones."""
+"""Number of typical segments that represent a cluster in a search."""
 
 BEYOND = 0.1
-"""Seconds by which an example may stop after the end of its recording without a warning."""
+"""Seconds by which an example may exceed its recording without a warning."""
 LARGEST, MOST_HITS = 1e6, 1 << 31
 
 
@@ -55,13 +55,13 @@ def find_hits(
     mirror: bool,
     executor: Executor | None = None,
 ) -> list[Hit]:
-    """Where the recordings of a library are like one of the examples, the nearest first."""
+    """Return the spans similar to any example, the nearest first."""
     for name, value in (("top", top), ("max_per_recording", max_per_recording)):
         if value is not None and not (is_number(value) and value >= 1):
             raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
-    threshold = min(float(threshold), LARGEST)  # all that is below is found with either
+    threshold = min(float(threshold), LARGEST)  # no distance is larger
     top = None if top is None else int(min(top, MOST_HITS))
     if max_per_recording is not None:
         max_per_recording = int(min(max_per_recording, MOST_HITS))
@@ -69,24 +69,24 @@ def find_hits(
     if mirror and check_one_vocabulary(described) == BODIES:
         described += [(BODIES, mirror_features(part)) for _, part in described]
     vocabulary = check_one_vocabulary(described)
-    refused = [
+    counter_features = [
         part for kind, part in describe_examples(tables, counterexamples) if kind == vocabulary
     ]
     features = [part for _, part in described]
-    sought = Sought(features, refused, threshold, None if max_per_recording else top)
+    query = Query(features, counter_features, threshold, None if max_per_recording else top)
     parts = _list_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
         parts = _find_likely_parts(tables, features, top) or parts
-    found = find_matches_in_parts(
-        tables.folder / ANALYSES, tables.recordings["piece"], parts, sought, executor
+    matches = find_matches_in_parts(
+        tables.folder / ANALYSES, tables.recordings["piece"], parts, query, executor
     )
-    rows = list(found)
-    chosen = choose_best(list(found.values()), top=top, most=max_per_recording)
+    rows = list(matches)
+    chosen = choose_best(list(matches.values()), top=top, most=max_per_recording)
     return [_make_hit(tables, rows[i], *span) for i, span in chosen]
 
 
 def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
-    """Return the hits whose clips have a tag, the nearest ``top``; ParameterError for no tag."""
+    """Return the nearest ``top`` hits that have a tag; raise ParameterError if it is unknown."""
     if not is_one_of(tag, TAGS):
         raise ParameterError(f"tag is {tag!r:.60}: choose from {', '.join(TAGS)}")
     found: list[Hit] = []
@@ -105,14 +105,14 @@ def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | 
 
 
 def _list_parts(tables: OpenTables, vocabulary: str) -> Parts:
-    """Return all recordings of a vocabulary."""
+    """Return all recordings of a vocabulary as parts."""
     rows = np.array(_find_rows(tables, vocabulary), np.int64)
     samples = np.array(tables.recordings["samples"], np.int64)[rows]
     return Parts(rows, np.zeros_like(rows), samples)
 
 
 def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
-    """Return what is most like any of the examples, where there is an index that tells."""
+    """Return the parts most similar to any example by the index; None if there is no index."""
     found = []
     for example in examples:
         windows = open_index(
@@ -127,7 +127,7 @@ def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: in
 
 
 def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
-    """Return the most typical segments of a cluster, by number or name, as examples."""
+    """Return the most typical segments of a cluster (by number or name) as examples."""
     local = tables.columns("local_clusters")
     rows = np.flatnonzero(np.isin(local["cluster"], find_cluster_numbers(tables, cluster)))
     rows = rows[np.argsort(local["spread"][rows], kind="stable")][:TYPICAL]
@@ -136,7 +136,7 @@ def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Exam
 
 
 def _find_rows(tables: OpenTables, vocabulary: str) -> list[int]:
-    """Return the recordings of a vocabulary, by row; ParameterError where there are none."""
+    """Return the rows of recordings of a vocabulary; raise ParameterError if there are none."""
     kinds = tables.recordings["vocabulary"]
     rows = [row for row, kind in enumerate(kinds) if kind == vocabulary]
     if not rows:
@@ -148,9 +148,9 @@ def _find_rows(tables: OpenTables, vocabulary: str) -> list[int]:
 
 
 def _make_hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -> Hit:
-    """A span of a recording, samples, with the cluster of the segment that covers most of it.
+    """Return a span of samples as a hit, with the cluster of the segment that covers most of it.
 
-    Of segments that cover as much, that of the finer level counts.
+    If two segments cover equally much, the primitive counts.
     """
     recording = tables.recordings["recording"][row]
     fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
@@ -172,14 +172,14 @@ def as_examples(
     start_s: float,
     stop_s: float | None,
 ) -> list[Example]:
-    """What is searched for as examples; a hit is one of the library, whatever files there are."""
+    """Return the arguments of a search as examples; hits refer to recordings of the library."""
     if like is None:
         return []
     if isinstance(like, str | PathLike | Motion | Signals):
         return [Example(like, start_s, stop_s)]
-    given = list(like) if isinstance(like, Iterable) and not isinstance(like, Hit) else [like]
+    items = list(like) if isinstance(like, Iterable) and not isinstance(like, Hit) else [like]
     examples = []
-    for example in given:
+    for example in items:
         if isinstance(example, Hit):
             examples.append(Example(Named(example.recording), example.start_s, example.stop_s))
         elif isinstance(example, Example):
@@ -195,8 +195,8 @@ def as_examples(
 def describe_examples(
     tables: OpenTables, examples: Sequence[Example]
 ) -> list[tuple[str, Float32s]]:
-    """Vocabulary and features of each example."""
-    found = []
+    """Return the vocabulary and features of each example."""
+    descriptions = []
     for example in examples:
         described = _describe_recording(tables, example.recording)
         lasts = len(described.features) / described.fps
@@ -210,12 +210,12 @@ def describe_examples(
             raise ParameterError(
                 f"the example starts at {example.start_s:g} s, its recording lasts {lasts:.2f} s"
             )
-        found.append((described.vocabulary, described.between(example.start_s, stop_s)))
-    return found
+        descriptions.append((described.vocabulary, described.select(example.start_s, stop_s)))
+    return descriptions
 
 
 def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
-    """Return what all examples are of; ParameterError where they do not compare."""
+    """Return the vocabulary of all examples; raise ParameterError if they have several."""
     kinds = sorted({kind for kind, _ in described})
     if len(kinds) > 1:
         raise ParameterError(f"the examples do not compare with each other: {'; '.join(kinds)}")
@@ -223,7 +223,7 @@ def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
 
 
 def _describe_recording(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
-    """Return the features of a recording, from the library where it is one of it."""
+    """Return the features of a recording, taken from the library if it is in it."""
     recordings, (read_options, segment_options) = tables.recordings, tables.options
     if isinstance(recording, str) and (
         isinstance(recording, Named) or not make_path(recording).exists()
@@ -244,7 +244,7 @@ def _describe_recording(tables: OpenTables, recording: AnyPath | Motion | Signal
 
 
 def _check_comparable(described: Description, name: str) -> Description:
-    """Return the description, where there are features."""
+    """Return the description; raise ReadError if it has no features."""
     if not described.vocabulary:
         reason = described.reason or "it has no body that could be told"
         raise ReadError(name, f"cannot be searched for: {reason}")

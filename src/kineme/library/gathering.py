@@ -1,10 +1,10 @@
-"""The analyses of the recordings of a build: those that exist are kept, the others are made.
+"""Collect the analyses of a build's recordings: reuse existing ones, make the others.
 
-Any executor makes them; an error costs one recording only. To import what makes them takes a
-second, so that is left to the processes of the executor.
+Analyses run on any executor; an error affects one recording only. Importing the analysis code takes
+a second, so only the processes of the executor do it.
 
-Recordings of the same content are analysed once. Files are compared by their sizes, then by a
-sample, and read as a whole only where both are equal.
+Recordings with equal content are analysed once. Files are compared by size, then by a sample, and
+read as a whole only if both are equal.
 """
 
 from __future__ import annotations
@@ -42,20 +42,20 @@ from kineme.methods.segmenter import SegmentOptions
 
 States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
-"""The error of such a file."""
+"""Error for a file whose name is not UTF-8."""
 SAMPLE = 4096
-"""Bytes from the middle of a file."""
+"""Bytes in the sample from the middle of a file."""
 PER_WORKER = 1 << 20
-"""Bytes of recordings for which one process more is started: a start costs seconds."""
+"""Bytes of recordings per process: starting one takes seconds."""
 DIED = "the process that worked on it died: it may need more memory than there is"
 
 
 @dataclass
 class Gathered:
-    """What there is of the recordings of a build.
+    """Analyses of the recordings of a build.
 
-    ``digests`` of the files of each recording that has an analysis; ``failed``: why the others have
-    none; how many analyses are ``new``.
+    ``digests`` holds the digest of each analysed recording's files, ``failed`` the errors of the
+    others, ``new`` the number of new analyses.
     """
 
     digests: dict[Path, str] = field(default_factory=dict)
@@ -64,9 +64,9 @@ class Gathered:
 
 
 def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Progress) -> Gathered:
-    """Return the analyses of recordings, made where there is none.
+    """Return the analyses of recordings; make those that are missing.
 
-    Files that look as they did when they were last read are not read again.
+    Files with unchanged size and time are not read again.
     """
     former = _read_former_states(plan.folder / STATES, progress)
     readable = [path for path in found if is_text(str(path))]
@@ -85,7 +85,7 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
 
 
 def _read_former_states(path: Path, progress: Progress) -> States:
-    """State and digest of each recording when it was last read; none where the file is damaged."""
+    """Return the last state and digest of each recording; empty if the file is damaged."""
     try:
         return read_json(path, tuple[str, str])
     except ReadError as error:
@@ -94,7 +94,7 @@ def _read_former_states(path: Path, progress: Progress) -> States:
 
 
 def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
-    """Digests of recordings that look as they did, and have an analysis."""
+    """Return the digests of unchanged recordings that have an analysis."""
     digests = {}
     complete = {path.stem for path in plan.analyses.glob("*.parquet")}
     for path, state in states.items():
@@ -107,30 +107,30 @@ def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> d
 def _make_analyses(
     plan: Plan, waiting: Sequence[Path], executor: Executor, progress: Progress, into: Gathered
 ) -> None:
-    """Make the analyses of recordings; what came of each is noted."""
+    """Make the analyses of recordings and record the outcomes in ``into``."""
     tasks = make_tasks(waiting, plan)
     skeleton = plan.read_options.skeleton
     groups = {group.tasks[0]: group for group in group_by_content(tasks, skeleton)}
-    if not isinstance(executor, InProcess):  # what comes next is imported while others work
+    if not isinstance(executor, InProcess):  # import the next step while other processes work
         Thread(target=import_module, args=("kineme.library.compiling",), daemon=True).start()
     done = track_progress(progress, len(tasks), sum(task.size for task in tasks))
-    alone: list[Task] = []
+    remaining: list[Task] = []
     for task, outcome in run_tasks(list(groups), executor):
         _record_outcome(plan, task, outcome, into)
         (_, *others), digest = groups[task]
         if outcome.digest == digest:
             into.digests.update((other.path, digest) for other in others)
-        else:  # it failed, and says so of this one, or has changed since
-            alone += others
+        else:  # it failed, or the file has changed: analyse each one on its own
+            remaining += others
             others = []
         done(1 + len(others), task.size * (1 + len(others)))
-    for task, outcome in run_tasks(alone, executor):
+    for task, outcome in run_tasks(remaining, executor):
         _record_outcome(plan, task, outcome, into)
         done(1, task.size)
 
 
 def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
-    """Note what came of a task; WriteError for an error that all others will have, too."""
+    """Record the outcome of a task; raise WriteError if all others will fail, too."""
     if outcome.fatal:
         raise WriteError(plan.folder, outcome.error)
     if outcome.error:
@@ -141,14 +141,14 @@ def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) ->
 
 
 class Group(NamedTuple):
-    """Tasks of equal content, and its digest; empty where there is one only."""
+    """Tasks with equal content, and the digest; empty for a single task."""
 
     tasks: Sequence[Task]
     digest: str
 
 
 def group_by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
-    """Groups of equal content, the largest first; what is elsewhere or cannot be read is alone."""
+    """Group tasks by content, the largest first; remote and unreadable files are alone."""
     criteria: tuple[Callable[[Task], str], ...] = (
         lambda task: "" if is_remote(task.path) else f"{task.size}",
         _digest_sample,
@@ -161,7 +161,7 @@ def group_by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Gr
 
 
 def _split_group(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
-    """The parts of a group of which a criterion says the same; what it says nothing of is alone."""
+    """Split a group by the value of a criterion; tasks with an empty value are alone."""
     if len(group.tasks) < 2:
         return [group]
     parts: defaultdict[str | Task, list[Task]] = defaultdict(list)
@@ -171,7 +171,7 @@ def _split_group(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
 
 
 def _digest_sample(task: Task) -> str:
-    """Return what is in the middle of a file."""
+    """Return a digest of the middle of a file; empty if it cannot be read."""
     if task.path.is_dir():
         return "folder"
     try:
@@ -179,20 +179,20 @@ def _digest_sample(task: Task) -> str:
         with task.path.open("rb") as file:
             file.seek(max(task.size - SAMPLE, 0) // 2)
             return sha256(file.read(SAMPLE)).hexdigest()
-    except (OSError, ReadError):  # whoever works on it will say so
+    except (OSError, ReadError):  # the analysis will report it
         return ""
 
 
 def _digest_files(task: Task, skeleton: AnyPath | None) -> str:
     try:
         return compute_digest(task.path, skeleton)
-    except ReadError:  # whoever works on it will say so
+    except ReadError:  # the analysis will report it
         return ""
 
 
 @dataclass(frozen=True)
 class Task:
-    """A recording of ``size`` bytes to describe, with the analysis going to ``analyses``."""
+    """A recording of ``size`` bytes to analyse; ``analyses`` is the folder for the result."""
 
     path: Path
     analyses: Path
@@ -207,25 +207,25 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a task: the digest of its files, whose analysis is there, or why it is not."""
+    """Outcome of a task: the digest of its analysed files, or an error."""
 
     digest: str = ""
     new: bool = False
-    """Whether it was not there before."""
+    """Whether the analysis was made now."""
     error: str = ""
     fatal: bool = False
-    """Whether all others will fail, too, as on a full disk."""
+    """Whether all other tasks will fail, too, as on a full disk."""
 
 
 def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
-    """Return the tasks of recordings, the largest first: the last ones to be done are short."""
+    """Return tasks for recordings, the largest first, so that processes finish together."""
     common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
     tasks = [Task(path, *common, measure_size(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
 def run_tasks(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
-    """Yield each task and what came of it, as they come."""
+    """Yield each task with its outcome as they complete."""
     for task, outcome in executor.completed(
         analyze_recording, tasks, workers=choose_workers(tasks)
     ):
@@ -233,16 +233,16 @@ def run_tasks(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task,
 
 
 def choose_workers(tasks: Iterable[Task]) -> int:
-    """Return how many processes are worth to be started for so many and so large recordings."""
+    """Return the number of processes worth starting for these recordings."""
     return 1 + sum(task.size for task in tasks) // PER_WORKER
 
 
 def analyze_recording(task: Task) -> Outcome:
-    """Read, segment and describe a recording, unless its analysis is there."""
+    """Read, segment and describe a recording, unless its analysis exists."""
     try:
         from kineme.library.descriptions import make_analysis
 
-        with warnings.catch_warnings(), threadpool_limits(1):  # sums do not depend on threads
+        with warnings.catch_warnings(), threadpool_limits(1):  # rounding depends on BLAS threads
             warnings.simplefilter("ignore", KinemeWarning)
             options = task.read_options
             with fetch(task.path, options.skeleton) as path:
@@ -254,7 +254,7 @@ def analyze_recording(task: Task) -> Outcome:
             write_analysis(task.analyses, key, *make_analysis(recording, task.segment_options))
     except (WriteError, MissingDependencyError) as error:
         return Outcome(error=_shorten_reason(error), fatal=isinstance(error, WriteError))
-    except Exception as error:  # noqa: BLE001 (one recording never ends a build)
+    except Exception as error:  # noqa: BLE001 (one recording must not end a build)
         return Outcome(error=_shorten_reason(error))
     return Outcome(digest, new=True)
 

@@ -1,4 +1,4 @@
-"""A library, opened: its recordings, clusters and segments, searched, asked and exported."""
+"""The `Library` class: search, query, edit and export a library."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ if TYPE_CHECKING:
 
 
 class Library:
-    """A library, opened for reading; edits are written at once. Clusters go by number or name.
+    """A library opened for reading. Edits are saved at once; clusters are given by number or name.
 
     Parameters
     ----------
     folder : path-like
-        What `kineme.library.build` made; or a URL, such as ``s3://bucket/library``.
+        Folder made by `kineme.library.build`, or a URL such as ``s3://bucket/library``.
 
     Raises
     ------
     ReadError
-        There is no library, it is damaged, or of another version.
+        The folder is not a library, is damaged, or of another version.
     MissingDependencyError
         pyarrow is not installed.
 
@@ -64,22 +64,22 @@ class Library:
 
     @property
     def head(self) -> dict[str, Any]:
-        """Return what ``library.json`` says: options, sources, constants."""
+        """Return the content of ``library.json``: options, sources, constants."""
         return self._tables.head
 
     @property
     def read_options(self) -> ReadOptions:
-        """Return how its recordings are read."""
+        """Return the options for reading its recordings."""
         return self._tables.options[0]
 
     @property
     def segment_options(self) -> SegmentOptions:
-        """Return how its recordings are segmented."""
+        """Return the options for segmenting its recordings."""
         return self._tables.options[1]
 
     @property
     def failed(self) -> dict[str, str]:
-        """Return what could not be read or segmented, by path, and why."""
+        """Return the recordings that could not be read or segmented, and why, by path."""
         return dict(self.head["failed"])
 
     @property
@@ -89,13 +89,13 @@ class Library:
 
     @property
     def hours(self) -> float:
-        """Of all recordings together."""
+        """Return the total duration of all recordings in hours."""
         return float(sum(self.recordings["duration_s"])) / 3600
 
     def table(self, name: str = "segments") -> Any:
-        """One of its tables, edits applied, as a pyarrow.Table.
+        """Return a table with edits applied, as a pyarrow.Table.
 
-        ``to_pandas()`` makes a frame of it, `polars.from_arrow` another.
+        ``to_pandas()`` and `polars.from_arrow` convert it to a data frame.
 
         Parameters
         ----------
@@ -109,11 +109,11 @@ class Library:
         return get_table(self._tables, name)
 
     def clusters(self) -> list[Cluster]:
-        """Return the clusters of the library, those of most seconds first."""
+        """Return the clusters of the library, those with the most seconds first."""
         return list_clusters(self._tables)
 
     def unsure(self) -> list[dict[str, Any]]:
-        """Return rows of ``local_clusters`` that may belong to another cluster, likeliest first."""
+        """Return uncertain rows of ``local_clusters``, the least certain first."""
         local, most = self._tables.columns("local_clusters"), self.head["clustering"]["unsure"]
         confidence = local["confidence"]
         rows = np.flatnonzero((confidence < most) & (local["cluster"] != local["next_cluster"]))
@@ -124,7 +124,7 @@ class Library:
         return found
 
     def numbers(self, cluster: int | str) -> list[int]:
-        """Return the clusters of that number or name; ParameterError where there is none."""
+        """Return the clusters with a number or name; raise ParameterError if there are none."""
         return find_cluster_numbers(self._tables, cluster)
 
     def search(
@@ -142,42 +142,42 @@ class Library:
         tag: Tag | None = None,
         client: Any = None,
     ) -> list[Hit]:
-        """Where the recordings of the library are like an example, the nearest first.
+        """Return the spans of recordings that are similar to an example, the nearest first.
 
-        Segments play no part: short recordings and parts of activities are found as well. Of more
-        than 100 hours of bodies an index tells what is looked at; all, if ``top`` is None.
+        Segments are not used, so short recordings and parts of activities are found as well. With
+        more than 100 hours of bodies an index preselects parts, unless ``top`` is None.
 
         Parameters
         ----------
         like : path-like, Motion, Signals, Example, Hit or sequence of Example or Hit
-            What is searched for: a recording, or several spans of some, any of which will do.
+            What to search for: a recording, or several spans, any of which may match.
         start_s, stop_s : float
-            The span of a single recording, seconds.
+            Span of a single recording, seconds.
         cluster : int or str, optional
-            Search for the most typical segments of a cluster, by number or name, as well.
+            Also search for the most typical segments of a cluster, by number or name.
         unlike : sequence of Example or Hit
-            What is more like one of these than like any example is left out.
+            Leave out spans that are more similar to one of these than to any example.
         threshold : float
-            Largest distance.
+            Largest distance of a hit.
         top : int, optional
-            Hits at most; None for all.
+            Largest number of hits; None for all.
         max_per_recording : int, optional
-            Of one recording at most.
+            Largest number of hits in one recording.
         mirror : bool
-            Search for the mirror images of the examples as well; of bodies only. Their distances
-            are estimates (see `kineme.features.canonical.mirror_features`).
+            Also search for mirror images of the examples (bodies only). Their distances are
+            estimates (see `kineme.features.canonical.mirror_features`).
         tag : str, optional
-            Only hits with this tag, such as "backwards" (see `kineme.clips.tags`); the recordings
-            of hits are read for it.
+            Return only hits with this tag, such as "backwards" (see `kineme.clips.tags`). This
+            reads the recordings of the hits.
         client : dask.distributed.Client or str, optional
-            Search on this cluster, or on that of the scheduler at an address.
+            Search on this Dask cluster, or on that of the scheduler at an address.
 
         Raises
         ------
         ParameterError
-            Nothing to search for, or no recording has features that compare with it.
+            Nothing to search for, or no recording has comparable features.
         ReadError
-            The example cannot be read, or has no body.
+            An example cannot be read, or has no body.
         """
         check_flag(mirror, "mirror")
         examples = as_examples(like, start_s, stop_s)
@@ -194,16 +194,16 @@ class Library:
         return hits if tag is None else select_tagged(self._tables, hits, tag, top)
 
     def pictures(self, folder: AnyPath) -> list[Path]:
-        """A PNG of each cluster in a folder, its most typical segment as a strip; of all first."""
+        """Write a PNG of each cluster's most typical segment, and one of all clusters."""
         check_path(folder, "pictures")
         return write_pictures(self._tables, Path(folder))
 
     def clips(self, hits: Sequence[Hit], folder: AnyPath) -> list[Path]:
-        """The clips of hits, recording by recording, in a new or empty folder with a manifest."""
+        """Write the clips of hits to a new or empty folder with a manifest."""
         return write_hits(self._tables, hits, folder)
 
     def coverage(self) -> list[Coverage]:
-        """Return what there is of each cluster in each direction; recordings are read for it."""
+        """Return the coverage of each cluster in each direction; reads all recordings of bodies."""
         from kineme.library.clipping import measure_coverage
 
         return measure_coverage(self._tables)
@@ -215,21 +215,21 @@ class Library:
         per: Per = "cluster",
         **options: Unpack[ClipOptions],
     ) -> list[Path]:
-        """Write the best loops of each cluster, without near duplicates, to a new folder.
+        """Write the best loops of each group, without near duplicates, to a new folder.
 
         Parameters
         ----------
         folder : path-like
-            New or empty; it gets manifests, too.
+            New or empty; manifests are written to it, too.
         per : {"cluster", "direction", "recording"}
-            Of a cluster in all recordings, or of each direction of travel or recording in it.
+            Groups: each cluster, or each direction of travel or recording within a cluster.
         **options
-            As for `kineme.clips.split.split`, such as ``best=3``, the loops of each at most.
+            As for `kineme.clips.split.split`, such as ``best=3``, the number of loops per group.
 
         Raises
         ------
         ParameterError
-            No recording has a loop, or an option makes no sense.
+            No recording has a loop, or an option is invalid.
         WriteError
             The folder is not empty, or cannot be written.
         """
@@ -238,13 +238,13 @@ class Library:
         return write_best_loops(self._tables, folder, per=per, **options)
 
     def query(self, sql: str) -> Any:
-        """Return the answer, a pyarrow.Table, to a question in SQL over the tables of the library.
+        """Return the result of an SQL query over the tables of the library, as a pyarrow.Table.
 
         Parameters
         ----------
         sql : str
-            For DuckDB: ``segments``, ``recordings``, ``local_clusters`` and ``embeddings``, whose
-            columns are told by `kineme.library.storage.tables.DESCRIBED`, and ``clusters``.
+            In DuckDB's dialect. Tables are ``clusters``, and ``segments``, ``recordings``,
+            ``local_clusters`` and ``embeddings`` as in `kineme.library.storage.tables.DESCRIBED`.
 
         Raises
         ------
@@ -256,7 +256,7 @@ class Library:
         return run_query(self._tables, sql)
 
     def export(self, path: AnyPath, table: str = "segments") -> None:
-        """Write one of its tables, edits applied.
+        """Write a table with edits applied.
 
         Parameters
         ----------
@@ -268,13 +268,13 @@ class Library:
         Raises
         ------
         WriteError
-            Another suffix, or a place that cannot be written.
+            Unknown suffix, or the file cannot be written.
         """
         check_path(path, "export")
         write_table(self.table(table), path)
 
     def name(self, cluster: int | str, name: str) -> Self:
-        """Return the same library, with a name for a cluster; an empty one takes it away."""
+        """Name a cluster and return the library; an empty name removes the name."""
         with self._tables.editing():
             edits = self._tables.edits
             for number in self.numbers(cluster):
@@ -283,7 +283,7 @@ class Library:
         return self
 
     def merge(self, cluster: int | str, *others: int | str) -> Self:
-        """The same library, with others made part of a cluster, which keeps its number and name."""
+        """Merge others into a cluster, which keeps its number and name, and return the library."""
         if not others:
             raise ParameterError("nothing to merge: name two clusters at least")
         with self._tables.editing():
@@ -293,7 +293,7 @@ class Library:
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
-        """Return the number of a new cluster: what one has in some, not all, of its recordings."""
+        """Split the segments in some recordings off a cluster; return the new cluster's number."""
         chosen, tables = list(recordings), self._tables
         with tables.editing():
             (number, *_) = self.numbers(cluster)
@@ -309,11 +309,11 @@ class Library:
         return into
 
     def path_of(self, recording: str) -> Path:
-        """Return the file that a recording of the library was read from."""
+        """Return the path of a recording's file."""
         return self._tables.path_of(recording)
 
     def read(self, recording: str) -> Motion | Signals:
-        """A recording, by its name in the library, read as it was when the library was built."""
+        """Read a recording, by its name in the library, with the library's options."""
         return self._tables.read(recording)
 
     def __len__(self) -> int:

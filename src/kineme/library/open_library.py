@@ -1,4 +1,4 @@
-"""A library that is open: its tables with edits applied, and its clusters, listed and edited."""
+"""Read the tables of an open library with edits applied, and list its clusters."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ Columns = dict[str, NDArray[Any]]
 
 
 class OpenTables:
-    """The tables that were valid when a library was opened, and the edits so far.
+    """The current tables of a library when it was opened, and the edits.
 
-    ``head`` is what ``library.json`` says.
+    ``head`` is the content of ``library.json``.
     """
 
     def __init__(self, folder: Path):
@@ -46,11 +46,11 @@ class OpenTables:
         except ReadError:  # a build may have ended between the head and the tables
             self.head = read_head(folder)
             self._computed = self._read()
-        self._take(read_edits(folder))
+        self._use_edits(read_edits(folder))
 
     @property
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
-        """Return how its recordings are read and segmented."""
+        """Return the options for reading and segmenting."""
         return read_kept_options(self.folder, self.head)
 
     @cached_property
@@ -60,7 +60,7 @@ class OpenTables:
         return found
 
     def path_of(self, recording: str) -> Path:
-        """Return the file that a recording of the library was read from."""
+        """Return the path of a recording's file."""
         try:
             row = self.recordings["recording"].index(recording)
         except ValueError:
@@ -68,11 +68,11 @@ class OpenTables:
         return make_path(self.recordings["path"][row])
 
     def read(self, recording: str) -> Motion | Signals:
-        """Return a recording of the library, read as it was when the library was built."""
+        """Read a recording of the library with the library's options."""
         return read_recording(self.path_of(recording), self.options[0])
 
     def table(self, name: str) -> Any:
-        """Return a table, one of `kineme.library.storage.tables.DESCRIBED`, as a pyarrow.Table."""
+        """Return one of the tables in `DESCRIBED` as a pyarrow.Table with edits applied."""
         if name not in self._computed:
             self._computed[name] = read_table(self.folder, self.head["tables"], name)
         tables = self._edited  # keep this dict: an edit in another thread replaces it
@@ -81,7 +81,7 @@ class OpenTables:
         return tables[name]
 
     def columns(self, name: str) -> Columns:
-        """Return the same as arrays."""
+        """Return a table as arrays by column."""
         arrays = self._arrays
         if name not in arrays:
             table = self.table(name)
@@ -90,7 +90,7 @@ class OpenTables:
 
     @cached_property
     def rows(self) -> dict[str, tuple[int, int]]:
-        """First row and end of the segments of each recording."""
+        """Return the first row and the end of each recording's segments."""
         names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
         codes = np.from_dlpack(names.indices)
         edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
@@ -99,23 +99,23 @@ class OpenTables:
 
     @contextmanager
     def editing(self) -> Iterator[None]:
-        """A block in which `edits` are all that were made, and nobody else makes any."""
+        """Lock the edits against other processes during the block, with `edits` up to date."""
         with lock_for_writing(self.folder, "try again", LOCK_EDITS):
-            self._take(read_edits(self.folder))
+            self._use_edits(read_edits(self.folder))
             yield
 
     def write(self, edits: Edits) -> None:
-        """Keep edits, and go on with them."""
+        """Write edits to disk and use them."""
         edits.write(self.folder)
-        self._take(edits)
+        self._use_edits(edits)
 
-    def _take(self, edits: Edits) -> None:
+    def _use_edits(self, edits: Edits) -> None:
         self.edits = edits
         self._edited: dict[str, Any] = {}
         self._arrays: dict[str, Columns] = {}
 
     def _read(self) -> dict[str, Any]:
-        """Return all tables but the embeddings, which few need."""
+        """Read all tables but the embeddings, which are rarely needed."""
         names = [name for name in DESCRIBED if name != "embeddings"]
         tables = {name: read_table(self.folder, self.head["tables"], name) for name in names}
         recordings = {*tables["recordings"].column("recording").to_pylist()}
@@ -128,25 +128,25 @@ class OpenTables:
 
 
 class Cluster(NamedTuple):
-    """A cluster of the library, over all recordings.
+    """A cluster of the library over all recordings.
 
     Attributes
     ----------
     cluster : int
     label : str
-        Its name, or empty.
+        Name of the cluster, or empty.
     vocabulary : str
-        `bodies`, or which channels.
+        `bodies`, or the set of channels.
     recordings, activities, repetitions : int
-        How many it occurs in; how many activities and primitives there are of it.
+        Number of recordings with it, of its activities and its primitives.
     seconds : float
-        Of its activities.
+        Total duration of its activities.
     typical_s : float
-        Median seconds of a repetition, or of an activity where none was counted.
+        Median seconds of a repetition, or of an activity if there are no repetitions.
     example : str
-        The recording with its most typical segment.
+        Recording with its most typical segment.
     start_s, stop_s : float
-        Where that lies there.
+        Start and stop of that segment.
     """
 
     cluster: int
@@ -163,14 +163,14 @@ class Cluster(NamedTuple):
 
 
 def list_clusters(tables: OpenTables) -> list[Cluster]:
-    """Return the clusters of a library, those of most seconds first."""
+    """Return the clusters of a library, those with the most seconds first."""
     local, segments = tables.columns("local_clusters"), tables.columns("segments")
     recordings = tables.recordings
     vocabularies = dict(zip(recordings["recording"], recordings["vocabulary"], strict=True))
     lasts = segments["stop_s"] - segments["start_s"]
     active = segments["kind"] != "transition"
     finer = segments["level"] == "primitive"
-    found = []
+    clusters = []
     for number in sorted(set(local["cluster"].tolist())):
         members = np.flatnonzero(local["cluster"] == number)
         typical = members[np.argmin(local["spread"][members])]
@@ -178,7 +178,7 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
         repeated = rows & finer
         typically = lasts[repeated if repeated.any() else rows]
         recording = str(local["recording"][typical])
-        found.append(
+        clusters.append(
             Cluster(
                 number,
                 tables.edits.name(number),
@@ -193,7 +193,7 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
                 float(local["stop_s"][typical]),
             )
         )
-    return sorted(found, key=lambda cluster: (-cluster.seconds, cluster.cluster))
+    return sorted(clusters, key=lambda cluster: (-cluster.seconds, cluster.cluster))
 
 
 def tabulate_clusters(clusters: Sequence[Cluster]) -> Any:
@@ -209,14 +209,14 @@ def tabulate_clusters(clusters: Sequence[Cluster]) -> Any:
 
 
 def find_cluster_numbers(tables: OpenTables, cluster: int | str) -> list[int]:
-    """Return the numbers of the clusters of that number or name, one at least."""
+    """Return the numbers of the clusters with a number or name, at least one."""
     numbers = sorted(set(tables.columns("local_clusters")["cluster"].tolist()))
     edits, text = tables.edits, str(cluster)
-    named = isinstance(cluster, str)  # a whole number is never taken for a name of digits
-    found = [number for number in numbers if named and edits.name(number) == text]
-    if not found and text.isdecimal():
-        found = [number for number in numbers if number == edits.number(int(text))]
-    if not found:
+    named = isinstance(cluster, str)  # an int never matches a name of digits
+    matches = [number for number in numbers if named and edits.name(number) == text]
+    if not matches and text.isdecimal():
+        matches = [number for number in numbers if number == edits.number(int(text))]
+    if not matches:
         names = ", ".join(edits.name(number) or str(number) for number in numbers[:20])
         raise ParameterError(f"no cluster is called {text:.60}; there are {names or 'none'}")
-    return found
+    return matches

@@ -1,4 +1,4 @@
-"""What a build is asked for, read how, into which folder; and the recordings in its sources."""
+"""Plan a build: resolve sources, options and folder, and list the recordings in the sources."""
 
 from __future__ import annotations
 
@@ -28,20 +28,19 @@ from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 
 Entry = tuple[str, Path, str]
-"""A recording: its name, where it was read from, and its analysis."""
+"""A recording: its name, its path, and the key of its analysis."""
 
 ANALYSIS = "kineme.library.piece/4"
-"""Schema of an analysis: a change of what is kept of a recording gets the next number."""
+"""Schema of an analysis; increment the number if the stored content changes."""
 NOTHING = "{}: nothing to build from: name recordings or folders"
-"""The error where no recording is named, and none is known."""
+"""Error for a new library without sources."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a build is asked for: sources, those that it knew before among them, and how to read.
+    """Sources (old and new) and options of a build.
 
-    ``missing`` are those named that are not there, and never were; ``recursive`` is whether folders
-    in folders are looked into.
+    ``missing`` are new sources that do not exist; ``recursive`` includes subfolders.
     """
 
     folder: Path
@@ -73,16 +72,16 @@ def make_plan(
     read_options: ReadOptions | None,
     segment_options: SegmentOptions | None,
 ) -> Plan:
-    """Return the plan of a build; what was not said is as it was the last time."""
-    every = change_sources(folder, sources, remove)
-    if not every and not head:
+    """Return the plan of a build; arguments that are None are taken from the last build."""
+    all_sources = change_sources(folder, sources, remove)
+    if not all_sources and not head:
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
-    missing = [each for each in every if not each.exists() and str(each) not in before]
+    missing = [each for each in all_sources if not each.exists() and str(each) not in before]
     former = read_kept_options(folder, head) if head else (ReadOptions(), SegmentOptions())
     return Plan(
         folder,
-        tuple(each for each in every if each not in missing),
+        tuple(each for each in all_sources if each not in missing),
         tuple(missing),
         bool(head.get("recursive")) if recursive is None else recursive,
         read_options or former[0],
@@ -91,7 +90,7 @@ def make_plan(
 
 
 def read_kept_options(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOptions, SegmentOptions]:
-    """Return the options in the head of a library; ReadError where they are none."""
+    """Return the options in the head of a library; raise ReadError if they are invalid."""
     try:
         read_options = options_from_json(ReadOptions, head["read_options"])
         segment_options = options_from_json(SegmentOptions, head["segment_options"])
@@ -103,14 +102,14 @@ def read_kept_options(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOption
 
 
 def digest_options(read_options: ReadOptions, segment_options: SegmentOptions) -> str:
-    """Return a digest of the version and of everything that decides what is found.
+    """Return a digest of the version and all options and constants that affect results.
 
-    ParameterError for options that a library cannot keep.
+    Raise ParameterError for options that a library cannot store.
     """
     segment_options.resolved()
     presets = []
     for signals in (False, True):
-        with suppress(ParameterError):  # constants of one that the other does not have
+        with suppress(ParameterError):  # constants that only the other preset has
             chosen = segment_options.resolved(signals=signals)
             presets.append([chosen.name, dict(chosen.parameters())])
     options = [options_to_json(each) for each in (read_options, segment_options)]
@@ -126,7 +125,7 @@ def make_analysis_key(options_digest: str, digest: str) -> str:
 def change_sources(
     into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
 ) -> list[Path]:
-    """The sources of a library after these were added and removed, as absolute paths."""
+    """Return the sources of a library with some added and removed, as absolute paths."""
     head = read_json(make_path(into) / HEAD)
     sources = [make_path(each) for each in head.get("sources", ())] + [*map(make_absolute, sources)]
     removed = {*map(make_absolute, remove)}
@@ -140,7 +139,7 @@ def change_sources(
 
 
 def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
-    """Return the folder of a library, made where there is none, unless nothing is named."""
+    """Return the folder of a library; create it if missing and any source is named."""
     folder = make_path(into, "build")
     owned = OwnedFolder(folder)
     owned.path(ANALYSES)
@@ -148,7 +147,7 @@ def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
     if (folder / HEAD).is_file():
         owned.path(TABLES, read_head(folder)["tables"])
         return folder
-    unfinished = (folder / ANALYSES).is_dir()  # by a build that was ended before its first head
+    unfinished = (folder / ANALYSES).is_dir()  # the first build was interrupted
     try:
         if folder.exists() and not unfinished and (not folder.is_dir() or any(folder.iterdir())):
             raise WriteError(into, "is there already and is no library: name a new folder")
@@ -160,27 +159,27 @@ def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
     return folder
 
 
-def as_paths(given: AnyPath | Iterable[AnyPath]) -> list[Path]:
-    """One path or several as a list; ParameterError where one is none."""
-    if isinstance(given, str | PathLike):
-        return [make_path(given)]
-    if not isinstance(given, Iterable):
-        raise ParameterError(f"build needs paths of recordings or folders, not {given!r:.60}")
-    return [make_path(path, "build") for path in given]
+def as_paths(paths: AnyPath | Iterable[AnyPath]) -> list[Path]:
+    """Return one or several paths as a list; raise ParameterError for anything else."""
+    if isinstance(paths, str | PathLike):
+        return [make_path(paths)]
+    if not isinstance(paths, Iterable):
+        raise ParameterError(f"build needs paths of recordings or folders, not {paths!r:.60}")
+    return [make_path(path, "build") for path in paths]
 
 
 def make_absolute(path: Path) -> Path:
-    """Return the path from the root; links are not followed."""
+    """Return the absolute path without following links."""
     return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
 
 
 CHUNK = 1 << 20
-"""Bytes that are digested at a time."""
+"""Bytes that are read at a time for a digest."""
 _AMC = ".amc"
 
 
 def list_files(path: Path, skeleton: AnyPath | None) -> list[Path]:
-    """Return the files that a recording is read from, its own first."""
+    """Return the files of a recording, the main one first."""
     if path.is_dir():
         return [file for _, file in list_frame_files(path)]
     if skeleton is not None:
@@ -189,12 +188,12 @@ def list_files(path: Path, skeleton: AnyPath | None) -> list[Path]:
         return [path]
     try:
         return [path, find_skeleton(path)]
-    except ReadError:  # its reader will say so
+    except ReadError:  # the reader will report the missing skeleton
         return [path]
 
 
 def measure_size(path: Path) -> int:
-    """Return the bytes of a recording; 0 where they cannot be told."""
+    """Return the size of a recording in bytes; 0 if unknown."""
     try:
         files = path.iterdir() if path.is_dir() else [path]
         return sum(file.stat().st_size for file in files)
@@ -203,7 +202,7 @@ def measure_size(path: Path) -> int:
 
 
 def compute_digest(path: Path, skeleton: AnyPath | None) -> str:
-    """SHA-256 of what a recording is read from, and of its suffix, which tells the format."""
+    """Return the SHA-256 of a recording's files and of its suffix, which selects the format."""
     digest = sha256(path.suffix.lower().encode())
     try:
         for file in list_files(path, skeleton):
@@ -219,9 +218,9 @@ def compute_digest(path: Path, skeleton: AnyPath | None) -> str:
 
 
 def read_states(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str]:
-    """Sizes and times of the files of recordings: whether they changed, without reading them.
+    """Return sizes and times of the files of recordings, to detect changes without reading them.
 
-    Empty where that cannot be told. With an AMC go the skeletons near it.
+    Empty if unknown. The state of an AMC includes the skeletons near it.
     """
     skeletons_in = cache(_list_skeletons)
 
@@ -244,9 +243,9 @@ def read_states(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, s
 
 
 def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
-    """Return each recording in the sources, an absolute path, and the first source it was found in.
+    """Return the path of each recording in the sources, and the first source that holds it.
 
-    Files ``without`` are left out: those of the library itself.
+    Files in the folder ``without``, that of the library, are left out.
     """
     found: dict[Path, Path] = {}
     for source in sources:
@@ -260,9 +259,9 @@ def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) 
 
 
 def name_recordings(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
-    """A name for each recording: its path in its source, with more folders where two are equal.
+    """Return a name for each recording: its path in its source, with more folders if not unique.
 
-    Names that are given already stay.
+    Former names are kept.
     """
     names = {path: former[path] for path in found if path in former}
     used = set(names.values())
@@ -291,7 +290,7 @@ def _list_skeletons(folder: Path) -> str:
 
 
 def find_recordings(folder: Path, *, recursive: bool) -> list[Path]:
-    """Return the recordings in a folder; elsewhere, only such as are one file."""
+    """Return the recordings in a folder; in a remote one only those of a single file."""
     if not is_remote(folder):
         return scan_folder(folder, recursive=recursive).recordings
     remote: Any = folder
@@ -303,9 +302,9 @@ def find_recordings(folder: Path, *, recursive: bool) -> list[Path]:
 
 @contextmanager
 def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
-    """A recording on this machine, with the skeleton of an AMC beside it, as long as the block.
+    """Provide a local copy of a recording, with the skeleton of an AMC beside it.
 
-    What is wrong with it is said of ``path``.
+    Errors in the block name the original ``path``.
     """
     if not is_remote(path):
         yield path
@@ -324,9 +323,9 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
 
 
 def read_recording(path: Path, options: ReadOptions) -> Motion | Signals:
-    """Return the recording at a place, with a warning as `kineme.read` gives it."""
+    """Read a local or remote recording; warn like `kineme.read`."""
     if not is_remote(path):
         return read(path, **vars(options))
-    with fetch(path, options.skeleton) as here:
-        found = read(here, **vars(options))
-    return replace(found, provenance=replace(found.provenance, path=str(path)))
+    with fetch(path, options.skeleton) as local:
+        recording = read(local, **vars(options))
+    return replace(recording, provenance=replace(recording.provenance, path=str(path)))

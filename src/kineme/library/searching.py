@@ -1,8 +1,8 @@
-"""Search recordings for what is like examples, and not like counter-examples.
+"""Search recordings for spans similar to examples, but not to counter-examples.
 
-In a large library the few windows that are like an example are found first
-(`kineme.library.windows`, `kineme.library.storage.index`), and only the parts of recordings around
-these are searched sample by sample: here, or wherever an executor works.
+In a large library an index finds the windows nearest to an example first
+(`kineme.library.windows`, `kineme.library.storage.index`). Only the parts of recordings around
+these are searched sample by sample, in this process or by an executor.
 """
 
 from __future__ import annotations
@@ -31,25 +31,25 @@ from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import Matches, search
 
 REFUSED = 0.5
-"""Share of a match that one of a counter-example covers where it takes its place."""
+"""Fraction of a match that a nearer match of a counter-example must cover to reject it."""
 
 
 class Named(str):
-    """The name of a recording of the library, even where a file is called so."""
+    """Name of a recording of the library, even if a file has the same name."""
 
     __slots__ = ()
 
 
 @dataclass(frozen=True)
 class Example:
-    """A span of a recording that is searched for.
+    """A span of a recording to search for.
 
     Parameters
     ----------
     recording : path-like, Motion or Signals
-        A file, else the name of a recording of the library, or a recording in hand.
+        A file, the name of a recording of the library, or a loaded recording.
     start_s, stop_s : float, optional
-        Seconds; from the beginning and to the end by default.
+        Seconds; the whole recording by default.
 
     Examples
     --------
@@ -76,18 +76,18 @@ class Example:
 
 
 class Hit(NamedTuple):
-    """A span of a recording that is like an example.
+    """A span of a recording that is similar to an example.
 
     Attributes
     ----------
     recording : str
     start_s, stop_s : float
     distance : float
-        0 is equal.
+        0 for equal movements.
     cluster : int
-        Of the segment that covers most of it, -1 in none.
+        Cluster of the segment that covers most of it, -1 for none.
     label : str
-        The name of that cluster.
+        Name of that cluster.
 
     Examples
     --------
@@ -112,26 +112,29 @@ def find_matches(
     threshold: float,
     top: int | None,
 ) -> Matches:
-    """Spans of a recording that are like one of the examples, apart from each other.
+    """Return disjoint spans of a recording that are similar to any example.
 
-    A span goes that is more like a counter-example.
+    Spans that are nearer to a counter-example are rejected.
     """
-    found = _merge_matches(features, examples, threshold, None if counterexamples else top)
-    if counterexamples and len(found.starts):
+    matches = _merge_matches(features, examples, threshold, None if counterexamples else top)
+    if counterexamples and len(matches.starts):
         others = _merge_matches(features, counterexamples, threshold, None)
-        first = np.maximum(found.starts[:, None], others.starts[None])
-        shared = np.minimum(found.stops[:, None], others.stops[None]) - first
-        covers = shared >= REFUSED * (found.stops - found.starts)[:, None]
-        nearer = others.distances[None] < found.distances[:, None]
+        first = np.maximum(matches.starts[:, None], others.starts[None])
+        shared = np.minimum(matches.stops[:, None], others.stops[None]) - first
+        covers = shared >= REFUSED * (matches.stops - matches.starts)[:, None]
+        nearer = others.distances[None] < matches.distances[:, None]
         rows = np.flatnonzero(~(covers & nearer).any(axis=1))
-        found = _select_rows(found, rows)
-    return _select_rows(found, slice(top))
+        matches = _select_rows(matches, rows)
+    return _select_rows(matches, slice(top))
 
 
 def choose_best(
     found: Sequence[Matches], *, top: int | None, most: int | None
 ) -> list[tuple[int, tuple[int, int, float]]]:
-    """Which recording, and start, stop and distance, of the nearest spans; ``most`` of each."""
+    """Return the recording, and start, stop and distance, of the nearest spans.
+
+    At most ``most`` spans of each recording.
+    """
     spans = [
         (distance, i, start, stop)
         for i, each in enumerate(found)
@@ -143,40 +146,40 @@ def choose_best(
 def _merge_matches(
     features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
 ) -> Matches:
-    """Return the spans that are like any of the examples, apart from each other, the best first."""
-    found = [search(example, features, threshold=threshold, top=top) for example in examples]
-    if len(found) == 1:
-        return found[0]
-    every = _order_matches(found)
+    """Return disjoint spans that are similar to any example, the best first."""
+    several = [search(example, features, threshold=threshold, top=top) for example in examples]
+    if len(several) == 1:
+        return several[0]
+    ordered = _order_matches(several)
     covered = np.zeros(len(features), np.bool_)
     chosen = []
-    for i, span in enumerate(map(slice, every.starts.tolist(), every.stops.tolist())):
+    for i, span in enumerate(map(slice, ordered.starts.tolist(), ordered.stops.tolist())):
         if not covered[span].any():
             covered[span] = True
             chosen.append(i)
-    return _select_rows(every, np.array(chosen, np.int64))
+    return _select_rows(ordered, np.array(chosen, np.int64))
 
 
-def _select_rows(found: Matches, rows: slice | Ints) -> Matches:
-    return Matches(found.starts[rows], found.stops[rows], found.distances[rows])
+def _select_rows(matches: Matches, rows: slice | Ints) -> Matches:
+    return Matches(matches.starts[rows], matches.stops[rows], matches.distances[rows])
 
 
 SHARE = 0.01
-"""Of the windows, that are searched sample by sample."""
+"""Fraction of the windows around which samples are searched."""
 MORE = 20
-"""Windows for each hit that is wanted, at least."""
+"""Least number of windows per wanted hit."""
 BLOCK = 1 << 16
-"""Windows that are compared at a time."""
+"""Number of windows compared at a time."""
 
 
-AT_ONCE = 1 << 15
-"""Samples that are searched in one go."""
-APART = 1e3
-"""Value of each feature between two parts: no match crosses it."""
+BATCH_SAMPLES = 1 << 15
+"""Samples that are searched at a time."""
+BETWEEN_PARTS = 1e3
+"""Value of all features between two parts, which no match can cross."""
 
 
 class Parts(NamedTuple):
-    """Parts [start, stop) of recordings, in samples, in the order of the recordings."""
+    """Parts [start, stop) of recordings in samples, sorted by recording."""
 
     rows: Ints
     starts: Ints
@@ -184,8 +187,8 @@ class Parts(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Sought:
-    """What is searched for: features (samples, dims); at most ``top`` matches in all of a task."""
+class Query:
+    """Query: features (samples, dims) of examples; at most ``top`` matches per task."""
 
     examples: Sequence[Float32s]
     counterexamples: Sequence[Float32s]
@@ -195,20 +198,20 @@ class Sought:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Parts to be searched in one go, and the analyses that hold their recordings, by row."""
+    """Parts to search together, and the analysis keys of their recordings by row."""
 
     folder: Path
     analyses: dict[int, str]
     parts: Parts
-    sought: Sought
+    query: Query
 
 
 def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
     """Return the parts of recordings around the windows that are nearest to an example."""
-    near = _find_nearest(windows, describe_at_speeds(example), top)
-    rows = np.searchsorted(windows.firsts, near, side="right") - 1
-    middles = (near - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
-    reach = compute_step(windows.length) + len(example)  # a match may last twice as long
+    nearest = _find_nearest(windows, describe_at_speeds(example), top)
+    rows = np.searchsorted(windows.firsts, nearest, side="right") - 1
+    middles = (nearest - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
+    reach = compute_step(windows.length) + len(example)  # a match may be twice as long
     lasts = windows.samples[rows]
     return merge_overlapping(
         Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
@@ -216,11 +219,12 @@ def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
 
 
 def merge_overlapping(parts: Parts) -> Parts:
-    """Parts that overlap as one."""
+    """Merge parts that overlap or touch."""
     order = np.lexsort((parts.starts, parts.rows))
     rows, starts, stops = (column[order] for column in parts)
     far = int(stops.max(initial=0)) + 1
-    reached = np.maximum.accumulate(stops + rows * far)  # beyond the end of recordings before
+    # Offsets by row keep the parts of different recordings apart in one running maximum.
+    reached = np.maximum.accumulate(stops + rows * far)
     new = np.ones(len(rows), np.bool_)
     new[1:] = starts[1:] + rows[1:] * far > reached[:-1]
     first = np.flatnonzero(new)
@@ -232,44 +236,44 @@ def find_matches_in_parts(
     folder: Path,
     analyses: Sequence[str],
     parts: Parts,
-    sought: Sought,
+    query: Query,
     executor: Executor | None,
 ) -> dict[int, Matches]:
-    """Return the matches in parts of recordings by row, the best of each first."""
+    """Return the matches in parts of recordings by row, the best first."""
     tasks = [
-        Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, sought)
+        Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, query)
         for batch in _make_batches(parts)
     ]
     if executor is None:
-        with threadpool_limits(1):  # tasks are searched side by side
-            found = map_threads(search_parts, tasks)
+        with threadpool_limits(1):  # tasks use all cores already
+            outcomes = map_threads(search_parts, tasks)
     else:
-        found = [
+        outcomes = [
             _require_outcome(outcome) for _, outcome in executor.completed(search_parts, tasks)
         ]
     by_row: dict[int, list[Matches]] = {}
-    for each in found:
+    for each in outcomes:
         for row, matches in each.items():
             by_row.setdefault(row, []).append(matches)
     return {row: _order_matches(several) for row, several in sorted(by_row.items())}
 
 
 def search_parts(task: Task) -> dict[int, Matches]:
-    """Return the matches in the parts of a task by row, the best of each first."""
-    parts, sought = task.parts, task.sought
+    """Return the matches in the parts of a task by row, the best first."""
+    parts, query = task.parts, task.query
     lasts = parts.stops - parts.starts
     firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
-    features = np.full((firsts[-1], sought.examples[0].shape[1]), APART, np.float32)
+    features = np.full((firsts[-1], query.examples[0].shape[1]), BETWEEN_PARTS, np.float32)
     for row, key in sorted(task.analyses.items()):
         at = np.flatnonzero(parts.rows == row)
         spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
         read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
     matches = find_matches(
         features,
-        sought.examples,
-        sought.counterexamples,
-        threshold=sought.threshold,
-        top=sought.top,
+        query.examples,
+        query.counterexamples,
+        threshold=query.threshold,
+        top=query.top,
     )
     owners = np.searchsorted(firsts, matches.starts, side="right") - 1
     offsets = parts.starts[owners] - firsts[owners]
@@ -279,7 +283,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
 
 
 def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
-    """Return the windows that are nearest to any part of an example, in their order."""
+    """Return the indices of the windows nearest to any part of an example, sorted."""
     n = len(windows.embedded)
     least = np.empty(n, np.int32)
 
@@ -296,9 +300,9 @@ def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
 
 
 def _make_batches(parts: Parts) -> Iterator[Parts]:
-    """Parts of about `AT_ONCE` samples together; one that is longer is alone."""
+    """Yield batches of parts with about `BATCH_SAMPLES` samples; a longer part is alone."""
     reached = np.cumsum(parts.stops - parts.starts)
-    batches = (reached - (parts.stops - parts.starts)) // AT_ONCE
+    batches = (reached - (parts.stops - parts.starts)) // BATCH_SAMPLES
     edges = np.flatnonzero(np.diff(batches, prepend=-1, append=-1))
     for first, stop in pairwise(edges.tolist()):
         yield Parts(*(column[first:stop] for column in parts))
@@ -311,7 +315,7 @@ def _require_outcome(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
 
 
 def _order_matches(several: Sequence[Matches]) -> Matches:
-    """Several matches of one recording as one, the best first."""
+    """Merge matches of one recording, the best first."""
     if len(several) == 1:
         return several[0]
     starts, stops, distances = (np.concatenate(column) for column in zip(*several, strict=True))

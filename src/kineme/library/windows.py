@@ -1,9 +1,9 @@
-"""Windows of matching features in a few numbers, whose distances foretell those of a search.
+"""Summarise windows of matching features in a few numbers, to preselect matches.
 
-A search compares samples along a warping. The mean of a window, and how its second half differs
-from the first (the first two terms of a cosine transform), are near where all samples are. Features
-are ordered by how much they tell, so the first of them do. Each number takes a byte: those of unit
-vectors lie between -1 and 1, and rounding errs less than the numbers that are left out.
+A search compares samples with warping. If all samples of two windows are near, so are their means
+and slopes (the first two terms of a cosine transform). Features are sorted by importance, so the
+first ones suffice. Each number takes one byte: components of unit vectors lie between -1 and 1, and
+the rounding error is smaller than the effect of the omitted numbers.
 """
 
 from __future__ import annotations
@@ -18,33 +18,33 @@ from kineme._util.arrays import Float32s, Ints, interpolate_frames
 Bytes = NDArray[np.int8]
 
 LENGTHS = (15, 30, 60)
-"""Samples of a window: 1, 2 and 4 s of a body. Each begins half a window after the last one."""
+"""Lengths of windows in samples: 1, 2 and 4 s of a body. Windows overlap by half."""
 SPEEDS = (0.7, 1.0, 1.4)
-"""Of an example, as it is compared with windows: others may be slower or faster."""
+"""Relative speeds at which an example is compared, since matches may be slower or faster."""
 MEANS, SLOPES = 16, 16
 NUMBERS = MEANS + SLOPES
 LARGEST = 127
-"""What 1 becomes in a window."""
+"""Value of 1.0 in a window, the largest of int8."""
 FINER = 16
-"""As many times finer is an example."""
+"""Factor by which examples have a finer resolution than windows."""
 
 
 def compute_step(length: int) -> int:
-    """Samples from one window to the next."""
+    """Return the number of samples from one window to the next."""
     return length // 2
 
 
 def count_windows(samples: Ints, length: int) -> Ints:
-    """Return how many windows of a length there are in recordings of so many samples.
+    """Return the number of windows of a length in recordings with ``samples`` samples.
 
-    A recording that is shorter is one window.
+    A shorter recording has one window.
     """
     windows = np.maximum(samples - length, 0) // compute_step(length) + 1
     return np.where(samples > 0, windows, 0)
 
 
 def describe_windows(features: Float32s, length: int) -> Bytes:
-    """The windows of a recording in 32 numbers each: means, and what tells of the two halves."""
+    """Return the windows of a recording, (windows, 32): means and slopes."""
     if len(features) == 0:
         return np.empty((0, NUMBERS), np.int8)
     if len(features) < length:
@@ -56,12 +56,12 @@ def describe_windows(features: Float32s, length: int) -> Bytes:
 
 
 def describe_all_windows(features: Float32s) -> Bytes:
-    """Return the windows of all `LENGTHS`, one length after the other."""
+    """Return the windows of all `LENGTHS`, concatenated."""
     return np.concatenate([describe_windows(features, length) for length in LENGTHS])
 
 
 def group_by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]:
-    """Yield each of `LENGTHS` and its part of `describe_all_windows`."""
+    """Yield each of `LENGTHS` with its part of the result of `describe_all_windows`."""
     first = 0
     for length in LENGTHS:
         n = int(count_windows(np.array(samples), length))
@@ -70,12 +70,12 @@ def group_by_length(windows: Bytes, samples: int) -> Iterator[tuple[int, Bytes]]
 
 
 def choose_length(example: Float32s) -> int:
-    """Return the length of windows that is nearest to that of an example."""
+    """Return the window length nearest to that of an example, on a logarithmic scale."""
     return min(LENGTHS, key=lambda length: abs(np.log(length / max(len(example), 1))))
 
 
 def describe_at_speeds(example: Float32s) -> NDArray[np.int32]:
-    """The middle of an example at each of `SPEEDS`, (speeds, 32), to compare windows with."""
+    """Return the middle of an example at each of `SPEEDS`, (speeds, 32), in finer resolution."""
     length = choose_length(example)
     parts = []
     for speed in SPEEDS:
@@ -87,8 +87,9 @@ def describe_at_speeds(example: Float32s) -> NDArray[np.int32]:
 
 
 def _compute_numbers(windows: Float32s) -> Float32s:
-    """Means and slopes (windows, 32) of windows (windows, dims, length)."""
+    """Return means and slopes (windows, 32) of windows (windows, dims, length)."""
     length = windows.shape[2]
+    # The first cosine of a discrete cosine transform, orthonormal relative to the mean.
     slope = np.cos(np.pi / length * (np.arange(length) + 0.5)).astype(np.float32)
     slope *= np.float32(np.sqrt(2) / length)
     numbers = np.zeros((len(windows), NUMBERS), np.float32)

@@ -1,4 +1,4 @@
-"""What is read from a file and segmented: the motion of a body, or signals."""
+"""Recordings: the motion of a body, or signals, as read from a file and segmented."""
 
 from kineme.recordings.motion import Motion
 from kineme.recordings.provenance import Note, Provenance

@@ -1,4 +1,4 @@
-"""What recordings hold: arrays that are read-only and finite, fields that are set once."""
+"""Validate the arrays and fields of recordings: read-only, finite, set once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from kineme._util.checks import as_floats, is_number
 from kineme.errors import MotionError, ParameterError
 
 SLOWEST, FASTEST = 1e-9, 1e9
-"""Frames per second: one in thirty years, and what oscilloscopes do."""
+"""Limits of a frame rate, frames per second: one in thirty years; an oscilloscope's."""
 
 Error = type[ParameterError | MotionError]
 
@@ -19,10 +19,10 @@ def freeze(
 ) -> NDArray[np.float64]:
     """Return the values as a read-only view: float64, C-contiguous, finite.
 
-    ``error`` where they are not.
+    Raise ``error`` if they are not finite numbers.
 
-    A contiguous float64 array is not copied. ``what`` is what messages call them, ``row`` what
-    their first axis counts.
+    A contiguous float64 array is not copied. ``what`` names the values in messages, ``row`` the
+    items along their first axis.
     """
     # A view, so that the caller's own array stays writable.
     array = np.ascontiguousarray(as_floats(values, what, error=error)).view()
@@ -39,7 +39,7 @@ def freeze(
 
 
 def as_rate(fps: object, *, error: Error = ParameterError) -> float:
-    """Return the frame rate as a float; ``error`` unless it is one positive number."""
+    """Return the frame rate as a float; raise ``error`` unless it is one positive number."""
     if not (is_number(fps) and fps > 0):  # type: ignore[operator]
         raise error(f"the frame rate is {fps!r:.60}: it must be a positive number")
     if not SLOWEST <= fps <= FASTEST:  # type: ignore[operator]
@@ -50,14 +50,14 @@ def as_rate(fps: object, *, error: Error = ParameterError) -> float:
 
 
 def assign(instance: object, **values: object) -> None:
-    """Set fields of a frozen dataclass while it is being made."""
+    """Set fields of a frozen dataclass in its ``__post_init__``."""
     for name, value in values.items():
         # A frozen dataclass refuses plain assignment.
         object.__setattr__(instance, name, value)
 
 
 def find_spans(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """(spans, 2): where the mask is true, half-open.
+    """Return the half-open spans (spans, 2) in which the mask is true.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def find_spans(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
 def to_samples(span: tuple[float, float], fps: float, n_samples: int) -> tuple[int, int]:
     """Return the samples [first, stop) of a span in seconds, at least one.
 
-    Of a span in frames, ``fps`` is the number of samples in a frame.
+    For a span in frames, ``fps`` is the number of samples per frame.
 
     Examples
     --------

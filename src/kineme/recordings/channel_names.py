@@ -1,4 +1,4 @@
-"""Names of columns that are no channels: they count, label, or tell of a device and its place."""
+"""Recognise columns that are not channels: counters, labels, and a device's surroundings."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SURROUNDINGS = re.compile(
 
 
 def is_channel_name(name: str) -> bool:
-    """Return whether a column of numbers may be a channel, as far as its name tells.
+    """Return whether a column of numbers may be a channel, judging by its name.
 
     Examples
     --------

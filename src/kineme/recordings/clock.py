@@ -1,10 +1,9 @@
-"""Clock of a recording: what time it was at a second of it, and back.
+"""Convert between seconds of a recording and the times in its file.
 
-Seconds of a recording count its frames: frame i is at i / fps, whatever was paused between them. A
-clock is what the times in the file say of that. It has spans, each with the second of the recording
-and the time at which it begins; within a span both go on together. Where the clock goes back, a
-time that it shows twice is the first of the two; a time within a pause is where the recording goes
-on.
+Frame i is at second i / fps of the recording; pauses do not count. A `Clock` maps these seconds to
+the times in the file. It consists of spans, each with the second and the time at which it begins;
+within a span both advance together. If the clock was set back, a time that occurs twice maps to the
+first of the two. A time within a pause maps to the end of the pause.
 """
 
 from __future__ import annotations
@@ -23,26 +22,26 @@ from kineme._util.checks import is_number
 from kineme.errors import ParameterError
 
 CLOSE_S = 0.05
-"""Seconds by which times may miss those of a span: closer than people can say when it was."""
+"""Seconds by which times may deviate from their span before a new span begins."""
 
 _DATES = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
 
 
 @dataclass(frozen=True)
 class Clock:
-    """When a recording was taken.
+    """Map seconds of a recording to times of its file, and back.
 
     Parameters
     ----------
     seconds : sequence of float
-        Of the recording, rising from 0: where the spans begin.
+        Seconds of the recording at which the spans begin, increasing from 0.
     times : sequence of float
-        What the clock shows there, in seconds: from any beginning, of the day, or since 1970.
+        Times of the clock at these seconds, in seconds since any origin, midnight or 1970.
 
     Raises
     ------
     ParameterError
-        They are not as many of both, no numbers, or seconds that do not rise from 0.
+        Lengths differ, values are not numbers, or seconds do not increase from 0.
 
     Examples
     --------
@@ -56,20 +55,20 @@ class Clock:
 
     def __post_init__(self) -> None:
         for name in ("seconds", "times"):
-            given = getattr(self, name)
-            if not isinstance(given, Sequence) or not all(map(is_number, given)):
-                raise ParameterError(f"{name} of a clock are numbers, not {given!r:.60}")
-            object.__setattr__(self, name, tuple(map(float, given)))
-        begin = self.seconds
-        rising = bool(begin) and begin[0] == 0 and all(a < b for a, b in pairwise(begin))
-        if len(begin) != len(self.times) or not rising:
+            values = getattr(self, name)
+            if not isinstance(values, Sequence) or not all(map(is_number, values)):
+                raise ParameterError(f"{name} of a clock are numbers, not {values!r:.60}")
+            object.__setattr__(self, name, tuple(map(float, values)))
+        starts = self.seconds
+        rising = bool(starts) and starts[0] == 0 and all(a < b for a, b in pairwise(starts))
+        if len(starts) != len(self.times) or not rising:
             raise ParameterError("a clock has as many times as seconds, which rise from 0")
 
     @classmethod
-    def of(cls, times: ArrayLike, fps: float) -> Clock | None:
-        """Return the clock that shows these times, in seconds.
+    def from_times(cls, times: ArrayLike, fps: float) -> Clock | None:
+        """Return the clock of frames with these times in seconds.
 
-        None for one that counts frames from 0.
+        None if the times are those of frames counted from 0.
         """
         shown = np.asarray(times, np.float64)
         seconds = np.arange(len(shown)) / fps
@@ -91,22 +90,22 @@ class Clock:
 
     @classmethod
     def from_json(cls, data: Any) -> Clock:
-        """Return the clock that `to_json` gave; ParameterError where that is none."""
+        """Return the clock from the output of `to_json`; raise ParameterError if it is invalid."""
         if not isinstance(data, Mapping) or not {"seconds", "times"} <= data.keys():
             raise ParameterError(f"a clock has seconds and times, not {data!r:.60}")
         return cls(data["seconds"], data["times"])
 
     def to_json(self) -> dict[str, list[float]]:
-        """Seconds and times, as JSON holds them."""
+        """Return seconds and times for JSON."""
         return {"seconds": list(self.seconds), "times": list(self.times)}
 
     @property
-    def tells_dates(self) -> bool:
-        """Return whether it counts from 1970, which the size of its times tells."""
+    def shows_dates(self) -> bool:
+        """Return whether the times count from 1970, judging by their size."""
         return is_unix_time(self.times[0])
 
     def time(self, seconds: ArrayLike) -> Floats:
-        """Return what it shows at seconds of the recording."""
+        """Return the times of the clock at seconds of the recording."""
         at = np.asarray(seconds, np.float64)
         # The span of each second: the last that begins at or before it.
         k = np.maximum(np.searchsorted(self.seconds, at, side="right") - 1, 0)
@@ -114,9 +113,9 @@ class Clock:
         return shown
 
     def second(self, times: ArrayLike) -> Floats:
-        """Return the first second of the recording at which it shows a time, or one beyond it.
+        """Return the first second of the recording at which the clock shows a time.
 
-        Below 0 for times before the recording, beyond its length for those after it.
+        Below 0 for times before the recording, beyond its length for times after it.
         """
         at = np.asarray(times, np.float64)
         begin, shown = np.asarray(self.seconds), np.asarray(self.times)
@@ -130,24 +129,24 @@ class Clock:
         found: Floats = begin[k] + np.where(k > 0, np.maximum(since, 0.0), since)
         return found
 
-    def since_first(self) -> Clock:
-        """Return the same clock, had it been set to 0 when the recording began."""
+    def make_relative(self) -> Clock:
+        """Return the clock relative to the beginning of the recording."""
         return Clock(self.seconds, [time - self.times[0] for time in self.times])
 
-    def between(self, start: float, stop: float) -> Clock:
-        """Return the clock of what lies between two seconds of the recording."""
+    def cut(self, start: float, stop: float) -> Clock:
+        """Return the clock of the part between two seconds of the recording."""
         later = [second for second in self.seconds if start < second < stop]
         seconds = [start, *later]
         return Clock([second - start for second in seconds], self.time(seconds).tolist())
 
-    def shown(self, second: float) -> str:
-        """Return the time at a second of the recording: a number, or a date of ISO 8601 in UTC."""
+    def format_time(self, second: float) -> str:
+        """Return the time at a second of the recording as text: a number, or an ISO date in UTC."""
         time = float(self.time(second))
-        if not self.tells_dates:
+        if not self.shows_dates:
             return repr(round(time, 6))
         return datetime.fromtimestamp(time, UTC).isoformat(timespec="milliseconds")
 
 
 def is_unix_time(seconds: float) -> bool:
-    """Return whether a time is one since 1970, by its size."""
+    """Return whether a time in seconds counts from 1970, judging by its size."""
     return bool(_DATES[0] <= seconds < _DATES[1])

@@ -1,8 +1,8 @@
-"""Coordinates of points by the names of their columns: ``hip_x hip_y hip_z``.
+"""Group coordinate columns into points by name: ``hip_x hip_y hip_z``.
 
 A unit of length may follow: ``hip x [mm]``, ``hip_x_mm``, ``hip_x_px``.
 
-Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
+Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are recognised by name.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from kineme.recordings.joint_names import SENSOR
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
 )
-"""A point and its axis, in two ways, and a unit."""
+"""Matches a point and its axis, after a separator or by a capital letter, and a unit."""
 
 _WORD = re.compile(r"[A-Z]?[a-z]+\d*|[A-Z]+\d*(?![a-z])|\d+")
 _MOST_WORDS = 8
 
 
 def group_axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
-    """Return for each point, of a joint or a sensor, the columns of its axes: x and y at least.
+    """Return the columns of the axes of each joint or sensor that has x and y at least.
 
     Examples
     --------
@@ -42,9 +42,9 @@ def group_axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
 
 
 def is_body(name: str) -> bool:
-    """Return whether a name with coordinates is that of a joint, and not of a sensor.
+    """Return whether the name of a point is that of a joint, not of a sensor.
 
-    What stands before a colon is whose joint it is.
+    The part before a colon names the person and is ignored.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def is_body(name: str) -> bool:
 
 
 def list_beginnings(name: str) -> Iterator[str]:
-    """Yield what a name begins with, word by word; of long ones the first few.
+    """Yield the prefixes of a name that end before a word, up to the eighth word.
 
     Examples
     --------

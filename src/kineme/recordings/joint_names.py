@@ -1,16 +1,16 @@
-"""Find joints by their names: the one table of names, and the one matcher.
+"""Find joints by their names: the table of names and the matcher.
 
 `NAMES` lists how rigs, marker sets, keypoint models and sensors call each part of the body. To
 support another naming, add to the table and nowhere else.
 
-*Notation.* A line of the table names one point, or several whose middle the joint is. ``*`` stands
-for the side, L or R. Names are compared in a plain form: upper case, the side in front, nothing but
+*Notation.* A line of the table names one point, or several with the joint in their middle. ``*``
+stands for the side, L or R. Names are compared in a plain form: upper case, the side first, only
 letters and digits. ``R.Wrist.Med``, ``r_wrist_med`` and ``WristMedR`` are all RWRISTMED.
 
-*Matching.* A joint is the first line of which a recording has all points. A line that both sides
-have precedes one that only one side has. Names of markers have to be equal to the line. Names of
-rigs also match without their namespace and numbers (``mixamorig:LeftHand_035``). If none is then
-equal, words may precede the line (``m_avg_L_Ankle``); the fewest such words win (``foot_l`` before
+*Matching.* A joint is the first line with all its points in the recording. Lines that match on both
+sides come before those that match on one. Names of markers must equal the line. Names of rigs also
+match without their namespace and numbers (``mixamorig:LeftHand_035``). If none is equal, words may
+precede the line (``m_avg_L_Ankle``); the fewest such words win (``foot_l`` before
 ``weapon_foot_l``), then the point nearer to the root.
 
 Sources: marker sets of Vicon Plug-in Gait; CMU Graphics Lab (41 markers); OptiTrack Motive
@@ -76,7 +76,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "*_foot_sensor": ("*FOOT", "FOOT*", "*F"),
     "*_shank_sensor": ("*SHANK", "SHANK*", "*S"),
 }
-"""For each part the names of the points that make it, the preferred line first."""
+"""Names of the points that make each part, the preferred line first."""
 # fmt: on
 
 PARENTS = {
@@ -86,7 +86,7 @@ PARENTS = {
     "right_ankle": "right_hip",
     **dict.fromkeys(("head", "left_wrist", "right_wrist"), "pelvis"),
 }
-"""Small tree of a body that is made from points, parents first."""
+"""Parents of the joints of a body made from points, parents first."""
 _BODY = (
     ("pelvis",),
     ("*_hip", "*_hip_centre", "*_waist", "*_thigh"),
@@ -104,21 +104,21 @@ RIGS: dict[str, tuple[frozenset[str], dict[str, str]]] = {
          "left_wrist": "lhand", "right_wrist": "rhand"},
     ),
 }  # fmt: skip
-"""Rigs in which joints are not where their names say: names that all are there, and the joints."""
+"""Rigs with misleading joint names: the names that identify each, and the joints to use."""
 
 TWIST = frozenset({"TWIST", "ROLL"})
-"""Words of joints that only turn a bone about itself."""
+"""Words in names of joints that only twist a bone."""
 CROWN = frozenset({"END", "TOP", "TIP", "NUB", "CROWN", "SITE"})
-"""Words of the leaf at which a head ends."""
+"""Words in the name of the end site of a head."""
 GYROSCOPE = frozenset({"GYR", "GYRO", "GYROSCOPE", "OMEGA", "ANGULARVELOCITY"})
-"""Words of channels of a gyroscope."""
+"""Words in names of gyroscope channels."""
 SENSOR = re.compile(
     r"acc(el\w*)?|gyr(o\w*)?|mag(net\w*)?|imu|emg|grf|forces?|moments?|torques?|cop|gravity|"
     r"angular|angles?|rot(ation)?|euler|attitude|velocity|vel|quat(ernion)?|orient(ation)?|"
     r"omega|[agwm]",
     re.IGNORECASE,
 )
-"""A word that says that coordinates are those of a sensor, and not of a joint."""
+"""Matches a word that marks coordinates as those of a sensor, not of a joint."""
 
 _OTHERS = TWIST | {"IK", "POLE", "TARGET", "CTRL", "PROP", "GOAL"}
 _OTHER_PARTS = (["UP"], ["UPPER"], ["FORE"], ["LOWER"], ["LOW"])
@@ -138,21 +138,21 @@ def find_joints(
     exact: bool = False,
     single: bool = False,
 ) -> dict[str, tuple[int, ...]]:
-    """Return for each joint the points whose middle it is; joints that are not found are left out.
+    """Return the points whose mean is the joint, for each joint that is found.
 
     Parameters
     ----------
     names : sequence of str
         One per point, parents before children.
     wanted : iterable of sequence of str
-        For each joint the parts in `NAMES` to look for, the preferred one first. The joint is
-        called like the first one, with "left" and "right" for ``*``.
+        Parts in `NAMES` to look for, for each joint, the preferred one first. The first one also
+        names the joint, with "left" and "right" for ``*``.
     usable : collection of int, optional
         Indices of the points to choose from; all by default.
     exact : bool
-        Compare full names, as of markers.
+        Compare full names only, as for markers.
     single : bool
-        Return one point per joint: lines with several points are not used.
+        Return one point per joint; ignore lines with several points.
 
     Examples
     --------
@@ -174,17 +174,17 @@ def find_joints(
 
 
 def find_body(names: Sequence[str], usable: Collection[int]) -> dict[str, tuple[int, ...]]:
-    """Return for each joint in `PARENTS` the markers or keypoints whose middle it is.
+    """Return the markers or keypoints whose mean is the joint, for each joint in `PARENTS`.
 
-    A side of the pelvis stands for a hip that is not there. It tells where the body faces, but is
-    no estimate of the joint's centre. Names are without the subject's; ``usable`` are the indices
-    of the points to choose from.
+    A side of the pelvis replaces a missing hip: it shows where the body faces, but is no estimate
+    of the joint's centre. Names do not include the subject's; ``usable`` are the indices of the
+    points to choose from.
     """
     return find_joints(names, _BODY, usable=usable, exact=True)
 
 
 def find_rig_joints(names: Sequence[str]) -> tuple[str, dict[str, int]]:
-    """Return which of `RIGS` a skeleton is, else "", and the joints that this rig defines."""
+    """Return the key in `RIGS` that matches a skeleton, or "", and the joints it defines."""
     for rig, (bones, joints) in RIGS.items():
         if bones.issubset(names):
             return rig, {joint: names.index(at) for joint, at in joints.items() if at in names}
@@ -193,7 +193,7 @@ def find_rig_joints(names: Sequence[str]) -> tuple[str, dict[str, int]]:
 
 @lru_cache(maxsize=4096)
 def mentions(name: str, *parts: str, side: str = "") -> bool:
-    """Return whether a part is named anywhere in a name, of any side unless one is given.
+    """Return whether a name contains a part, on any side unless one is given.
 
     Examples
     --------
@@ -207,9 +207,9 @@ def mentions(name: str, *parts: str, side: str = "") -> bool:
 
 
 def has_word(name: str, words: Collection[str]) -> bool:
-    """Return whether consecutive words of a name, with its side or without, make up one of these.
+    """Return whether consecutive words of a name, with or without its side, form one of ``words``.
 
-    Numbers do not count.
+    Numbers are ignored.
     """
     side, spelled = _split_rig_name(name)
     runs = {
@@ -221,7 +221,7 @@ def has_word(name: str, words: Collection[str]) -> bool:
 
 
 def simplify_name(name: str) -> str:
-    """Return a name as `NAMES` has it.
+    """Return a name in the plain form of `NAMES`.
 
     Examples
     --------
@@ -235,13 +235,13 @@ def simplify_name(name: str) -> str:
 
 
 def is_nameless(name: str) -> bool:
-    """Return whether a program made up the name of a marker that nobody named, as ``*12``."""
+    """Return whether the name of a marker was generated by a program, such as ``*12``."""
     return _NAMELESS.fullmatch(name.rpartition(":")[2]) is not None
 
 
 @lru_cache(maxsize=4096)
 def _split(name: str) -> tuple[str, tuple[str, ...]]:
-    """Return the side that a word of the name says, L, R or nothing, and its other words."""
+    """Return the side in a name (L, R or empty) and its other words."""
     parts = (part for word in _WORD.findall(name) for part in _SIDE_INSIDE.split(word))
     words = [part.upper() for part in parts if part]
     for place, word in enumerate(words):
@@ -258,7 +258,7 @@ def _split_rig_name(name: str, *, numbers: bool = False) -> tuple[str, list[str]
 
 @lru_cache(maxsize=16)
 def _index_rig(names: tuple[str, ...], points: tuple[int, ...]) -> list[dict[str, int]]:
-    """Return the points of a rig by their names: equal ones, then also those with words before."""
+    """Return two indexes of a rig's points: by whole names, and also by ends of names."""
     ranked = []
     for point in points:
         side, words = _split_rig_name(names[point], numbers=True)
@@ -281,21 +281,23 @@ def _index_rig(names: tuple[str, ...], points: tuple[int, ...]) -> list[dict[str
 def _choose(
     lines: Sequence[str], letters: Mapping[str, str], at: Mapping[str, int]
 ) -> dict[str, tuple[int, ...]]:
-    """Return the points of the first line that both sides have, else of the first of each."""
-    made = {
+    """Return the points of the first line found on both sides, else the first found on each."""
+    candidates = {
         joint: [_find_points(line.replace("*", letter), at) for line in lines]
         for joint, letter in letters.items()
     }
-    # What is measured of left and right is compared, so both are made of the same markers.
-    shared = next((i for i, each in enumerate(zip(*made.values(), strict=True)) if all(each)), None)
+    # Left and right are compared with each other, so both use the same markers.
+    shared = next(
+        (i for i, each in enumerate(zip(*candidates.values(), strict=True)) if all(each)), None
+    )
     chosen = {
         joint: next(filter(None, choices), ()) if shared is None else choices[shared]
-        for joint, choices in made.items()
+        for joint, choices in candidates.items()
     }
     return {joint: points for joint, points in chosen.items() if points}
 
 
 def _find_points(line: str, at: Mapping[str, int]) -> tuple[int, ...]:
-    """Return the points that a line names, or none unless all are there."""
+    """Return the points that a line names, or none if one of them is missing."""
     points = line.split()
     return tuple(at[name] for name in points) if all(name in at for name in points) else ()

@@ -1,12 +1,12 @@
-"""Where the joints are, from how they are turned, and back.
+"""Compute joint positions from rotations, and back.
 
 The conventions are those of `kineme.recordings.skeleton`::
 
     G[j] = G[parent] * R[j]
     p[j] = p[parent] + G[parent] @ offset[j]
 
-One pass over the joints, parents first, each step on all frames at once.
-Quaternions measure faster here than 3 x 3 matrices.
+Loop over the joints once, parents first, with all frames in each step.
+Quaternions are faster here than 3 x 3 matrices.
 """
 
 from __future__ import annotations
@@ -27,18 +27,17 @@ def forward_kinematics(
     *,
     translations: ArrayLike | None = None,
 ) -> Floats:
-    """Where the joints are (frames, joints, 3), from how they are turned.
+    """Return joint positions (frames, joints, 3) from local rotations.
 
     Parameters
     ----------
     skeleton : Skeleton
     rotations : array_like, shape (frames, joints, 4)
-        Unit quaternions (w, x, y, z), local to the parent; an end site's is not used.
+        Unit quaternions (w, x, y, z), local to the parent; those of end sites are ignored.
     root_positions : array_like, shape (frames, 3), optional
-        Where the root is; its offset by default.
+        Positions of the root; its offset by default.
     translations : array_like, shape (frames, joints, 3), optional
-        In place of the skeleton's offsets, for joints that slide as well as turn (a root's
-        is its position).
+        Replace the skeleton's offsets, for joints that also translate (for a root, its position).
 
     Examples
     --------
@@ -56,7 +55,7 @@ def forward_kinematics(
         # Frames last: each component is one contiguous row.
         shift = np.broadcast_to(skeleton.offsets[:, :, None], (skeleton.n_joints, 3, n)).copy()
     if root_positions is not None:
-        # Row per root, with its position instead of its offset.
+        # Roots have a position instead of an offset.
         shift[[p < 0 for p in skeleton.parents]] = np.asarray(root_positions, float).T
     positions = np.empty((skeleton.n_joints, 3, n))
     world: list[Floats] = []
@@ -65,8 +64,8 @@ def forward_kinematics(
             positions[j] = shift[j]
             world.append(local[j].T)
             continue
-        carried = skeleton.offsets[j] if translations is None else shift[j].T
-        positions[j] = positions[parent] + rot.rotate(world[parent], carried).T
+        bone = skeleton.offsets[j] if translations is None else shift[j].T
+        positions[j] = positions[parent] + rot.rotate(world[parent], bone).T
         leaf = j in skeleton.end_sites
         # An end site has no rotation of its own, so its parent's stands for it.
         world.append(world[parent] if leaf else rot.multiply(world[parent], local[j].T))
@@ -74,16 +73,16 @@ def forward_kinematics(
 
 
 def place_at_rest(skeleton: Skeleton) -> Floats:
-    """Where the joints are (joints, 3) where none is turned, the root at its offset."""
+    """Return the joint positions (joints, 3) without rotations, the root at its offset."""
     standing = np.broadcast_to(rot.IDENTITY, (1, skeleton.n_joints, 4))
     (places,) = forward_kinematics(skeleton, standing)
     return np.asarray(places)
 
 
 def compute_world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> Floats:
-    """How each joint is turned in the world (frames, joints, 4); end sites take their parent's.
+    """Return the world rotation of each joint (frames, joints, 4); end sites take their parent's.
 
-    ``rotations`` are local to the parent; MotionError where a motion has none.
+    ``rotations`` are local to the parent; raise MotionError if there are none.
     """
     if rotations is None:
         raise MotionError("this motion has positions only: it has no rotations to work with")
@@ -97,10 +96,10 @@ def compute_world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> 
 def compute_local_translations(
     skeleton: Skeleton, positions: Floats, rotations: ArrayLike | None
 ) -> Floats:
-    """From parent to joint in the parent's frame (frames, joints, 3); a root's position.
+    """Return vectors from parent to joint in the parent's axes (frames, joints, 3).
 
-    Equal to the skeleton's offsets wherever bones are rigid. ``rotations`` are local to the parent;
-    MotionError where a motion has none.
+    They equal the skeleton's offsets if bones are rigid; for a root it is the position.
+    ``rotations`` are local to the parent; raise MotionError if there are none.
     """
     world = compute_world_rotations(skeleton, rotations)
     local = np.array(positions)

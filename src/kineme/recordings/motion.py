@@ -1,4 +1,4 @@
-"""Motion of a body: where its joints are over time.
+"""Motion of a body: the positions of its joints over time.
 
 Positions are metres, y is up, axes are right-handed; the frame rate is a
 float. Rotations are unit quaternions ``(w, x, y, z)``, each from the joint's
@@ -24,17 +24,17 @@ from kineme.recordings.recording import Recording, Spans, as_gaps
 from kineme.recordings.skeleton import Skeleton
 
 FARTHEST = 1e9
-"""Metres from the origin; ten times those of the largest coordinates that maps have."""
+"""Largest distance from the origin in metres; ten times the largest map coordinates."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(Recording):
-    """A skeleton's joint positions over time, and its rotations where known.
+    """Joint positions of a skeleton over time, and rotations if known.
 
     Parameters
     ----------
     skeleton : Skeleton
-        Who moves.
+        The joints and their parents.
     positions : array_like, shape (frames, joints, 3)
         Metres, y up.
     fps : float
@@ -42,15 +42,15 @@ class Motion(Recording):
     rotations : array_like, shape (frames, joints, 4), optional
         Unit quaternions (w, x, y, z), local to the parent.
     provenance : Provenance
-        Where it came from, and what had to be inferred.
+        Source of the recording, and what was inferred from it.
     gaps : sequence of (int, int)
-        Frames [start, stop) in which the body was not recorded, in time order and apart from
-        each other; positions in them only join what is around.
+        Frames [start, stop) in which the body was not recorded, in time order, neither touching
+        nor overlapping; positions in them are interpolated.
 
     Raises
     ------
     MotionError
-        Shapes disagree, no frames, values that are not finite, or gaps out of order.
+        Shapes do not match, no frames, values that are not finite, or gaps out of order.
 
     Examples
     --------
@@ -110,7 +110,7 @@ class Motion(Recording):
         translations: ArrayLike | None = None,
         provenance: Provenance | None = None,
     ) -> Motion:
-        """Return the motion whose positions follow from rotations; see `forward_kinematics`."""
+        """Return the motion with positions computed from rotations; see `forward_kinematics`."""
         positions = forward_kinematics(
             skeleton, rotations, root_positions, translations=translations
         )
@@ -131,7 +131,7 @@ class Motion(Recording):
         return len(self.positions)
 
     def joint(self, name: str) -> int:
-        """Return the index of the joint called ``name``; ParameterError if there is none."""
+        """Return the index of the joint called ``name``; raise ParameterError if there is none."""
         return self.skeleton.joint(name)
 
     def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Motion:
@@ -155,5 +155,5 @@ class Motion(Recording):
 
 
 def check_motion(motion: object, caller: str) -> None:
-    """ParameterError where a public function was given no Motion."""
+    """Raise ParameterError if the argument of a public function is not a Motion."""
     check_type(motion, Motion, caller, "kineme.read(path) gives one")

@@ -1,4 +1,4 @@
-"""Recordings in a notebook: a small picture and a few facts."""
+"""Show recordings in a notebook: a small picture and a few facts."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _STYLE = 'fill="none" stroke="currentColor" stroke-width="1" stroke-linejoin="ro
 def make_page(
     title: str, picture: str, facts: Sequence[tuple[str, str]], provenance: Provenance
 ) -> str:
-    """Return the HTML that a notebook shows: a repr, an SVG, facts, the file and its warnings."""
+    """Return HTML for a notebook: the repr, an SVG, facts, the file and its warnings."""
     rows = [*facts, *([("file", provenance.path)] if provenance.path else [])]
     rows += [("warning", note) for note in provenance.warnings]
     cells = "".join(
@@ -33,13 +33,14 @@ def make_page(
 
 
 def draw_poses(skeleton: Skeleton, positions: Floats) -> str:
-    """Poses of a body, evenly spaced in time, side by side, seen from its broader side: an SVG."""
+    """Return an SVG of poses side by side, evenly spaced in time, from the broader side."""
     at = np.linspace(0, len(positions) - 1, min(_POSES, len(positions))).round().astype(int)
     poses = positions[at] - positions[at].mean(axis=1, keepdims=True)
     wide, deep = np.ptp(poses[..., [0, 2]], axis=1).mean(axis=0)
     across = 0 if wide >= deep else 2
     flat = poses[..., [across, 1]] * (1.0, -1.0)
     size = max(float(np.ptp(flat, axis=1).max()), 1e-9)
+    # One scale for all poses, so that the body keeps its size.
     scale = min(_HEIGHT, _WIDTH / len(at)) - 2 * _MARGIN
     middle = (flat.max(axis=1) + flat.min(axis=1)) / 2
     drawn = (flat - middle[:, None]) / size * scale
@@ -56,7 +57,7 @@ def draw_poses(skeleton: Skeleton, positions: Floats) -> str:
 
 
 def draw_channels(values: Floats) -> str:
-    """Return the first channels over time, one below the other, each in its own range: an SVG."""
+    """Return an SVG of the first channels over time, below each other, each in its own range."""
     at = np.linspace(0, len(values) - 1, min(_SAMPLES, len(values))).round().astype(int)
     shown = values[at, :_CHANNELS]
     band = _HEIGHT / shown.shape[1]

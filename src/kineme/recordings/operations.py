@@ -1,7 +1,6 @@
-"""Recordings made from recordings: other frames, another rate, another size or place.
+"""Cut, resample, scale, turn and move recordings.
 
-Each function leaves its argument as it is and adds a sentence to the
-provenance of what it returns.
+Each function returns a new recording and adds a note to its provenance.
 """
 
 from __future__ import annotations
@@ -27,12 +26,10 @@ AnyRecording = TypeVar("AnyRecording", Motion, Signals)
 def resample(motion: Motion, fps: float) -> Motion:
     """Return the motion at the times 0, 1/fps, 2/fps, ... up to its last frame.
 
-    n = floor((N - 1) fps / old) + 1 frames. Where the old rate is a whole
-    multiple of the new one these are frames of the motion, taken as they are.
-    Otherwise the joints' rotations are interpolated on the sphere and their
-    translations in a line, so that bones keep their length; positions without
-    rotations are interpolated in a line. No filter is applied: a motion that
-    shakes faster than fps / 2 should be smoothed first.
+    The result has floor((N - 1) fps / old) + 1 frames. If the old rate is a whole multiple of the
+    new one, frames are selected. Otherwise rotations of joints are interpolated on the sphere and
+    translations linearly, so that bones keep their length. Positions without rotations are
+    interpolated linearly. No filter is applied: smooth motions faster than fps / 2 first.
 
     Parameters
     ----------
@@ -43,12 +40,12 @@ def resample(motion: Motion, fps: float) -> Motion:
     Returns
     -------
     Motion
-        The same one where it has this rate already.
+        The same object if it has this rate already.
 
     Raises
     ------
     ParameterError
-        ``fps`` is not a positive number, or beyond all measure.
+        ``fps`` is not a positive number, or too large.
 
     Notes
     -----
@@ -69,10 +66,10 @@ def resample(motion: Motion, fps: float) -> Motion:
     if ratio == 1:
         return motion
     check_rates(motion.fps, fps)
-    # The small number keeps a last frame that rounding would lose.
+    # The small number keeps the last frame despite rounding errors.
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
     note = f"resampled from {motion.fps:g} to {fps:g} Hz"
-    # A whole ratio, up to rounding: frames are taken and not interpolated.
+    # A whole ratio, up to rounding: select frames instead of interpolating.
     if abs(ratio - round(ratio)) < 1e-9 * ratio:
         return _choose_frames(motion, slice(0, motion.n_frames, round(ratio)), fps, note)
     # Rounding must not lead beyond the last frame.
@@ -93,9 +90,9 @@ def resample(motion: Motion, fps: float) -> Motion:
 
 
 def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
-    """Return the frames start, ..., stop - 1, and the gaps and events in them.
+    """Return frames start to stop - 1, with the gaps and events in them.
 
-    As ``recording[start:stop]``, but frames that are not there are refused.
+    Same as ``recording[start:stop]``, but raises for frames outside the recording.
 
     Parameters
     ----------
@@ -128,12 +125,12 @@ def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
 
 
 def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
-    """Return what the gaps leave, each after the frame at which it starts.
+    """Return the parts between gaps, each with its first frame.
 
     Parameters
     ----------
     recording : Motion or Signals
-        One without gaps is the only one, as it is.
+        Returned whole if it has no gaps.
 
     Returns
     -------
@@ -154,14 +151,14 @@ def split_at_gaps(recording: AnyRecording) -> list[tuple[int, AnyRecording]]:
     """
     if not recording.gaps:
         return [(0, recording)]
-    found = [(start, recording[start:stop]) for start, stop in recording.spans()]
-    if not found:
+    parts = [(start, recording[start:stop]) for start, stop in recording.spans()]
+    if not parts:
         raise MotionError("the body is not seen in any frame of this motion")
-    return found
+    return parts
 
 
 def scale(motion: Motion, factor: float) -> Motion:
-    """Return the motion of a body ``factor`` times as large, which goes as much farther.
+    """Return the motion with the body and its path scaled by a factor.
 
     Parameters
     ----------
@@ -273,9 +270,9 @@ def _choose_frames(motion: Motion, frames: slice, fps: float, note: str) -> Moti
 
 
 def _move_gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
-    """Return the gaps among n frames taken from ``first`` on, ``ratio`` frames apart.
+    """Return the gaps of n frames sampled from ``first`` on, ``ratio`` frames apart.
 
-    A frame between a recorded one and one in a gap counts as in the gap.
+    A sample between a recorded frame and a gap belongs to the gap.
     """
     spans: list[tuple[int, int]] = []
     for start, stop in motion.gaps:
@@ -292,7 +289,7 @@ def _move_gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[
 
 
 def _interpolate_rotations(rotations: Floats, at: Floats) -> Floats:
-    """Rotations at fractional frames, each joint interpolated along the shorter arc."""
+    """Return rotations at fractional frames, interpolated along the shorter arc."""
     from scipy.spatial.transform import Rotation, Slerp  # heavy, and seldom needed
 
     if len(rotations) == 1:

@@ -1,4 +1,4 @@
-"""Poses of the nodes of a rig, from the motion of its skeleton; see `kineme.recordings.rig`."""
+"""Compute poses of a rig's nodes from the motion of its skeleton; see `kineme.recordings.rig`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from kineme.recordings.skeleton import Skeleton
 
 
 def get_rig(skeleton: Skeleton) -> Rig:
-    """Return the rig of a skeleton; one of its joints, without rotations, where it has none."""
+    """Return the rig of a skeleton, or one made of its joints without rest rotations."""
     return skeleton.rig or make_rig(skeleton.names, skeleton.parents, skeleton.offsets)
 
 
@@ -25,17 +25,17 @@ def pose_rig(motion: Motion, rig: Rig) -> tuple[Floats, Floats]:
     Parameters
     ----------
     motion : Motion
-        One with rotations.
+        Must have rotations.
     rig : Rig
-        That of its skeleton. Nodes above the joints are at rest.
+        The rig of its skeleton. Nodes above the joints are at rest.
 
     Returns
     -------
     translations, rotations : ndarray of shape (frames, joints, 3), (frames, joints, 4)
-        In the parent's frame, in the units of the rig's file. Joints without a rotation of their
-        own (end sites) are turned as at rest.
+        In the parent's frame, in the units of the rig's file. End sites keep their rest rotation.
     """
     skeleton, above, back = motion.skeleton, rig.above, rot.conjugate(rig.turn)
+    # Invert G = turn * W * axes to get W, the node's rotation in the axes of the file.
     turns = rot.multiply(back, compute_world_rotations(skeleton, motion.rotations))
     turns = rot.multiply(turns, rot.conjugate(rig.axes))
     places = rot.rotate(back, motion.positions) / rig.unit
@@ -55,9 +55,9 @@ def pose_rig(motion: Motion, rig: Rig) -> tuple[Floats, Floats]:
 
 
 def align_to_rest(motion: Motion) -> Motion:
-    """Return the motion with the axes of joints along those of the world in the rig's rest pose.
+    """Return the motion with joint axes that match the world axes in the rig's rest pose.
 
-    Formats without rotations at rest need it. Positions stay; offsets become those at rest.
+    Needed for formats without rest rotations. Positions stay; offsets become those at rest.
     """
     skeleton = motion.skeleton
     if skeleton.rig is None or motion.rotations is None:
@@ -71,20 +71,20 @@ def align_to_rest(motion: Motion) -> Motion:
             offsets[joint] -= places[parent]
             local[:, joint] = rot.multiply(rot.conjugate(rotations[:, parent]), rotations[:, joint])
     local[:, list(skeleton.end_sites)] = rot.IDENTITY
-    # What rounding leaves of a bone of no length would be a bone.
+    # Rounding errors must not turn a bone of length 0 into a bone.
     offsets[np.abs(offsets) < 1e-12] = 0.0
     return replace(motion, skeleton=replace(skeleton, offsets=offsets), rotations=local)
 
 
 def add_root(motion: Motion) -> Motion:
-    """Return the motion with a joint above its roots that stays at the origin, called ``root``."""
+    """Return the motion with a joint ``root`` above its roots that stays at the origin."""
     skeleton, n = motion.skeleton, motion.n_frames
     name = "root"
     while name in skeleton.names:
         name += "_"
     rig = get_rig(skeleton)
     at = rig.above
-    # Joints that hung on what carries the body, or on nothing, hang on the new one.
+    # Joints whose parent was above the body, or that had none, become children of the new one.
     parents = [p + 1 if p >= at else at if node >= at else p for node, p in enumerate(rig.parents)]
     turn = rig.turn if at == 0 else rot.multiply(rig.turn, rig.world[1][at - 1])
     rig = replace(

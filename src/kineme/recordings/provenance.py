@@ -1,4 +1,4 @@
-"""Where a recording came from, and everything that had to be inferred on the way."""
+"""Record where a recording came from and what was inferred while reading it."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Severity = Literal["info", "warning"]
 
 
 class Note(str):
-    """One sentence on what was inferred or done; a text that knows how severe it is.
+    """One sentence on what was inferred or done, with its severity.
 
     Parameters
     ----------
     text : str
         The sentence.
     severity : {"info", "warning"}
-        A warning is what `kineme.read` warns of: the recording may not be what it seems.
+        `kineme.read` warns of "warning" notes: the recording may be misread.
 
     Examples
     --------
@@ -41,41 +41,41 @@ class Note(str):
     def text(self) -> str:
         return str(self)
 
-    # A text alone would lose its severity when it is pickled.
+    # Without this, pickling a str subclass loses the severity.
     def __reduce__(self) -> tuple[type[Self], tuple[str, Severity]]:
         return type(self), (str(self), self.severity)
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a recording came from, and what had to be inferred.
+    """Source of a recording, and what was inferred while reading it.
 
     Parameters
     ----------
     path : str, optional
-        Of the file.
+        Path of the file.
     format : str, optional
-        Its name.
+        Name of the format.
     sha256 : str, optional
         Digest of the file's bytes.
     notes : sequence of Note or str
-        Such as "frame rate 120 Hz assumed: AMC files do not store one". Plain texts become
+        For example "frame rate 120 Hz assumed: AMC files do not store one". Plain texts become
         notes of severity "info".
     events : sequence of (float, str)
-        Those marked in the file: seconds from its first frame, and the label.
+        Events marked in the file: seconds from its first frame, and label.
     clock : Clock, optional
-        What times the file has, where these are not those of frames counted from 0.
+        Times in the file, if they differ from those of frames counted from 0.
     take : str, optional
-        The animation that was read, of a file that may have several.
+        The animation that was read from a file that may hold several.
     takes : sequence of str
-        Those that could have been.
+        All animations in the file.
     person : str, optional
-        Who was read, of a file that may have several people.
+        The person that was read from a file that may hold several.
     people : sequence of str
-        Those who could have been.
+        All people in the file.
     rows : (rows,) array, optional
-        The second of the recording at which each row of the source was taken, in order of time.
-        None where rows are frames, or there are none.
+        Second of the recording at which each row of the source was taken, in time order. None if
+        rows are frames, or if there are no rows.
 
     Examples
     --------
@@ -108,7 +108,7 @@ class Provenance:
 
     @property
     def input(self) -> dict[str, str | None]:
-        """Return what a result says of where it was found: the file; take and person of several."""
+        """Return the input for results: the file, and take and person if it has several."""
         found = {"path": self.path, "format": self.format, "sha256": self.sha256}
         if len(self.takes) > 1:
             found["take"] = self.take
@@ -118,23 +118,23 @@ class Provenance:
         return found
 
     def noted(self, *notes: Note | str) -> Provenance:
-        """Return the same with notes added; plain texts become notes of severity "info"."""
+        """Return a copy with notes added; plain texts become notes of severity "info"."""
         return replace(self, notes=self.notes + _as_notes(notes))
 
     def marked(self, events: Iterable[tuple[float, str]]) -> Provenance:
-        """Return the same with these events, seconds and labels, in place of its own."""
+        """Return a copy with these events (seconds and labels) instead of its own."""
         return replace(self, events=tuple(events))
 
     def timed(self, clock: Clock | None, rows: Floats | None = None) -> Provenance:
-        """Return the same with this clock and these seconds of rows in place of its own."""
+        """Return a copy with this clock and these seconds of rows instead of its own."""
         return replace(self, clock=clock, rows=rows)
 
     def of_take(self, name: str, names: Iterable[str]) -> Provenance:
-        """Return the same of this take, one of those in the file."""
+        """Return a copy for this take, one of those in the file."""
         return replace(self, take=name, takes=tuple(names))
 
     def of_person(self, name: str, people: Iterable[str]) -> Provenance:
-        """Return the same of this person, one of those in the file."""
+        """Return a copy for this person, one of those in the file."""
         return replace(self, person=name, people=tuple(people))
 
 

@@ -1,9 +1,9 @@
-"""What every recording can do, whether of a body or of sensors.
+"""Protocol of all recordings, whether of a body or of sensors.
 
-A recording is frames at an even rate, counted from 0; spans of them are
-half-open, ``[start, stop)``. Its gaps are spans in which nothing was recorded.
-Recordings are values: arrays are read-only, and whatever changes them makes a
-new one that says in its provenance what was done.
+A recording consists of frames at an even rate, counted from 0; spans of frames are
+half-open, ``[start, stop)``. Gaps are spans in which nothing was recorded. Recordings are
+immutable: arrays are read-only, and operations return a new recording with a note in its
+provenance.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ Spans = tuple[tuple[int, int], ...]
 
 @runtime_checkable
 class Recording(Protocol):
-    """Frames at an even rate: what `Motion` and `Signals` have in common.
+    """Frames at an even rate: the common interface of `Motion` and `Signals`.
 
     Attributes
     ----------
     fps : float
         Frames per second.
     gaps : tuple of (int, int)
-        Frames [start, stop) in which nothing was recorded, in time order and apart from
-        each other, whatever the values in them.
+        Frames [start, stop) in which nothing was recorded, in time order, neither touching nor
+        overlapping. The values in them have no meaning.
     provenance : Provenance
-        The file, and what had to be inferred from it.
+        The source file, and what was inferred from it.
 
     Examples
     --------
@@ -58,19 +58,19 @@ class Recording(Protocol):
 
     @abstractmethod
     def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Self:
-        """Return the frames [start, stop), which are there, with these gaps and this provenance."""
+        """Return frames [start, stop), which exist, with these gaps and this provenance."""
 
     @abstractmethod
     def _facts(self) -> list[tuple[str, str]]:
-        """Return what a notebook shows of this kind of recording: names and values."""
+        """Return the names and values that a notebook shows for this kind of recording."""
 
     @abstractmethod
     def _picture(self) -> str:
-        """Return a small SVG of it."""
+        """Return a small SVG of the recording."""
 
     @property
     def duration(self) -> float:
-        """Seconds: frames / fps."""
+        """Return the duration in seconds: frames / fps."""
         return self.n_frames / self.fps
 
     @property
@@ -79,25 +79,25 @@ class Recording(Protocol):
         return np.arange(self.n_frames) / self.fps
 
     def spans(self) -> list[tuple[int, int]]:
-        """Frames [start, stop) that the gaps leave, in time order; without gaps, all of them."""
+        """Return the spans [start, stop) of frames between gaps, in time order."""
         # The spans between gaps: from the end of each to the start of the next.
         starts = [0, *(stop for _, stop in self.gaps)]
         stops = [*(start for start, _ in self.gaps), self.n_frames]
         return [(a, b) for a, b in zip(starts, stops, strict=True) if a < b]
 
     def noted(self, *notes: Note | str) -> Self:
-        """Return the same with notes added to the provenance."""
+        """Return a copy with notes added to the provenance."""
         return replace(self, provenance=self.provenance.noted(*notes))  # type: ignore[type-var]
 
     def seconds(self, start: float = 0.0, stop: float | None = None) -> Self:
-        """Return the frames from one second to another, each rounded to the nearest frame.
+        """Return the frames between two times, rounded to the nearest frame.
 
         Parameters
         ----------
         start : float
             Seconds from the first frame.
         stop : float, optional
-            Seconds; to the end by default, and where it is beyond.
+            Seconds; limited to the end, which is also the default.
 
         Returns
         -------
@@ -106,7 +106,7 @@ class Recording(Protocol):
         Raises
         ------
         ParameterError
-            Times that are no numbers, negative, or with no frame between them.
+            Times are not numbers, negative, or have no frame between them.
         """
         for at in (start, 0.0 if stop is None else stop):
             if not is_number(at) or at < 0:
@@ -128,7 +128,7 @@ class Recording(Protocol):
     __iter__: ClassVar[None] = None  # frames are no recordings: slices are
 
     def __getitem__(self, frames: slice) -> Self:
-        """Return the frames of a slice, and the gaps and events in them, as numpy counts them."""
+        """Return the frames of a slice with the gaps and events in them, indexed as in numpy."""
         if not isinstance(frames, slice):
             raise ParameterError(f"a recording is sliced by frames, as in [0:600], not {frames!r}")
         try:
@@ -172,9 +172,9 @@ class Recording(Protocol):
 def as_gaps(
     gaps: Any, n_frames: int, *, error: type[ParameterError | MotionError] = ParameterError
 ) -> Spans:
-    """Gaps as a recording of so many frames keeps them: pairs of frames [start, stop).
+    """Return gaps as pairs of frames [start, stop) of a recording with ``n_frames`` frames.
 
-    ``error`` where they are no pairs, empty, out of order, touch each other or reach out of it.
+    Raise ``error`` if they are not pairs, empty, out of order, touching or out of range.
     """
     found = as_spans(gaps, error=error)
     before = -1
@@ -188,11 +188,11 @@ def as_gaps(
 
 
 def _cut_provenance(provenance: Provenance, start: int, stop: int, fps: float) -> Provenance:
-    """Return what is true of the frames [start, stop): the events in them, and their clock."""
+    """Return the provenance of frames [start, stop), with the events in them and their clock."""
     first, last = start / fps, stop / fps
     events: Iterable[tuple[float, str]] = (
         (at - first, name) for at, name in provenance.events if first <= at < last
     )
-    clock = provenance.clock and provenance.clock.between(first, last)
+    clock = provenance.clock and provenance.clock.cut(first, last)
     rows = None if provenance.rows is None else provenance.rows - first
     return provenance.noted(f"cut to frames {start} to {stop}").marked(events).timed(clock, rows)

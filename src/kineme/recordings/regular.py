@@ -1,17 +1,18 @@
-"""Rows at any times to frames at one rate: the clock-true front end of every recording of rows.
+"""Resample rows taken at any times to frames at one rate.
 
 `place_rows` finds the frame of each row and `Timing.resample` the values of each frame. Rows at
-even times are the frames, untouched. Others are put in order of time and onto a grid that begins
-with the first of them:
+even times become frames unchanged. Other rows are sorted by time and placed on a grid that begins
+at the first of them:
 
-- the rate is that of the usual step. Where sensors of several rates share a table, each row with
-  values of one of them, it is that of the fastest;
-- rows within a tenth of a period of the grid are moved onto it, and keep their values. Between
-  other rows, and in holes of up to 0.2 s, values lie on a straight line;
-- longer holes are gaps, which last as long as the clock says. Only a pause that would take more
-  frames than all of the rest is cut short, with a warning; the `Clock` still tells its times;
-- rows of one time are averaged, unless packets of rows share a time: these are spread;
-- a change of summer time and midnight are undone, and a clock that shows a time twice was set.
+- The rate follows from the usual step. If a table has rows of sensors with different rates, the
+  fastest one counts.
+- Rows within a tenth of a period of the grid are moved onto it and keep their values. Other values,
+  and holes of up to 0.2 s, are interpolated linearly.
+- Longer holes become gaps with their true length. A pause that would need more frames than all the
+  rest is shortened, with a warning; the `Clock` keeps its times.
+- Rows with the same time are averaged, unless they come in packets: these are spread evenly.
+- Jumps by daylight saving time and at midnight are undone. Other steps back mean that the clock
+  was reset.
 """
 
 from __future__ import annotations
@@ -30,44 +31,44 @@ from kineme.recordings.clock import Clock, is_unix_time
 from kineme.recordings.provenance import Note
 
 LONGEST_S = 0.2
-"""Seconds: holes up to this long are filled."""
+"""Longest hole that is filled, in seconds."""
 
 UNEVEN = 0.1
-"""Share of a period by which times may differ from even ones."""
+"""Fraction of a period by which times may differ from even ones."""
 
-_ORDINARY = 0.5  # share of the median step by which an ordinary step differs from it at most
-_MOST = 2 / 3  # share of steps that are ordinary, else the rate is that of the whole duration
-_ADDS_UP = 0.1  # share by which steps of whole periods may miss the duration
-_WHOLE = 0.01  # share by which the rate of uneven times may differ from whole frames a second
-_FEW = 0.01  # share of steps back in time up to which a clock was set, and rows are not shuffled
-_PACKETS = 1 / 3  # share of rows with the time of another from which on they come in packets
-_SAME = 1e-6  # share of a step below which times are the same
-_SLOWEST_S = 2.0  # period of a slow channel at most
-_ROOM = 8  # frames for each row at most, and as many values as follow
+_ORDINARY = 0.5  # an ordinary step differs from the median step by at most this fraction
+_MOST = 2 / 3  # fraction of ordinary steps below which the whole duration determines the rate
+_ADDS_UP = 0.1  # fraction by which whole periods may miss the duration
+_WHOLE = 0.01  # fraction by which an uneven rate may differ from a whole number of hertz
+_FEW = 0.01  # up to this fraction of steps back in time the clock was reset, not rows shuffled
+_PACKETS = 1 / 3  # from this fraction of rows with repeated times on, rows come in packets
+_SAME = 1e-6  # times closer than this fraction of a step are equal
+_SLOWEST_S = 2.0  # longest period of a slow channel, seconds
+_MOST_FRAMES_PER_ROW = 8  # limits the grid, which may have so many values besides:
 _VALUES = 1_000_000
 _HOUR, _DAY = 3600.0, 86400.0
 
 
 @dataclass(frozen=True, eq=False)
 class Timing:
-    """Frame rate of rows, and where they lie.
+    """Frame rate of rows, and their frames.
 
     Attributes
     ----------
     fps : float
         Frames per second.
     order : (rows,) array of int, optional
-        The rows that have a time, in order of time. None where rows are frames.
+        Rows that have a time, sorted by time. None if rows are frames.
     at : (rows,) array, optional
-        The frame of each of these, from 0 and rising, between frames perhaps.
+        Frame of each of these rows, increasing from 0, possibly fractional.
     n_frames : int
-        Of the grid; 0 where rows are frames.
+        Number of frames of the grid; 0 if rows are frames.
     gaps : tuple of (int, int)
-        Frames [start, stop) in which the clock was set or paused for too long.
+        Frames [start, stop) in which the clock was reset or paused for too long.
     notes : tuple of Note
-        What was seen of the times.
+        Remarks on the times.
     clock : Clock, optional
-        None where it shows the seconds of the recording.
+        None if the times are seconds from the start of the recording.
     """
 
     fps: float
@@ -80,15 +81,15 @@ class Timing:
 
     @property
     def row_seconds(self) -> Floats | None:
-        """Return the second of each row in order of time; None where rows are frames."""
+        """Return the second of each row in time order; None if rows are frames."""
         return None if self.at is None else self.at / self.fps
 
     def noted(self, notes: Iterable[Note | str]) -> Timing:
-        """Return the same with these notes in place of its own."""
+        """Return a copy with these notes instead of its own."""
         return replace(self, notes=tuple(notes))
 
     def frames_of_rows(self, n_rows: int) -> Ints:
-        """Return the nearest frame of each row, in the order given; of one without a time, 0."""
+        """Return the nearest frame of each row in file order; 0 for a row without a time."""
         if self.order is None or self.at is None:
             return np.arange(n_rows)
         frames = np.zeros(n_rows, np.int64)
@@ -96,20 +97,20 @@ class Timing:
         return frames
 
     def resample(self, values: ArrayLike) -> Resampled:
-        """Return the values of each frame, on straight lines through those of the rows.
+        """Return the values of each frame, interpolated linearly between rows.
 
         Parameters
         ----------
         values : (rows, channels) array_like
-            In the order of the times; NaN or infinite where there is nothing.
+            In file order; NaN or infinite if missing.
         """
-        given = np.asarray(values, np.float64)
+        rows = np.asarray(values, np.float64)
         if self.order is None or self.at is None:
-            frames, at, n_frames = given, np.arange(len(given), dtype=np.float64), len(given)
+            frames, at, n_frames = rows, np.arange(len(rows), dtype=np.float64), len(rows)
         else:
-            # an index that changes nothing would copy a day of rows
-            sorted_rows = len(self.order) == len(given) and (np.diff(self.order) > 0).all()
-            at, frames = _average_duplicates(self.at, given if sorted_rows else given[self.order])
+            # avoid a copy of all rows if they are sorted already
+            sorted_rows = len(self.order) == len(rows) and (np.diff(self.order) > 0).all()
+            at, frames = _average_duplicates(self.at, rows if sorted_rows else rows[self.order])
             n_frames = self.n_frames
         on_grid = bool((at == np.rint(at)).all())
         present = np.isfinite(frames)
@@ -143,9 +144,9 @@ class Resampled:
     values : (frames, channels) array
         NaN in channels that have no value at all.
     missing : (frames, channels) array of bool, optional
-        Whether a value bridges a hole of more than `LONGEST_S`; None where none does.
+        Whether a value lies in a hole longer than `LONGEST_S`; None if there is no such hole.
     filled : int
-        How many values of frames on the grid were missing for less.
+        Number of missing values on the grid that were filled.
     """
 
     values: Floats
@@ -154,21 +155,21 @@ class Resampled:
 
 
 def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float = 0.0) -> Timing:
-    """Return the rate of rows that were taken at these times, and the frame of each.
+    """Return the rate of rows taken at these times, and the frame of each.
 
     Parameters
     ----------
     times : (rows,) array_like
-        Seconds, in any order; NaN where a row has none.
+        Seconds, in any order; NaN for a row without a time.
     values : (rows, channels) array_like, optional
-        What was taken: it tells sensors of several rates apart, and packets from duplicates.
+        Used to tell apart sensors of several rates, and packets from duplicates.
     fps : float, optional
-        Frames per second of the grid, in place of what the times tell.
+        Frames per second of the grid; inferred from the times by default.
 
     Raises
     ------
     ParameterError
-        Times that are too few, no numbers, or all the same.
+        Times are too few, not numbers, or all equal.
 
     Examples
     --------
@@ -185,7 +186,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         duration = float(shown[-1] - shown[0])
         doubt = 2 * np.spacing(np.abs(shown).max()) / duration
         fps = _round_rate(len(steps) / duration, max(1e-6, float(doubt)))
-        return Timing(fps, clock=Clock.of(shown, fps))
+        return Timing(fps, clock=Clock.from_times(shown, fps))
     rows = np.flatnonzero(known)
     shown, taken = shown[rows], None if taken is None else taken[rows]
     at, was_set, notes = _correct_clock(shown, taken)
@@ -197,14 +198,14 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         rows, at, shown = rows[sequence], at[sequence], shown[sequence]
         was_set = None if was_set is None else was_set[sequence]
         taken = None if taken is None else taken[sequence]
-    ahead = shown - at  # constant but where the clock was set
+    ahead = shown - at  # constant unless the clock was reset
     if not at[-1] > at[0]:
         raise ParameterError(
             f"times do not increase: row 2 has {at[0]:g} s, as all others have; give fps= (--fps)"
         )
     steps = np.diff(at)
     apart = np.append(True, steps > _SAME * np.median(steps[steps > 0]))
-    if not apart.all():  # numbers that differ by rounding are one time
+    if not apart.all():  # times that differ by rounding are equal
         at = at[apart][np.cumsum(apart) - 1]
     at, note = _spread_packets(at, taken)
     notes += note
@@ -212,26 +213,28 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     rate = fps or _find_fastest_rate(moments, merged)
     frames = _snap_to_grid((at - at[0]) * rate, rate)
     if not fps and (frames != np.rint(frames)).any():
-        # any rate is true on a grid that rows are brought to, and a whole one is the sensor's
-        whole = max(1.0, np.rint(rate))
-        if abs(whole - rate) <= _WHOLE * rate:
-            rate, frames = whole, _snap_to_grid((at - at[0]) * whole, whole)
+        # rows are resampled anyway, and a whole rate is most likely the sensor's
+        whole_rate = max(1.0, np.rint(rate))
+        if abs(whole_rate - rate) <= _WHOLE * rate:
+            rate, frames = whole_rate, _snap_to_grid((at - at[0]) * whole_rate, whole_rate)
     elif not fps:
         rate = _round_rate(rate, max(1e-6, UNEVEN / max(1.0, float(frames[-1]))))
     exact = bool((frames == np.rint(frames)).all())
     notes += _describe_timing(np.diff(moments), len(at) - len(moments), rate, exact=exact)
     channels = 1 if taken is None else max(1, taken.shape[1])
     timing = Timing(rate, rows, frames, notes=tuple(notes))
-    return _add_clock_and_gaps(timing, at, ahead, was_set, _ROOM * len(at) + _VALUES // channels)
+    return _add_clock_and_gaps(
+        timing, at, ahead, was_set, _MOST_FRAMES_PER_ROW * len(at) + _VALUES // channels
+    )
 
 
 def _add_clock_and_gaps(
     timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int
 ) -> Timing:
-    """Return the same with its clock and gaps, and pauses cut that ``most`` frames do not hold.
+    """Return the timing with its clock and gaps; pauses are cut to fit into ``most`` frames.
 
-    ``at`` are the seconds of the rows in order of time, ``ahead`` is how far the clock was ahead of
-    them; ``was_set`` right after the clock went back.
+    ``at`` are the seconds of the rows in time order, ``ahead`` the clock's offset from them;
+    ``was_set`` marks the row after the clock went back.
     """
     assert timing.at is not None  # noqa: S101 (for mypy)
     rate, notes = timing.fps, list(timing.notes)
@@ -244,7 +247,7 @@ def _add_clock_and_gaps(
             "do not count them"
         )
         notes.append(Note(text, "warning"))
-    # where the clock does not go on as the seconds do
+    # rows at which the clock jumps relative to the seconds of the recording
     turns = np.flatnonzero(cut | (np.abs(np.diff(ahead)) > LONGEST_S)) + 1
     starts, clock = np.append(0, turns), None
     begins, shown = frames[starts] / rate, (at + ahead)[starts]
@@ -266,54 +269,56 @@ def _add_clock_and_gaps(
 def fill_gaps_in_channels(
     timing: Timing, values: ArrayLike, names: Sequence[str]
 ) -> tuple[Floats, list[tuple[int, int]], list[Note | str]]:
-    """Return finite values of each frame, the gaps, and what was done.
+    """Return finite values of each frame, the gaps, and notes.
 
-    A frame in which any channel is missing for long lies in a gap. ParameterError where a channel
-    holds no number, or nothing is left between the gaps.
+    A frame lies in a gap if any channel is missing for long. Raise ParameterError if a channel
+    has no number, or nothing is left between the gaps.
     """
-    found = timing.resample(values)
-    doubts = find_faulty_channels(found, timing.fps, names)
+    resampled = timing.resample(values)
+    doubts = find_faulty_channels(resampled, timing.fps, names)
     notes: list[Note | str] = []
-    if found.filled:
-        values_filled = format_count(found.filled, "missing value")
+    if resampled.filled:
+        values_filled = format_count(resampled.filled, "missing value")
         notes.append(f"{values_filled} filled in a straight line")
-    if found.missing is None:
-        return found.values, list(timing.gaps), [*notes, *doubts]
-    jumps = np.zeros(len(found.values), np.bool_)
+    if resampled.missing is None:
+        return resampled.values, list(timing.gaps), [*notes, *doubts]
+    jumps = np.zeros(len(resampled.values), np.bool_)
     for start, stop in timing.gaps:
         jumps[start:stop] = True
-    if found.missing.all(axis=0).any():
-        name = names[int(found.missing.all(axis=0).argmax())]
+    if resampled.missing.all(axis=0).any():
+        name = names[int(resampled.missing.all(axis=0).argmax())]
         raise ParameterError(f"column {name!r} holds no number at all: name the others (--columns)")
-    long = found.missing.any(axis=1)
+    long = resampled.missing.any(axis=1)
     if (long | jumps).all():
         raise ParameterError("in every frame some channel is missing for long: choose columns")
-    # where the clock was set, the gap is said already
+    # gaps where the clock was reset are reported already
     holes = find_spans(long & ~jumps)
     if len(holes):
         frames = format_count(int((long & ~jumps).sum()), "frame")
         notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
     gaps = [(start, stop) for start, stop in find_spans(long | jumps).tolist()]
-    return found.values, gaps, [*notes, *doubts]
+    return resampled.values, gaps, [*notes, *doubts]
 
 
 FROZEN_S = 3.0
-"""Seconds for which a channel that else changes all the time must be the same to be frozen."""
-_CHANGES = 0.5  # share of steps that change, outside of such spans
-_CLIPPED = 3  # values in a row at the limit of a sensor
-_CLIPS = 0.001  # share of such values from which on it is said
-_COARSE = 5  # steps of the sensor by which values reach its limit at once
-_LEVELS = 50  # different values that a sensor has at least
+"""Seconds without a change after which an otherwise changing channel counts as frozen."""
+_CHANGES = 0.5  # fraction of steps that change in a channel that is not frozen
+_CLIPPED = 3  # successive values at the limit of a sensor that count as clipped
+_CLIPS = 0.001  # fraction of clipped values from which on a warning is given
+_COARSE = 5  # sensor steps by which values jump to the limit if clipped
+_LEVELS = 50  # a sensor has at least so many different values
 
 
-def find_faulty_channels(found: Resampled, fps: float, names: Sequence[str]) -> list[Note | str]:
-    """Return warnings of channels that freeze for seconds, or are cut off at a largest value."""
+def find_faulty_channels(
+    resampled: Resampled, fps: float, names: Sequence[str]
+) -> list[Note | str]:
+    """Return warnings about channels that freeze for seconds or are clipped."""
     frozen, clipped = [], []
     least = max(2, round(FROZEN_S * fps))
     for channel, name in enumerate(names):
-        track = found.values[:, channel]
-        if found.missing is not None:
-            track = track[~found.missing[:, channel]]
+        track = resampled.values[:, channel]
+        if resampled.missing is not None:
+            track = track[~resampled.missing[:, channel]]
         if len(track) < 2:
             continue
         same = np.diff(track) == 0
@@ -336,15 +341,15 @@ def find_faulty_channels(found: Resampled, fps: float, names: Sequence[str]) -> 
 
 
 def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
-    """Return whether several values in a row are often the largest or the smallest of all."""
-    # values that a slower sensor holds for some rows are counted once
+    """Return whether runs of successive values often equal the maximum or minimum."""
+    # a slower sensor repeats its values for some rows: these count once
     held = round(len(track) / max(1, len(track) - int((runs[:, 1] - runs[:, 0]).sum())))
     long = runs[runs[:, 1] - runs[:, 0] >= _CLIPPED * held - 1]
     if len(long) < 2:
         return False
     firsts = long[:, 0]
     ends, lengths = track[firsts], long[:, 1] - long[:, 0] + 1
-    # A smooth peak in coarse steps is flat, too, but values come near it step by step.
+    # A smooth peak in coarse steps is flat, too, but values approach it step by step.
     entries = np.abs(ends - track[np.maximum(firsts - 1, 0)])
     moves = np.abs(np.diff(track))
     coarse = _COARSE * float(moves[moves > 0].min(initial=np.inf))
@@ -352,14 +357,14 @@ def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
     for limit in (track.min(), track.max()):
         cut = ends == limit
         often = int(lengths[cut].sum()) >= _CLIPS * len(track) and cut.sum() > 1
-        far = abs(limit - middle) > high - low > 0  # a force of nothing is the smallest, too
+        far = abs(limit - middle) > high - low > 0  # excludes resting values, such as zero force
         if often and far and np.median(entries[cut]) >= coarse:
             return len(np.unique(track)) >= _LEVELS
     return False
 
 
 def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
-    """Yield channels that have values in the same rows, and which rows these are."""
+    """Yield groups of channels with values in the same rows, and a mask of these rows."""
     found: dict[bytes, list[int]] = {}
     for channel in range(present.shape[1]):
         found.setdefault(np.packbits(present[:, channel]).tobytes(), []).append(channel)
@@ -368,7 +373,7 @@ def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
 
 
 def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Return each time once, and the means of the values that rows of one time have."""
+    """Return each time once, and the mean values of rows with that time."""
     starts = np.flatnonzero(np.diff(at, prepend=-np.inf) > 0)
     if len(starts) == len(at):
         return at, values
@@ -379,17 +384,17 @@ def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
         return at[starts], sums / counts
 
 
-def _find_holes(known: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
-    """(holes, 2): frames [start, stop) between known ones that are too far apart to be bridged."""
-    apart = np.diff(known)
+def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
+    """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
+    apart = np.diff(known_frames)
     most = LONGEST_S * fps + 1e-9
-    # A channel may be slower than the others, and regular all the same.
+    # A channel may be slower than the others but regular.
     usual = float(np.median(apart)) if len(apart) >= 10 else 1.0
     even = np.abs(apart - usual) <= _ORDINARY * usual
     if 1.5 < usual <= _SLOWEST_S * fps and even.mean() > _MOST:
         most = max(most, 2.5 * usual)
-    # frames within half a frame of a known one are as good as known
-    ends = np.concatenate([[-1.0], known, [float(n_frames)]])
+    # frames within half a frame of a known one count as known
+    ends = np.concatenate([[-1.0], known_frames, [float(n_frames)]])
     starts = np.floor(ends[:-1] + 0.5).astype(np.int64) + 1
     stops = np.minimum(np.ceil(ends[1:] - 0.5).astype(np.int64), n_frames)
     long = np.diff(ends) - 1 > most
@@ -398,7 +403,7 @@ def _find_holes(known: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
 
 
 def _is_even(times: Floats, steps: Floats) -> bool:
-    """Return whether the times are even ones, give or take a tenth of a period."""
+    """Return whether the times are even to a tenth of a period."""
     period = float(np.median(steps))
     if steps.min() <= 0:
         return False
@@ -411,12 +416,12 @@ def _is_even(times: Floats, steps: Floats) -> bool:
 def _correct_clock(
     shown: Floats, values: Floats | None
 ) -> tuple[Floats, Masks | None, list[Note | str]]:
-    """Return times of a clock that nobody sets, which are right after it was set, and notes."""
+    """Return times without jumps of the clock, a mask of rows after a reset, and notes."""
     steps = np.diff(shown)
     back = steps < 0
     rising = steps[steps > 0]
     usual = float(np.median(rising)) if len(rising) else 0.0
-    if back.sum() > max(1, _FEW * len(steps)):  # rows in no order, and no clock that was set
+    if back.sum() > max(1, _FEW * len(steps)):  # rows are shuffled; the clock was not reset
         return shown, None, [Note("rows are in no order of time: sorted by their times", "warning")]
 
     def near(by: float) -> Masks:
@@ -442,7 +447,7 @@ def _correct_clock(
         return at, None, notes
     if not _was_clock_set(at, usual, values):
         return at, None, [*notes, Note("rows are not in order of time: sorted", "warning")]
-    # one frame between, which is a gap: nobody knows how long it took
+    # leave a gap of one frame: the true length is unknown
     at = at + np.append(0.0, np.cumsum(np.where(reset, 2 * usual - steps, 0.0)))
     times = format_count(int(reset.sum()), "time")
     notes.append(Note(f"the clock goes back {times}: the recording is split there", "warning"))
@@ -450,12 +455,12 @@ def _correct_clock(
 
 
 def _was_clock_set(at: Floats, usual: float, values: Floats | None) -> bool:
-    """Return whether sorting rows would mix them up: a clock went back, and rows are in order."""
+    """Return whether the clock was reset: sorting the rows by time would mix them up."""
     order = np.argsort(at, kind="stable")
     steps, before = np.diff(at[order]), np.diff(at)
     close = steps < 0.5 * usual
     if values is not None:
-        # rows that are there twice are no sign of it
+        # duplicate rows are no evidence
         one, other = values[order[:-1]], values[order[1:]]
         close &= ~((steps == 0) & ((one == other) | (np.isnan(one) & np.isnan(other))).all(axis=1))
     crowded = int(close.sum()) - int((np.abs(before) < 0.5 * usual).sum())
@@ -466,26 +471,26 @@ def _was_clock_set(at: Floats, usual: float, values: Floats | None) -> bool:
 
 
 def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Note | str]]:
-    """Return times of rows that come in packets of one time: even ones up to the next packet."""
+    """Return times with rows of a packet, which share one time, spread up to the next packet."""
     same = np.diff(at) == 0
     if same.mean() < _PACKETS:
         return at, []
     if values is not None:
         one, other = values[:-1][same], values[1:][same]
         differ = (np.isfinite(one) & np.isfinite(other) & (one != other)).any(axis=1)
-        if differ.mean() < 0.1:  # the same rows twice, or sensors that share a time
+        if differ.mean() < 0.1:  # duplicate rows, or several sensors at one time
             return at, []
     starts = np.append(np.flatnonzero(np.append(True, ~same)), len(at))
     sizes = np.diff(starts)
     begins = at[starts[:-1]]
-    # seconds from row to row in each packet, and as usual
+    # seconds between rows in each packet, and the median
     period = np.append(np.diff(begins), np.nan) / sizes
     usual = float(np.nanmedian(period[1:])) if len(period) > 2 else float(period[0])
     period = np.fmin(period, 1.5 * usual)
     period[-1] = usual
     within = np.arange(len(at)) - np.repeat(starts[:-1], sizes)
     spread = np.repeat(begins, sizes) + within * np.repeat(period, sizes)
-    if len(begins) > 1 and sizes[0] < np.median(sizes):  # it began within a packet
+    if len(begins) > 1 and sizes[0] < np.median(sizes):  # recording began within a packet
         first = int(sizes[0])
         spread[:first] = begins[1] - usual * np.arange(first, 0, -1)
     count = format_count(int(same.sum()), "row")
@@ -494,7 +499,7 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
 
 
 def _find_fastest_rate(moments: Floats, values: Floats | None) -> float:
-    """Return the rate of the rows, or of the fastest sensor that fills only some of them."""
+    """Return the rate of the rows, or of the fastest sensor if each fills only some rows."""
     rates: list[float] = []
     if values is not None:
         rows = [seen for _, seen in _group_by_missing_rows(np.isfinite(values)) if seen.any()]
@@ -506,9 +511,9 @@ def _find_fastest_rate(moments: Floats, values: Floats | None) -> float:
 def _measure_rate(moments: Floats) -> float:
     """Return rows per second.
 
-    The mean of the steps that are nearly the median: clocks that count milliseconds
-    give 120 Hz steps of 8 and 9, and lost rows leave steps of several periods. Where
-    that does not add up, as where one row in three comes late, all count but the holes.
+    Average the steps near the median: millisecond clocks give steps of 8 and 9 at 120 Hz, and
+    lost rows give steps of several periods. If these do not add up to the duration, as when one
+    row in three is late, average all steps but holes.
     """
     steps = np.diff(moments)
     median = float(np.median(steps))
@@ -516,16 +521,16 @@ def _measure_rate(moments: Floats) -> float:
     ordinary = counted[np.abs(counted - median) <= _ORDINARY * median * (1 + 1e-9)]
     if len(ordinary) >= _MOST * len(counted):
         period = float(ordinary.mean())
-        whole = float(np.maximum(np.rint(counted / period), 1).sum())
-        if abs(period * whole - counted.sum()) <= _ADDS_UP * counted.sum():
-            return whole / float(counted.sum())
+        n_periods = float(np.maximum(np.rint(counted / period), 1).sum())
+        if abs(period * n_periods - counted.sum()) <= _ADDS_UP * counted.sum():
+            return n_periods / float(counted.sum())
     return len(counted) / float(counted.sum())
 
 
 def _snap_to_grid(frames: Floats, fps: float) -> Floats:
-    """Return whole frames where rows are regular between holes; else they stay between frames.
+    """Return whole frames if rows are regular between holes, else the frames unchanged.
 
-    After a pause rows are off the grid by some share of a frame, which does not matter.
+    After a pause rows may be off the grid by a constant fraction of a frame, which is removed.
     """
     part = np.append(0, np.cumsum(np.diff(frames) > LONGEST_S * fps + 1))
     firsts = np.flatnonzero(np.diff(part, prepend=-1))
@@ -534,14 +539,14 @@ def _snap_to_grid(frames: Floats, fps: float) -> Floats:
     if np.abs(frames - since - ahead[part]).max() > 2 * UNEVEN:
         return frames
     snapped = since + np.rint(ahead)[part]
-    # parts that are close to each other must not meet in one frame
+    # rows of neighbouring parts must not share a frame
     if (np.diff(snapped)[np.diff(frames) > 0.5] <= 0).any():
         return frames
     return np.asarray(snapped - snapped[0], np.float64)
 
 
 def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
-    """Return frames with the longest pauses cut to one frame, so many that all fit; and which."""
+    """Return frames with the longest pauses cut to fit into ``most``, and a mask of these."""
     steps = np.diff(frames)
     cut = np.zeros(len(steps), np.bool_)
     excess = frames[-1] - most
@@ -552,13 +557,13 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
         if count > len(steps) or steps[longest[count - 1]] <= 3:
             raise ParameterError("the times do not tell a rate: give fps= (--fps)")
         cut[longest[:count]] = True
-        # whole frames are taken away, so that rows on the grid stay there
+        # remove whole frames, so that rows stay on the grid
         frames = frames - np.append(0.0, np.cumsum(np.where(cut, np.floor(steps) - 2, 0.0)))
     return frames, cut
 
 
 def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
-    """Return a sentence on times that are uneven; ``exact`` if rows are at frames all the same."""
+    """Return a note on uneven times; ``exact`` if all rows are at whole frames."""
     counts = [
         (doubled, "row", "with the time of another"),
         (int((steps * fps > 1.5).sum()), "step", "longer than a frame and a half"),
@@ -570,6 +575,8 @@ def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) ->
 
 
 def _round_rate(fps: float, share: float) -> float:
-    """Return the rate in whole hertz or thousandths where it is within this share of these."""
-    near = (round(fps, digits) for digits in (0, 3))
-    return next((rate for rate in near if rate > 0 and abs(fps - rate) <= share * fps), fps)
+    """Return the rate rounded to hertz or thousandths if within this fraction of it."""
+    rounded_rates = (round(fps, digits) for digits in (0, 3))
+    return next(
+        (rate for rate in rounded_rates if rate > 0 and abs(fps - rate) <= share * fps), fps
+    )

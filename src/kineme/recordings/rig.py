@@ -1,7 +1,7 @@
-"""Rig that a skeleton came from: the nodes of its file as they are at rest.
+"""The nodes of a file at rest, from which a skeleton was made.
 
-A `Skeleton` says where joints are in metres with y up. A `Rig` keeps what a writer needs to put
-the file's own nodes back: those above the hips, and the rotation and scale that each has at rest.
+A `Skeleton` holds joint offsets in metres with y up. A `Rig` keeps what writers need to restore the
+nodes of the file: those above the hips, and the rest rotation and scale of each.
 A node's transform in its parent's frame is x -> t + R s x, with one positive scale s.
 
 With W the rotation of a joint's node in the axes of the file, and G that of the joint in the
@@ -10,7 +10,7 @@ motion (see `kineme.recordings.skeleton`)::
     G = turn * W * axes
     p = unit * turn @ (position of the node)
 
-So poses of the nodes follow from any motion of the skeleton, whatever was done to it.
+So the poses of the nodes can be computed from any motion of the skeleton.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from kineme.errors import MotionError
 from kineme.recordings.arrays import assign, freeze
 
 UNIFORM = 1e-4
-"""Share by which a node's scales along its three axes may differ and count as one."""
+"""Largest relative difference of a node's three scales that count as one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """Nodes at rest, in the units and axes of their file; the last ones are the joints.
+    """Nodes at rest, in the units and axes of their file; the joints come last.
 
     Parameters
     ----------
@@ -49,15 +49,15 @@ class Rig:
     turn : array_like, shape (4,)
         The rotation from the file's axes to those with y up.
     numbers : tuple of int
-        What the file itself counts each node by; -1 for one that is not in it.
+        Index of each node in the file; -1 for nodes that are not in it.
     binds : array_like, shape (joints, 4, 4), optional
-        Where a skin has each joint, from the node above all joints, if that is not as at rest.
-        Blender takes it for the rest pose of a glTF.
+        Bind pose of a skin, relative to the node above all joints, if it differs from the rest
+        pose. Blender uses it as the rest pose of a glTF.
 
     Raises
     ------
     MotionError
-        Parts differ in length, or a scale is not one positive number.
+        Lengths differ, or a scale is not one positive number.
     """
 
     names: tuple[str, ...]
@@ -87,14 +87,14 @@ class Rig:
 
     @property
     def above(self) -> int:
-        """Return how many nodes carry the joints, and come before them."""
+        """Return the number of nodes above the joints, which come first."""
         return len(self.names) - len(self.axes)
 
     @property
     def is_plain(self) -> bool:
-        """Whether nodes are joints alone that have neither rotation nor scale at rest, as a BVH's.
+        """Return whether all nodes are joints without rest rotation or scale, as in BVH.
 
-        Rounding counts as none.
+        Rounding errors are ignored.
         """
         turned = np.abs(self.rotations[:, 1:]).max(initial=0.0)
         scaled = np.abs(self.scales - 1).max(initial=0.0)
@@ -102,9 +102,9 @@ class Rig:
 
     @cached_property
     def world(self) -> tuple[Floats, Floats, Floats]:
-        """Return position (nodes, 3), rotation (nodes, 4) and scale (nodes,) in the file's world.
+        """Return rest positions (nodes, 3), rotations (nodes, 4) and scales (nodes,).
 
-        Of the pose at rest.
+        All are in the world of the file.
         """
         n = len(self.names)
         places, turns, sizes = np.zeros((n, 3)), np.empty((n, 4)), np.empty(n)
@@ -123,20 +123,20 @@ class Rig:
         return places[parent], turns[parent], float(sizes[parent])
 
     def rest(self) -> tuple[Floats, Floats]:
-        """Return positions (joints, 3), metres with y up, and rotations of the joints at rest."""
+        """Return rest positions (joints, 3) in metres with y up, and rotations (joints, 4)."""
         places, turns, _ = self.world
         turned = rot.multiply(rot.multiply(self.turn, turns[self.above :]), self.axes)
         return self.unit * rot.rotate(self.turn, places[self.above :]), turned
 
     def scale(self, factor: float) -> Rig:
-        """Return the rig of a body ``factor`` times as large."""
+        """Return the rig scaled by a factor."""
         binds = None if self.binds is None else np.array(self.binds)
         if binds is not None:
             binds[:, :3, 3] *= factor
         return replace(self, translations=factor * self.translations, binds=binds)
 
     def join_root(self) -> Rig:
-        """Return the rig without the nodes above its root, whose transforms are made part of it."""
+        """Return the rig without the nodes above its root; their transforms move into the root."""
         above, (places, turns, sizes) = self.above, self.world
         if above == 0:
             return self
@@ -159,9 +159,9 @@ class Rig:
         )
 
     def to_metres(self) -> Rig:
-        """Return the same rig in metres with y up: topmost nodes are turned, and no scale changes.
+        """Return the rig in metres with y up: the topmost nodes are turned, scales stay.
 
-        A rig that is so already is returned as it is, to the last bit.
+        A rig that is in metres with y up already is returned unchanged.
         """
         if self.unit == 1.0 and (self.turn == rot.IDENTITY).all():
             return self
@@ -182,14 +182,14 @@ def make_rig(
     unit: float = 1.0,
     turn: Floats = rot.IDENTITY,
 ) -> Rig:
-    """Return the rig of joints whose rest pose is without rotations.
+    """Return the rig of joints with a rest pose without rotations.
 
-    ``frames`` (joints, 4) turn the axes of each node against those of the file, as the ``axis`` of
-    an ASF does; ``turn`` those of the file to axes with y up, to which the joints are turned, too.
+    ``frames`` (joints, 4) rotate the axes of each node relative to those of the file, like the
+    ``axis`` of an ASF; ``turn`` rotates the axes of the file to y up.
     """
     if frames is None:
         frames = np.broadcast_to(rot.IDENTITY, (len(names), 4))
-    # The frame of each joint's parent, in which its offset and its own frame are counted.
+    # Offsets and axes are stored relative to the axes of the parent.
     around = np.array([rot.IDENTITY if p < 0 else frames[p] for p in parents])
     back = rot.conjugate(around)
     return Rig(

@@ -1,4 +1,4 @@
-"""Signals from arrays, data frames and xarray, and from several sensors with their own clocks."""
+"""Make signals from arrays, data frames and xarray, and join sensors with their own clocks."""
 
 from __future__ import annotations
 
@@ -22,34 +22,34 @@ from kineme.recordings.signals import Signals
 from kineme.recordings.times import UNITS_NAMED, as_seconds, find_time_unit, is_rate, is_time
 
 ASSUMED_FPS = 30.0
-"""Rows per second, where nobody says."""
+"""Default rows per second if neither data nor caller tell the rate."""
 
 
 def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None = None) -> Signals:
-    """Return rows of numbers as signals on a true clock.
+    """Return rows of numbers as signals at their true times.
 
-    What had to be guessed is a `KinemeWarning`, which `fps` or `times` silence.
+    Guesses are reported by a `KinemeWarning`; pass `fps` or `times` to avoid them.
 
     Parameters
     ----------
     data : array_like, data frame or xarray object
-        (rows,) or (rows, channels), NaN where there is nothing. Columns that count, label or are
-        no numbers are left out.
+        (rows,) or (rows, channels), NaN where missing. Counters, labels and columns without numbers
+        are left out.
     fps : float, optional
-        Rows per second. Rows are then frames, whatever the index says.
+        Rows per second. Rows are then frames, and the index is ignored.
     times : (rows,) array_like, optional
-        When each row was taken: numbers in any unit since any beginning, dates, or texts of these.
-        By default the dates in the index, the coordinate ``time``, or a column that is called so.
+        Time of each row: numbers in any unit from any origin, dates, or texts of these. By default
+        the dates in the index, the coordinate ``time``, or a column of that name.
 
     Returns
     -------
     Signals
-        Frames are rows where the times are even, else see `kineme.recordings.regular`.
+        Frames are rows if the times are even, else see `kineme.recordings.regular`.
 
     Raises
     ------
     ParameterError
-        No numbers, times that tell no rate, or as many times as there are no rows.
+        No numbers, times without a rate, or numbers of times and rows differ.
 
     Examples
     --------
@@ -67,9 +67,9 @@ def read_samples(
     times: ArrayLike | None = None,
     assumed_fps: float = ASSUMED_FPS,
 ) -> tuple[Signals, Timing]:
-    """Return what `as_signals` does, and the frame of each row; ``assumed_fps`` where none tells.
+    """Return the signals of `as_signals`, and the frame of each row.
 
-    See `as_signals`.
+    ``assumed_fps`` is used if neither data nor caller tell the rate.
     """
     samples = _convert_samples(data)
     if times is not None:
@@ -85,21 +85,21 @@ def read_samples(
 
 @dataclass(frozen=True, eq=False)
 class _Samples:
-    """Rows of channels, and what tells their times."""
+    """Rows of channels, and data about their times."""
 
     values: Floats
     names: tuple[str, ...]
     times: Any = None
     unit: str | None = None
     rate: float | None = None
-    order: Any = None  # of whole numbers in the index, which may be shuffled
+    order: Any = None  # sorts rows by a shuffled integer index
     notes: list[Note | str] = field(default_factory=list)
 
 
 def _find_rate_and_frames(
     samples: _Samples, fps: float | None, times: ArrayLike | None, assumed_fps: float
 ) -> tuple[Timing, list[Note | str]]:
-    """Return the rate and the frames of rows, and notes."""
+    """Return the rate and frames of rows, and notes."""
     n = len(samples.values)
     if samples.times is not None and (fps is None or times is not None):
         try:
@@ -108,9 +108,9 @@ def _find_rate_and_frames(
             raise ParameterError(f"the times are none: {error}") from None
         if seconds.shape != (n,):
             raise ParameterError(f"there are {n} rows and times of shape {seconds.shape}")
-        remark = guessed and f"times are taken in {UNITS_NAMED[guessed]}, by their steps"
+        guess = guessed and f"times are taken in {UNITS_NAMED[guessed]}, by their steps"
         timing = place_rows(seconds, samples.values, fps=0.0 if fps is None else as_rate(fps))
-        return timing, [Note(remark, "warning")] if remark else []
+        return timing, [Note(guess, "warning")] if guess else []
     notes: list[Note | str] = []
     rate = samples.rate if fps is None else as_rate(fps)
     if rate is None:
@@ -123,7 +123,7 @@ def _find_rate_and_frames(
 
 
 def _convert_samples(data: Any) -> _Samples:
-    """Return the rows in an array, a data frame or series, or an object of xarray."""
+    """Return the rows of an array, a data frame or series, or an xarray object."""
     if isinstance(data, Signals):
         raise ParameterError("these are signals already, whose fps is theirs")
     if hasattr(data, "dims") and hasattr(data, "coords"):
@@ -141,7 +141,7 @@ def _convert_samples(data: Any) -> _Samples:
 
 
 def _convert_xarray(data: Any) -> _Samples:
-    """Return variables along ``time`` or their first dimension, a channel for each column."""
+    """Return variables along ``time`` or the first dimension, one channel per column."""
     arrays = list(data.data_vars.values()) if hasattr(data, "data_vars") else [data]
     along = "time" if "time" in data.dims else next(iter(data.dims), None)
     columns = [
@@ -159,9 +159,9 @@ def _convert_xarray(data: Any) -> _Samples:
 
 
 def _list_columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the name and values of each column of a data array, none if it is not numeric.
+    """Yield the name and values of each column of a numeric data array.
 
-    ``along`` is the time dimension. A name is that of the array and the labels of the column.
+    ``along`` is the time dimension. Names combine that of the array and the column's labels.
     """
     if array.dtype.kind not in "iufb":
         return
@@ -178,7 +178,7 @@ def _list_columns(array: Any, along: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _convert_frame(frame: Any) -> _Samples:
-    """Return the columns of numbers of a data frame, and its times."""
+    """Return the numeric columns of a data frame, and its times."""
     names = list(frame.columns)
     by_place = getattr(frame, "iloc", None)
     columns = [frame[n] if by_place is None else by_place[:, i] for i, n in enumerate(names)]
@@ -215,7 +215,7 @@ def _convert_frame(frame: Any) -> _Samples:
 
 
 def _convert_numbers(column: Any) -> Floats:
-    """Return a column as numbers, NaN for what pandas calls missing."""
+    """Return a column as numbers, NaN for missing values of pandas."""
     try:
         return np.asarray(column, np.float64)
     except (ValueError, TypeError):
@@ -223,26 +223,26 @@ def _convert_numbers(column: Any) -> Floats:
 
 
 def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> Signals:
-    """Return the channels of several sensors on one clock, for as long as all of them recorded.
+    """Return the channels of several sensors on one clock, while all of them recorded.
 
     Parameters
     ----------
     *signals : Signals
-        Of one person at one time, each with its own rate and clock.
+        Recorded at the same time, each with its own rate and clock.
     offsets : sequence of float, optional
-        Seconds at which each begins, on a clock in common. By default their clocks tell, if these
-        are dates or overlap; else all begin at once, with a warning.
+        Start of each in seconds on a common clock. By default their clocks are used if these are
+        dates or overlap; else all start at once, with a warning.
 
     Returns
     -------
     Signals
-        At the rate of the fastest, with the gaps of all. A name that several have is put behind
-        the name of its file, or its number.
+        At the highest rate, with the gaps of all. Names that occur more than once get the name of
+        their file, or a number, as a prefix.
 
     Raises
     ------
     ParameterError
-        They do not overlap, or are no signals.
+        They do not overlap, or are not signals.
 
     Examples
     --------
@@ -252,19 +252,19 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     >>> kineme.join_signals(one, other, offsets=[0, 0]).values.tolist()
     [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 3.0], [4.0, 4.0]]
     """
-    for each in signals:
-        check_type(each, Signals, "join_signals", "kineme.as_signals(array, fps=...) gives some")
+    for sensor in signals:
+        check_type(sensor, Signals, "join_signals", "kineme.as_signals(array, fps=...) gives some")
     if not signals:
         raise ParameterError("join_signals takes one or more signals")
     clocks, notes = _compare_clocks(signals, offsets)
     begins = [float(clock.time(0.0)) for clock in clocks]
     ends = [
-        float(clock.time((each.n_frames - 1) / each.fps))
-        for clock, each in zip(clocks, signals, strict=True)
+        float(clock.time((sensor.n_frames - 1) / sensor.fps))
+        for clock, sensor in zip(clocks, signals, strict=True)
     ]
-    fps = max(each.fps for each in signals)
-    first = next(k for k, each in enumerate(signals) if each.fps == fps)
-    # the frames of the fastest stay where they are
+    fps = max(sensor.fps for sensor in signals)
+    first = next(k for k, sensor in enumerate(signals) if sensor.fps == fps)
+    # frames of the fastest sensor are kept
     start = begins[first] + np.ceil((max(begins) - begins[first]) * fps - 1e-3) / fps
     n_frames = int(np.floor((min(ends) - start) * fps + 1e-3)) + 1
     if n_frames < 1:
@@ -277,18 +277,18 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         notes.append(f"{lost:.4g} s in which not all sensors recorded left out")
     times = start + np.arange(n_frames) / fps
     columns, missing = [], np.zeros(n_frames, np.bool_)
-    for clock, each in zip(clocks, signals, strict=True):
+    for clock, sensor in zip(clocks, signals, strict=True):
         seconds = clock.second(times)
-        at = np.clip(seconds * each.fps, 0, each.n_frames - 1)
-        columns.append(interpolate_frames(each.values, at))
-        hidden = np.zeros(each.n_frames + 1, np.bool_)
-        for begin, stop in each.gaps:
+        at = np.clip(seconds * sensor.fps, 0, sensor.n_frames - 1)
+        columns.append(interpolate_frames(sensor.values, at))
+        hidden = np.zeros(sensor.n_frames + 1, np.bool_)
+        for begin, stop in sensor.gaps:
             hidden[begin:stop] = True
         missing |= hidden[np.rint(at).astype(np.intp)]
-        missing |= np.abs(clock.time(seconds) - times) > LONGEST_S  # in a pause
+        missing |= np.abs(clock.time(seconds) - times) > LONGEST_S  # times within a pause
     names = _make_names_unique(signals)
     source = signals[0].provenance
-    notes = [*(note for each in signals for note in each.provenance.notes), *notes]
+    notes = [*(note for sensor in signals for note in sensor.provenance.notes), *notes]
     joined = Provenance(source.path, source.format, source.sha256).noted(*dict.fromkeys(notes))
     begun = Clock([0.0], [start]) if abs(start) > 0.5 / fps else None
     gaps = [(begin, stop) for begin, stop in find_spans(missing).tolist()]
@@ -298,15 +298,15 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
 def _compare_clocks(
     signals: Sequence[Signals], offsets: Sequence[float] | None
 ) -> tuple[list[Clock], list[Note | str]]:
-    """Return the clock of each as far as they can be compared, and notes."""
+    """Return a clock for each, all with the same origin, and notes."""
     if offsets is not None:
         if len(offsets) != len(signals) or not all(map(is_number, offsets)):
             raise ParameterError(f"offsets are {len(signals)} numbers, not {offsets!r:.60}")
         clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
         started = zip(clocks, offsets, strict=True)
-        return [_shift_clock(c.since_first(), offset) for c, offset in started], []
+        return [_shift_clock(c.make_relative(), offset) for c, offset in started], []
     clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
-    if all(clock.tells_dates for clock in clocks):
+    if all(clock.shows_dates for clock in clocks):
         return clocks, []
     lasts = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
     overlap = min(lasts) - max(clock.times[0] for clock in clocks)
@@ -316,7 +316,7 @@ def _compare_clocks(
         "the clocks of the sensors have nothing in common: taken to begin at once; give offsets"
     )
     warn(remark)
-    return [clock.since_first() for clock in clocks], [Note(remark, "warning")]
+    return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 
 
 def _shift_clock(clock: Clock, seconds: float) -> Clock:
@@ -324,7 +324,7 @@ def _shift_clock(clock: Clock, seconds: float) -> Clock:
 
 
 def _make_names_unique(signals: Sequence[Signals]) -> tuple[str, ...]:
-    """Return the names of all channels, those of several sensors behind the name of theirs."""
+    """Return the names of all channels, with the sensor as a prefix if several have the name."""
     every = [name for each in signals for name in each.names]
     stems = [Path(each.provenance.path or str(k)).stem for k, each in enumerate(signals, 1)]
     if len(set(stems)) < len(stems):

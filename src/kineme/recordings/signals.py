@@ -16,31 +16,31 @@ from kineme.recordings.provenance import Provenance
 from kineme.recordings.recording import Recording, Spans, as_gaps
 
 LARGEST = 1e30
-"""In any unit; squares and sums of such values are still finite."""
+"""Largest absolute value in any unit; squares and sums of such values are finite."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Signals(Recording):
-    """Channels of one recording, taken at the same times.
+    """Channels of one recording, sampled at the same times.
 
     Parameters
     ----------
     values : array_like, shape (frames, channels)
-        Finite, in any units; one channel may come as a vector. A data frame names its columns.
+        Finite, in any units; one channel may be a vector. A data frame provides names.
     fps : float
         Frames per second.
     names : sequence of str, optional
         One per channel, unique; by default those of a data frame's columns, else numbers from 1.
     gaps : sequence of (int, int)
-        Frames [start, stop) in which nothing was recorded, whatever the values there.
+        Frames [start, stop) in which nothing was recorded. The values in them have no meaning.
     provenance : Provenance
-        Where they came from, and what had to be inferred.
+        Source of the signals, and what was inferred from it.
 
     Raises
     ------
     ParameterError
-        Shapes disagree, no frames or channels, values that are not finite, or gaps that
-        are out of order or leave nothing.
+        Shapes do not match, no frames or channels, values that are not finite, or gaps that
+        are out of order or cover everything.
 
     Examples
     --------
@@ -92,7 +92,7 @@ class Signals(Recording):
         return len(self.names)
 
     def select(self, names: Iterable[str]) -> Signals:
-        """These channels, in this order; ParameterError where there is none of a name."""
+        """Return these channels in this order; raise ParameterError for an unknown name."""
         selection = as_texts(names, "names of channels")
         for name in selection:
             if name not in self.names:

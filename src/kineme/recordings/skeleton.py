@@ -1,12 +1,11 @@
-"""Joints of a body and how they hang together.
+"""Skeletons: the joints of a body, their parents and offsets.
 
-A joint sits where its rotation acts, and its offset is carried by the parent:
+A joint lies at the centre of its rotation, and its offset turns with the parent:
 
     G[j] = G[parent] * R[j]
     p[j] = p[parent] + G[parent] @ offset[j]
 
-An end site is a leaf without rotation of its own (a fingertip, the crown of
-the head).
+An end site is a leaf without a rotation of its own (a fingertip, the top of the head).
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from kineme.recordings.arrays import assign, freeze
 from kineme.recordings.rig import Rig
 
 LIMB = 2
-"""Bones below the first joint of a leg, at least: knee to ankle, ankle to toes."""
+"""Least number of bones below the first joint of a leg: knee to ankle, ankle to toes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,17 +37,16 @@ class Skeleton:
     parents : sequence of int
         The index of each joint's parent, -1 for a root.
     offsets : array_like, shape (joints, 3)
-        From parent to joint at rest, metres.
+        Vectors from parent to joint at rest, metres.
     end_sites : iterable of int
-        The leaves that have no rotation of their own.
+        Leaves without a rotation of their own.
     rig : Rig, optional
-        The nodes of the file that it came from, which writers put back.
+        Nodes of the source file, which writers restore.
 
     Raises
     ------
     MotionError
-        The parts differ in length, a name repeats, or a parent does not come before its
-        child (as in a cycle).
+        Lengths differ, a name repeats, or a parent does not come before its child.
 
     Examples
     --------
@@ -82,7 +80,7 @@ class Skeleton:
                 f"{self.offsets.shape} do not describe one skeleton"
             )
         if len(self._index) != n:
-            # In the index the last of two equal names wins, so the first differs from its place.
+            # The index holds the last of two equal names, so the first one finds another index.
             twice = next(name for j, name in enumerate(self.names) if self._index[name] != j)
             raise MotionError(f"two joints are called {twice!r}: rename one of them")
         for joint, parent in enumerate(self.parents):
@@ -103,9 +101,9 @@ class Skeleton:
         return f"<Skeleton of {format_count(self.n_joints, 'joint')}{ends}>"
 
     def joint(self, name: str) -> int:
-        """Return the index of the joint of this name.
+        """Return the index of the joint with this name.
 
-        A ParameterError names those closest to it.
+        Raise ParameterError with similar names if there is none.
         """
         try:
             return self._index[name]
@@ -121,7 +119,7 @@ class Skeleton:
 
     @cached_property
     def children(self) -> tuple[tuple[int, ...], ...]:
-        """Return for each joint the indices of its children, in order."""
+        """Return the indices of the children of each joint, in order."""
         lists: list[list[int]] = [[] for _ in self.names]
         for joint, parent in enumerate(self.parents):
             if parent >= 0:
@@ -138,21 +136,21 @@ class Skeleton:
 
     @cached_property
     def carrier(self) -> int:
-        """Return the joint that carries the body: the hips, also where root bones lie above them.
+        """Return the joint that moves the whole body: the hips, even if there are bones above them.
 
-        It is the first joint from the root down, always into the largest branch, that has two
-        limbs: children with the same number of joints below them, two bones or more deep. Where
-        there are no limbs it is the first root.
+        Going down from the root into the largest branch each time, it is the first joint with two
+        limbs: children with equally many joints below them, two bones or more deep. Without limbs
+        it is the first root.
 
         Examples
         --------
         >>> legs = ("root", "hips", "knee_l", "foot_l", "toe_l", "knee_r", "foot_r", "toe_r")
         >>> parents = (-1, 0, 1, 2, 3, 1, 5, 6)
-        >>> Skeleton(legs, parents, np.zeros((8, 3))).carrier
+        >>> Skeleton(legs, parents, [[0, 0, 0]] * 8).carrier
         1
         """
         below, depth = [1] * self.n_joints, [0] * self.n_joints
-        # Children before parents, so the counts of a joint are complete when it is reached.
+        # Children come first here, so the counts of a joint are complete when it is reached.
         for joint in range(self.n_joints - 1, 0, -1):
             if (parent := self.parents[joint]) >= 0:
                 below[parent] += below[joint]
@@ -169,7 +167,7 @@ class Skeleton:
 
     @cached_property
     def body(self) -> tuple[int, ...]:
-        """Return the joints of the body: all but those that lie above the carrier or beside it."""
+        """Return the carrier and all joints below it."""
         if self.parents[self.carrier] < 0:
             return tuple(range(self.n_joints))
         inside = {self.carrier}

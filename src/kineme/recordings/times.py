@@ -1,14 +1,14 @@
-"""Times of rows: what their columns are called, and how they are written.
+"""Recognise columns of times by name, and parse their values.
 
 Columns of times are called ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or
-``seconds``, with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``; those with
-a rate in every row ``fps`` or ``rate``.
+``seconds``, with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``. Columns with
+the rate in every row are called ``fps`` or ``rate``.
 
 Times may be dates: ISO 8601 with or without a zone (UTC without), the time of day, or a date as
 loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:00 AM``.
-Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds, which their size
-tells: those of the years 2001 to 2100 in one unit are none of these years in another. Numbers from
-any other beginning, such as the start of a phone, are told by their steps.
+Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds. Their size tells the unit: a
+year from 2001 to 2100 in one unit lies outside these years in another. The unit of numbers with
+another origin, such as the start of a phone, is guessed from their steps.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats
 
 UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
-"""How many of each make a second."""
+"""Units of time, and how many of each make a second."""
 
 UNITS_NAMED = {"ms": "milliseconds", "us": "microseconds", "ns": "nanoseconds"}
-"""Units that are guessed, in words."""
+"""Names of the units that may be guessed."""
 
 RATE = "fps"
-"""A column that tells a rate, as it is written."""
+"""Name of a column of frame rates in files written by kineme."""
 
 NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
-"""Of a column that is called as times are, and tells none."""
+"""Error for a column that is named like times but holds none."""
 
 _EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
-_SLOWEST = 4.0  # rows per second at least, in the unit that is guessed
+_SLOWEST = 4.0  # least rows per second in a guessed unit
 
 _TIME = re.compile(
     r"((?:unix|epoch|utc|sensor|elapsed)?[\s_]*time(?:[\s_]*stamp)?|t|date[\s_]*time|elapsed|"
@@ -45,7 +45,7 @@ _TIME = re.compile(
     re.IGNORECASE,
 )
 _RATE = re.compile(r"fps|rate|frame[\s_]?rate", re.IGNORECASE)
-_CLOCK = re.compile(  # a name that says time, with a unit perhaps
+_CLOCK = re.compile(  # a name that contains "time", with an optional unit
     r".*(?:[Tt]ime[Ss]tamp|[Tt]ime(?![a-z])|TIME).*?"
     rf"(?:[\s_]*[\[(_\s]({'|'.join(UNITS_OF_TIME)})[\])]?)?"
 )
@@ -60,19 +60,19 @@ _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
 def is_timing(column: str) -> bool:
-    """Return whether a column of this name tells a time or a rate."""
+    """Return whether a column of this name holds times or rates."""
     return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
 
 
 def is_rate(column: str) -> bool:
-    """Return whether a column of this name tells a rate."""
+    """Return whether a column of this name holds rates."""
     return _RATE.fullmatch(column.strip()) is not None
 
 
 def find_date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
-    """Return which columns of a text table tell the time by dates, as their first cells do.
+    """Return the columns of a text table that hold dates, judging by their first cells.
 
-    Where none is called as times are, the first that holds a time of day, whatever its name.
+    If no name is that of times, return the first column with a time of day.
     """
     dates = [i for i, (_, cell) in enumerate(zip(names, cells, strict=False)) if is_date(cell)]
     if any(map(is_timing, names)):
@@ -81,9 +81,9 @@ def find_date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
 
 
 def append_unit(name: str, unit: str) -> str:
-    """Return the name of a column of times with the unit that stands below it.
+    """Return the name of a column of times with the unit from the line below it.
 
-    As it is where none does.
+    Other names stay unchanged.
 
     Examples
     --------
@@ -97,7 +97,7 @@ def append_unit(name: str, unit: str) -> str:
 
 
 def name_clock(name: str) -> str | None:
-    """Return what to call a column that rises as clocks do, if its name says that it is one.
+    """Return a standard name for an increasing column if its name contains "time", else None.
 
     Examples
     --------
@@ -110,37 +110,37 @@ def name_clock(name: str) -> str | None:
 
 
 def find_time_unit(column: str) -> str | None:
-    """Return the unit that the name of a column of times tells; None where it tells none."""
+    """Return the unit in the name of a column of times, or None."""
     match = _TIME.fullmatch(column.strip())
     return match[2].lower() if match and match[2] else None
 
 
 def is_time(column: str) -> bool:
-    """Return whether a column of this name tells times."""
+    """Return whether a column of this name holds times."""
     return _TIME.fullmatch(column.strip()) is not None
 
 
 def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str | None]:
-    """Return times as seconds, and the unit if it was guessed from their steps.
+    """Return times in seconds, and the unit if it was guessed from their steps.
 
     Parameters
     ----------
     values : (rows,) array_like
         Numbers, dates of numpy and pandas, or texts.
     unit : str, optional
-        One of `UNITS_OF_TIME`. By default what numbers of this size since 1970 must be, else
-        seconds, else the coarsest unit in which there are four rows a second.
+        One of `UNITS_OF_TIME`. By default the unit in which the numbers are dates of this century;
+        else seconds, or the coarsest unit with at least four rows a second if steps are large.
 
     Returns
     -------
     seconds : (rows,) array
-        NaN where there is no time.
+        NaN for missing times.
     guessed : str or None
 
     Raises
     ------
     ValueError, TypeError
-        They are no times.
+        The values are not times.
 
     Examples
     --------
@@ -167,7 +167,7 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
 
 
 def is_date(text: str) -> bool:
-    """Return whether a cell holds a date or a time of day."""
+    """Return whether a text is a date or a time of day."""
     try:
         parse_date(text)
     except ValueError:
@@ -176,10 +176,10 @@ def is_date(text: str) -> bool:
 
 
 def parse_date(text: str, *, day_first: bool | None = None) -> float:
-    """Seconds since 1970, or since midnight for a time of day; ValueError if it is neither.
+    """Return seconds since 1970, or since midnight for a time of day; raise ValueError if neither.
 
-    A leap second, ``23:59:60``, is the first of the next minute, as clocks since 1970 count.
-    ``day_first`` is what `is_day_first` found; None for what is usual.
+    A leap second, ``23:59:60``, equals the first second of the next minute, as in Unix time.
+    ``day_first`` is the result of `is_day_first`; None for the usual order.
     """
     if not any(mark in text for mark in "-:"):
         raise ValueError(f"{text[:40]!r} is no ISO date")
@@ -197,9 +197,9 @@ def parse_date(text: str, *, day_first: bool | None = None) -> float:
 
 
 def is_day_first(texts: Sequence[str]) -> bool | None:
-    """Return whether days stand before months in dates of numbers that end in the year.
+    """Return whether days come before months in numeric dates that end with the year.
 
-    None where they are written otherwise, or each could be either.
+    None for other formats, or if all dates are ambiguous.
 
     Examples
     --------
@@ -215,7 +215,7 @@ def is_day_first(texts: Sequence[str]) -> bool | None:
 
 
 def is_ambiguous(text: str) -> bool:
-    """Return whether a date names day and month in an order that it does not tell."""
+    """Return whether the order of day and month in a date is unknown."""
     match = _WRITTEN.fullmatch(text)
     if match is None or len(match["first"]) == 4 or match["mark"] == ".":
         return False
@@ -223,12 +223,12 @@ def is_ambiguous(text: str) -> bool:
 
 
 def _parse_date_or_nan(value: Any) -> float:
-    """As `parse_date`; NaN for None and empty text."""
+    """Return the result of `parse_date`, or NaN for None and empty text."""
     return parse_date(value.strip()) if value and value.strip() else np.nan
 
 
 def _format_iso(date: re.Match[str], day_first: bool | None) -> str:
-    """Return a date as ISO 8601 writes it."""
+    """Return a date in ISO 8601 format."""
     first, second, third = date["first"], date["second"].lower(), date["third"]
     if len(first) == 4:
         year, month, day = first, second, third
@@ -254,14 +254,14 @@ def _parse_time_of_day(text: str) -> time:
 
 
 def _convert_date(value: Any) -> float:
-    """Return a date of Python or pandas as seconds since 1970, UTC without a zone."""
-    if not isinstance(value, datetime) or value != value:  # noqa: PLR0124 (what is no time)
+    """Return a datetime as seconds since 1970, in UTC if it has no zone; NaN for NaT."""
+    if not isinstance(value, datetime) or value != value:  # noqa: PLR0124 (NaT)
         return np.nan
     return (value if value.tzinfo else value.replace(tzinfo=UTC)).timestamp()
 
 
 def _find_unit_since_1970(numbers: Floats) -> str | None:
-    """Return the unit in which these numbers are dates of this century; None for others."""
+    """Return the unit in which these numbers are dates of this century, or None."""
     finite = numbers[np.isfinite(numbers)]
     middle = float(np.median(finite)) if len(finite) else 0.0
     units = ("s", "ms", "us", "ns")
@@ -269,11 +269,11 @@ def _find_unit_since_1970(numbers: Floats) -> str | None:
 
 
 def _find_unit_of_steps(numbers: Floats) -> str | None:
-    """Return the unit in which steps are of a sensor's rate; None where they may be seconds."""
+    """Return the unit in which the steps give a sensor's rate; None if they may be seconds."""
     finite = np.sort(numbers[np.isfinite(numbers)])
     steps = np.diff(finite)
     steps = steps[steps > 0]
-    # Steps of one are a count of rows, or seconds.
+    # Steps of 1 are a row counter, or seconds.
     step = float(np.median(steps)) if len(steps) > 1 else 0.0
     if step < 2:
         return None

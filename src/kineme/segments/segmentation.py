@@ -384,7 +384,7 @@ class Segmentation:
             Seconds, or ISO 8601 dates if the clock counts since 1970.
         """
         clock = self.clock
-        return [] if clock is None else [clock.shown(row.start_s) for row in self]
+        return [] if clock is None else [clock.format_time(row.start_s) for row in self]
 
     def rows(self) -> dict[str, NDArray[np.int64]]:
         """Return ``start_row`` and ``stop_row`` of each segment in the time-ordered source.

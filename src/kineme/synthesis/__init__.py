@@ -1,4 +1,4 @@
-"""New motion from primitives: a motion graph, routes through it, and their blending."""
+"""Synthesise motion from primitives: motion graphs, routes through them, and blending."""
 
 from kineme.synthesis.blending import Placement, find_foot_contacts, plant_feet, synthesize
 from kineme.synthesis.building import check_source, motion_graph

@@ -1,14 +1,14 @@
-"""From a route through the graph to a motion.
+"""Turn a route through a motion graph into a motion.
 
-Spans of the sources are laid end to end, each turned about the vertical and moved on the floor as
-its jump says. Around a jump both recordings go on for half a window, and the motion goes over from
-the one to the other. Joint rotations go along the sphere, translations in a line, with the smooth
-weight 3w² - 2w³ (Kovar, Gleicher and Pighin 2002, section 3.2). Last, feet that stand are kept from
-sliding (after Kovar, Schreiner and Gleicher 2002, Footskate cleanup).
+Spans of the sources are concatenated, each turned about the vertical and moved on the floor by its
+jump. Around a jump both recordings continue for half a window and are blended: rotations by
+spherical, translations by linear interpolation, with the weight 3w² - 2w³ (Kovar, Gleicher and
+Pighin 2002, section 3.2). Finally foot sliding is removed (after Kovar, Schreiner and Gleicher
+2002, Footskate cleanup).
 
-A foot stands while its ankle is low and slow. It is then held at one place of the floor, and hip,
-knee and ankle bend to bring it there. This is a two-bone inverse kinematics in closed form. It
-keeps the direction of the foot and the height of the ankle. Before and after, the correction fades.
+A foot stands while its ankle is low and slow. It is then held at one position on the floor by
+two-bone inverse kinematics in closed form for hip, knee and ankle. The direction of the foot and
+the height of the ankle stay. The correction fades in before and out after the contact.
 """
 
 from __future__ import annotations
@@ -58,19 +58,19 @@ class Placement:
     shift: complex = 0j
 
     def after(self, angle: float, shift: tuple[float, float]) -> Placement:
-        """Return the placement of what is itself turned and moved before."""
+        """Return the placement that applies a turn and shift first, then this placement."""
         # The new turn comes first in space: its shift is turned and moved by this placement.
         return Placement(self.angle + angle, self.of(complex(*shift)))
 
     def of(self, floor: complex) -> complex:
-        """Where a point of the floor comes to lie."""
+        """Return a point of the floor after the placement."""
         # Placements turn x + iz by exp(-i angle), as a turn about y does.
         return complex(np.exp(-1j * self.angle)) * floor + self.shift
 
 
 @dataclass(frozen=True)
 class PlacedSpan:
-    """Frames [start, stop) of a source, and where they are laid."""
+    """Frames [start, stop) of a source, and their placement."""
 
     source: int
     start: int
@@ -86,19 +86,19 @@ def synthesize(
     start: Placement | None = None,
     plant: bool = True,
 ) -> Motion:
-    """Return the motion of a route: its nodes played one after the other.
+    """Return the motion of a route, with its nodes played in order.
 
     Parameters
     ----------
     graph : MotionGraph
     motions : sequence of Motion
-        Those it was built on, in order.
+        Source motions of the graph, in order.
     route : sequence of int
-        Node numbers, each joined to the next by an edge; see `kineme.synthesis.routes`.
+        Node numbers, each connected to the next by an edge; see `kineme.synthesis.routes`.
     start : Placement, optional
-        Where the first node is laid; as it was recorded by default.
+        Placement of the first node; as recorded by default.
     plant : bool
-        Whether standing feet are kept from sliding.
+        Whether to remove foot sliding.
 
     Returns
     -------
@@ -107,8 +107,8 @@ def synthesize(
     Raises
     ------
     ParameterError
-        An empty route, nodes without an edge between them, or other motions than the
-        graph's.
+        An empty route, nodes without an edge between them, or motions that do not match the
+        graph.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def synthesize(
 
 
 def place_spans(graph: MotionGraph, route: Sequence[int], at: Placement) -> list[PlacedSpan]:
-    """Return the spans to play; nodes that follow each other in a recording are one."""
+    """Return the spans to play; successive nodes of a recording are merged."""
     if not route:
         raise ParameterError("a route needs at least one node")
     first = graph.nodes[route[0]]
@@ -159,7 +159,7 @@ def place_spans(graph: MotionGraph, route: Sequence[int], at: Placement) -> list
             raise ParameterError(f"no edge leads from node {tail} to node {head}")
         edge, node = graph.edges[graph.edge_between[tail, head]], graph.nodes[head]
         if not edge.jump:
-            # The recording's own successor needs no blending: its span goes on.
+            # The recording's own successor needs no blending: extend the span.
             spans[-1] = replace(spans[-1], stop=node.stop)
             continue
         spans[-1] = replace(spans[-1], stop=edge.leave)
@@ -169,7 +169,7 @@ def place_spans(graph: MotionGraph, route: Sequence[int], at: Placement) -> list
 
 
 def find_jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
-    """Return the frame of the new motion at the middle of each jump."""
+    """Return the frame of the new motion at each jump."""
     # Ends of all spans but the last.
     return list(accumulate(span.stop - span.start for span in spans))[:-1]
 
@@ -177,26 +177,26 @@ def find_jump_frames(spans: Sequence[PlacedSpan]) -> list[int]:
 def _blend_spans(
     spans: Sequence[PlacedSpan], motions: Sequence[Motion], half: int
 ) -> tuple[Floats, Floats]:
-    """Rotations and translations of all spans, blended over ``half`` frames about each jump."""
+    """Return rotations and translations of all spans, blended ``half`` frames around each jump."""
     shifts = [
         compute_local_translations(motion.skeleton, motion.positions, motion.rotations)
         for motion in motions
     ]
 
-    def placed(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
+    def place_frames(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
         motion = motions[span.source]
         rotations = np.array(motion.rotations)[start:stop]
         return _place_motion(motion, rotations, shifts[span.source][start:stop], span.at)
 
-    placed_spans = [placed(span, span.start, span.stop) for span in spans]
+    placed_spans = [place_frames(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
     for t, (a, b) in zip(find_jump_frames(spans), pairwise(spans), strict=True):
         # Blends of neighbouring jumps must not overlap, and need frames of both recordings.
         room = min(a.stop - a.start, b.stop - b.start) // 2
         n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
         # Extend both spans by n frames across the jump, so that 2 n frames overlap.
-        before, before_shift = placed(a, a.stop - n, a.stop + n)
-        after, after_shift = placed(b, b.start - n, b.start + n)
+        before, before_shift = place_frames(a, a.stop - n, a.stop + n)
+        after, after_shift = place_frames(b, b.start - n, b.start + n)
         # Smoothstep weights at the frame centres; the new axes are joints and components.
         w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
         w = w * w * (3 - 2 * w)
@@ -221,21 +221,21 @@ def _place_motion(
 Spans = list[tuple[int, int]]
 
 HEIGHT = 0.06
-"""Metres above the ankle's lowest 5 % of the motion."""
+"""Largest height of a standing ankle above its lowest 5 % of the motion, metres."""
 SPEED = 0.3
-"""Metres per second."""
+"""Largest speed of a standing ankle, metres per second."""
 SHORTEST = 0.1
-"""Seconds; shorter stands are not held."""
+"""Shortest contact that is corrected, seconds."""
 REACH = 0.05
-"""Metres; a foot that creeps farther is held anew where it has come to."""
+"""Metres of sliding after which a contact is split into a new one."""
 FADE = 0.15
-"""Seconds over which a correction comes and goes."""
+"""Seconds over which a correction fades in and out."""
 STRAIGHT = 0.999
-"""Share of the leg's length that it never stretches beyond."""
+"""Largest extension of a leg relative to its length."""
 
 
 def plant_feet(motion: Motion) -> Motion:
-    """Return the motion with each standing foot held in place; as it is where no feet are found.
+    """Return the motion with each standing foot held in place; unchanged if no feet are found.
 
     Parameters
     ----------
@@ -256,10 +256,10 @@ def plant_feet(motion: Motion) -> Motion:
     120
     """
     try:
-        found = end_effectors(motion)
+        effectors = end_effectors(motion)
     except EndEffectorError:
         return motion
-    for ankle in (found.left_ankle, found.right_ankle):
+    for ankle in (effectors.left_ankle, effectors.right_ankle):
         knee = motion.skeleton.parents[ankle]
         hip = motion.skeleton.parents[knee] if knee >= 0 else -1
         if hip < 0:
@@ -272,12 +272,12 @@ def plant_feet(motion: Motion) -> Motion:
 
 
 def find_foot_contacts(path: Floats, fps: float) -> Spans:
-    """Return the spans [start, stop) of frames over which an ankle is low and slow.
+    """Return the spans [start, stop) of frames in which an ankle is low and slow.
 
     Parameters
     ----------
     path : (frames, 3) array
-        The ankle, metres, y up.
+        Positions of the ankle, metres, y up.
     fps : float
         Frames per second.
 
@@ -299,15 +299,15 @@ def find_foot_contacts(path: Floats, fps: float) -> Spans:
 
 
 def _compute_corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
-    """Return what to add to the ankle's path, (frames, 3); nothing along y."""
+    """Return the horizontal correction of the ankle's path, (frames, 3)."""
     floor = path[:, [0, 2]]
     fade = round(FADE * fps)
     # Knots of the correction: 0 one fade before the first frame.
     frames, values = [-fade], [np.zeros(2)]
     for start, stop in _split_contacts(floor, contacts, round(SHORTEST * fps)):
-        # To the median place of the hold, which single frames do not draw away.
+        # Move to the median position, which is robust against single frames.
         offset = np.median(floor[start:stop], axis=0) - floor[start:stop]
-        # Far from the last hold, the correction fades to 0 in between; else it goes over directly.
+        # Fade to 0 between distant contacts; interpolate directly between close ones.
         if start - frames[-1] > 2 * fade:
             frames += [frames[-1] + fade, start - fade]
             values += [np.zeros(2), np.zeros(2)]
@@ -322,7 +322,7 @@ def _compute_corrections(path: Floats, contacts: Spans, fps: float) -> Floats:
 
 
 def _split_contacts(floor: Floats, contacts: Spans, gap: int) -> Spans:
-    """Contacts, each parted where the foot has crept out of reach, with a gap to step over."""
+    """Split contacts where the foot has slid more than `REACH`, leaving a gap between parts."""
     holds: Spans = []
     for start, stop in contacts:
         first = start
@@ -330,22 +330,21 @@ def _split_contacts(floor: Floats, contacts: Spans, gap: int) -> Spans:
             out_of_reach = np.linalg.norm(floor[first:stop] - floor[first], axis=1) > REACH
             # The first frame out of reach: `argmax` finds the first True.
             last = first + int(np.argmax(out_of_reach)) if out_of_reach.any() else stop
-            # The gap gives the correction time to move to the next hold; a hold has one frame at
-            # least.
+            # The gap lets the correction change gradually; each part keeps at least one frame.
             holds.append((first, max(last - gap * (last < stop), first + 1)))
             first = last
     return holds
 
 
 def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Motion:
-    """Return the motion with the ankle at ``target``, or as near as the leg can reach.
+    """Return the motion with the ankle at ``target``, or as near as the leg reaches.
 
-    The knee opens or closes about its hinge until the ankle is as far from the
-    hip as the target, then the leg turns about the hip.
+    First the knee bends until the distance from hip to ankle fits, then the leg turns about
+    the hip.
     """
     world = compute_world_rotations(motion.skeleton, motion.rotations)
     hip, knee, ankle = (motion.positions[:, j] for j in leg)
-    # Untouched frames must stay exactly as they are.
+    # Frames without a correction must stay exactly equal.
     moved = np.linalg.norm(target - ankle, axis=1) > 1e-9
     if not moved.any():
         return motion
@@ -355,10 +354,10 @@ def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Mo
     # A triangle needs its third side between the difference and the sum of the others.
     length = np.clip(length, np.abs(a - b) / STRAIGHT, (a + b) * STRAIGHT)
     # Angle between the directions of thigh and shin, 0 for a straight leg.
-    now = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
+    bent = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
     # Law of cosines for the length wanted.
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _rotate_about(_find_hinge(thigh, shin, world[:, leg[0]]), angle - now)
+    bend = _rotate_about(_find_hinge(thigh, shin, world[:, leg[0]]), angle - bent)
     reached = thigh + rot.rotate(bend, shin)
     # The bent leg turns about the hip so that the ankle points to the target.
     swing = _rotate_onto(reached, target - hip)
@@ -387,7 +386,7 @@ def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Mo
 
 
 def _find_hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
-    """Return the knee's axis in the world; that of the whole motion where the leg is straight."""
+    """Return the knee's world axis; for a straight leg, its usual axis in the motion."""
     axis = np.cross(thigh, shin)
     size = np.linalg.norm(axis, axis=1, keepdims=True)
     # The usual axis in the frame of the thigh; bent frames weigh more, by their longer products.
@@ -405,7 +404,7 @@ def _rotate_about(axis: Floats, angle: Floats) -> Floats:
 
 
 def _rotate_onto(a: Floats, b: Floats) -> Floats:
-    """Return the smallest rotations that turn the direction of a into that of b."""
+    """Return the smallest rotations from the directions of ``a`` to those of ``b``."""
     a, b = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (a, b))
     # (1 + cos, sin axis) is twice cos(half) times the quaternion: normalised, it is the half angle.
     q = np.concatenate([1 + (a * b).sum(1, keepdims=True), np.cross(a, b)], axis=1)

@@ -1,12 +1,12 @@
-"""From recordings and their primitives to a motion graph.
+"""Build a motion graph from recordings and their primitives.
 
-Jumps are looked for between the end of one node and the start of another: frames no farther from
-its border than a quarter of the node, and no farther than the window. Candidates are neighbours in
-feature space, found by one sparse search. Of each pair of nodes the few nearest are measured as
-point clouds. The best becomes an edge if it is below the threshold.
+Jumps lead from the end of one node to the start of another: to frames within a quarter of the node,
+and within the window, of its border. Candidates are neighbours in feature space, found by one
+sparse search. For each pair of nodes the nearest candidates are compared as point clouds. The best
+one becomes an edge if it is below the threshold.
 
-Frames are those of the ``kineme`` preset's working rate, 30 Hz; leaving and
-entering frames are given at the sources' own rate.
+Frames are compared at the working rate of the ``kineme`` preset, 30 Hz; edges store frames at the
+rate of the sources.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ from kineme.synthesis.graph import Edge, MotionGraph, Node, Source
 from kineme.transfer.sharing import share_clusters
 
 RADIUS = 0.25
-"""Body sizes, in the features of the preset."""
+"""Radius of the neighbour search in feature space, in body sizes."""
 CANDIDATES = 12
-"""Pairs of frames measured for each pair of nodes; with this radius, 99.8 % of the jumps are found
-that measuring all pairs of frames finds on these four recordings."""
+"""Pairs of frames compared for each pair of nodes; this finds 99.8 % of the jumps that comparing
+all pairs of frames finds on three takes of subject 86 and the bundled recording."""
 
 POSES = KINEME.replace(offsets=(-0.2, -0.1, 0.0, 0.1, 0.2))
-"""Poses with those before and after, so that a jump goes on as it came."""
+"""Preset whose features include neighbouring poses, so that jumps preserve movement."""
 
 
 @dataclass(frozen=True)
-class _Ends:
-    """Frames at which nodes may be left or entered, and whose they are."""
+class _EndFrames:
+    """Frames at which nodes may be left or entered, and their nodes."""
 
     frames: Ints
     nodes: Ints
@@ -54,13 +54,13 @@ class _Ends:
 def find_jumps(
     motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
 ) -> list[Edge]:
-    """Return the best jump of every pair of nodes that has one below the threshold."""
+    """Return the best jump below the threshold for each pair of nodes."""
     rate = POSES.working_fps
     slow = [resample(motion, rate) for motion in motions]
-    # Sources are laid end to end: their first frames, and the end of the last.
+    # Sources are concatenated: first frame of each, and the end of the last.
     firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
     points = np.concatenate([motion.positions[:, motion.skeleton.body] for motion in slow])
-    # Features are at the working rate already, as `slow` is.
+    # Features are at the working rate, like `slow`.
     features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
@@ -72,7 +72,7 @@ def find_jumps(
     near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
     # Row of each neighbour pair, from the counts of the sparse search.
     rows = np.repeat(np.arange(len(near)), near.counts)
-    # One number for each pair of nodes.
+    # Encode each pair of nodes as one number.
     pairs = _find_nearest(
         ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
     )
@@ -81,10 +81,10 @@ def find_jumps(
         points, ends.frames[leave], starts.frames[enter], half=half
     )
     # Of the measured pairs below the threshold, the best of each pair of nodes becomes an edge.
-    below = np.flatnonzero(distances <= threshold)
-    key = ends.nodes[leave[below]] * len(nodes) + starts.nodes[enter[below]]
+    accepted = np.flatnonzero(distances <= threshold)
+    key = ends.nodes[leave[accepted]] * len(nodes) + starts.nodes[enter[accepted]]
     edges = []
-    for i in below[_find_nearest(key, distances[below], 1)].tolist():
+    for i in accepted[_find_nearest(key, distances[accepted], 1)].tolist():
         tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
         at = (
             # Frames are counted within their own recording again, at its own rate.
@@ -98,15 +98,15 @@ def find_jumps(
 
 def _sample_ends(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
-) -> _Ends:
-    """Return the ends (side 1) or starts (side 0) of all nodes.
+) -> _EndFrames:
+    """Return frames near the ends (side 1) or starts (side 0) of all nodes.
 
-    Only frames with a whole window inside their recording, and never so many
-    that a node entered late could be left before that.
+    Only frames with a full window inside their recording, and close enough to the border that a
+    node is never left before it is entered.
     """
     frames, owners = [], []
     for number, node in enumerate(nodes):
-        # In frames of the working rate; may lie between two of them.
+        # In frames of the working rate, possibly fractional.
         border = (node.start, node.stop)[side] / ratio
         # A quarter of the node: an entry at its start lies before any exit at its end.
         reach = min((node.stop - node.start) / ratio / 4, widest)
@@ -117,7 +117,7 @@ def _sample_ends(
         )
         frames.append(frames_of_node + firsts[node.source])
         owners.append(np.full(len(frames_of_node), number))
-    return _Ends(np.concatenate(frames), np.concatenate(owners))
+    return _EndFrames(np.concatenate(frames), np.concatenate(owners))
 
 
 def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
@@ -125,11 +125,11 @@ def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> 
     # Sorted by group, and by distance within each group: the last key counts first.
     order = np.lexsort((distances, groups))
     sizes = np.unique(groups[order], return_counts=True)[1]
-    # Place at which the group of each entry begins.
+    # Index at which the group of each entry begins.
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
     # The rank within the group.
-    kept: Ints = order[np.arange(len(order)) - starts < count]
-    return kept
+    chosen: Ints = order[np.arange(len(order)) - starts < count]
+    return chosen
 
 
 def _convert_to_source(frame: int, ratio: float) -> int:
@@ -137,10 +137,10 @@ def _convert_to_source(frame: int, ratio: float) -> int:
 
 
 THRESHOLD = 0.08
-"""Metres, root mean square over the joints. On three takes of subject 86 and the bundled
-recording, 0.05 already joins all but two nodes or fewer of each into one component."""
+"""Largest distance of a jump in metres, RMS over the joints. On three takes of subject 86 and the
+bundled recording, 0.05 already connects all but at most two nodes of each."""
 WINDOW = 1 / 3
-"""Seconds; Kovar and Gleicher's."""
+"""Window of a jump in seconds, as used by Kovar and Gleicher."""
 
 
 def motion_graph(
@@ -158,15 +158,14 @@ def motion_graph(
     motions : sequence of Motion
         With rotations, of one skeleton and one frame rate.
     segmentations : sequence of Segmentation, optional
-        One for each; found by `kineme.segment` by default. Clusters of several
-        recordings that match get one number.
+        One for each motion; computed by `kineme.segment` by default. Matching clusters of
+        several recordings get the same number.
     threshold : float
         Largest point-cloud distance of a jump, metres.
     window : float
-        Seconds compared, and blended, around a jump.
+        Seconds that are compared and blended around a jump.
     prune : bool
-        Whether only the largest strongly connected component is kept, which has no
-        dead ends.
+        Whether to keep only the largest strongly connected component, which has no dead ends.
 
     Returns
     -------
@@ -175,8 +174,8 @@ def motion_graph(
     Raises
     ------
     ParameterError
-        Motions that do not fit together, segments that do not fit them, a threshold or
-        window not above 0, or nothing is left after pruning.
+        Motions or segments do not match, threshold or window are not above 0, or nothing is left
+        after pruning.
 
     Examples
     --------
@@ -190,21 +189,21 @@ def motion_graph(
     _check_inputs(motions, threshold, window)
     if segmentations is not None:
         check_type(segmentations, Iterable, "motion_graph", "give one segmentation per motion")
-    found = [segment(m) for m in motions] if segmentations is None else list(segmentations)
-    for each in found:
+    tables = [segment(m) for m in motions] if segmentations is None else list(segmentations)
+    for each in tables:
         check_type(each, Segmentation, "motion_graph", "kineme.segment(motion) gives one")
-    if [s.n_frames for s in found] != [m.n_frames for m in motions]:
+    if [s.n_frames for s in tables] != [m.n_frames for m in motions]:
         raise ParameterError(
-            f"segments of {[s.n_frames for s in found]} frames do not belong to motions "
+            f"segments of {[s.n_frames for s in tables]} frames do not belong to motions "
             f"of {[m.n_frames for m in motions]}"
         )
-    if len(found) > 1:
-        # Clusters of different recordings are numbered alike where they match.
-        found = share_clusters(motions, found)
-    nodes, natural = _make_nodes(found)
+    if len(tables) > 1:
+        # Give matching clusters of different recordings the same number.
+        tables = share_clusters(motions, tables)
+    nodes, successors = _make_nodes(tables)
     best = {(e.tail, e.head): e for e in find_jumps(motions, nodes, threshold, window)}
     # The recording's own successor replaces a jump between the same nodes.
-    best |= {(e.tail, e.head): e for e in natural}
+    best |= {(e.tail, e.head): e for e in successors}
     graph = MotionGraph(
         tuple(Source(m.provenance.path, m.provenance.sha256, m.n_frames) for m in motions),
         tuple(nodes),
@@ -230,7 +229,7 @@ def _check_inputs(motions: Sequence[Motion], threshold: float, window: float) ->
 
 
 def check_source(motion: Motion, first: Motion) -> None:
-    """Nothing, or an error for a motion that cannot be in one graph with the first.
+    """Raise ParameterError if a motion cannot be in one graph with the first.
 
     Parameters
     ----------
@@ -264,11 +263,11 @@ def check_source(motion: Motion, first: Motion) -> None:
         )
 
 
-def _make_nodes(found: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
-    """Return all primitives, and the edges to their successors."""
+def _make_nodes(segmentations: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:
+    """Return all primitives as nodes, and the edges to their successors in the recording."""
     nodes: list[Node] = []
     edges: list[Edge] = []
-    for source, segmentation in enumerate(found):
+    for source, segmentation in enumerate(segmentations):
         rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
         first = len(nodes)
         nodes += [

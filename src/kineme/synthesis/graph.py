@@ -1,15 +1,14 @@
 """Motion graphs over primitives (Kovar, Gleicher and Pighin 2002; the paper's section 6.2).
 
-A node is a primitive, or a transition phase between two activities: a span of
-a source recording. An edge says that after one node another can be played:
-the recording's own successor, or a *jump* to a similar place. A jump
-leaves its node at a frame near the node's end and enters the next one near
-its start; the next is then turned about the vertical and moved on the floor.
+A node is a span of a source recording: a primitive, or a transition between two activities. An
+edge leads to a node that can be played next: the successor in the recording, or a *jump* to a
+similar pose. A jump leaves its node near the end and enters the next one near its start; the
+next one is then turned about the vertical and moved on the floor.
 
-Nodes of one name (a label, else the number of a cluster) form a super-node,
-as in Motion Graphs++ (Min and Chai 2012). Transition phases have no name.
+Nodes with one name (label, else cluster number) form a super-node, as in Motion Graphs++ (Min
+and Chai 2012). Transitions have no name.
 
-In a file they are JSON, schema ``kineme.motion-graph/1``. One object:
+Files are JSON with the schema ``kineme.motion-graph/1``. One object:
 
     {
       "schema": "kineme.motion-graph/1",
@@ -20,10 +19,9 @@ In a file they are JSON, schema ``kineme.motion-graph/1``. One object:
                  "angle": 0.0, "shift": [0.0, 0.0], "jump": false}]
     }
 
-Paths are relative to the graph's folder. The recordings are not in the file:
-they are read again, with ``options``, and must be the same byte for byte. A
-reader must ignore names it does not know, but for those of ``options``; a change
-that old readers would misunderstand gets the next number.
+Paths are relative to the graph's folder. The recordings are not in the file: they are read
+again with ``options``, and must be identical. Readers must ignore unknown names except in
+``options``; the number in the schema increases with changes that old readers would misread.
 """
 
 from __future__ import annotations
@@ -54,15 +52,15 @@ _FASTEST = 1e6  # frames per second; also metres and seconds
 
 @dataclass(frozen=True)
 class Source:
-    """A recording the graph was built on.
+    """A source recording of a graph.
 
     Parameters
     ----------
     path, sha256 : str or None
-        The file, and its digest; None for a motion that came from no file.
+        The file and its digest; None for a motion without a file.
     n_frames : int
     options : ReadOptions
-        How it was read.
+        Options with which it was read.
 
     Examples
     --------
@@ -84,10 +82,10 @@ class Node:
     Parameters
     ----------
     source : int
-        Its number in the graph.
+        Index of the source in the graph.
     start, stop : int
     cluster : int
-        Equal clusters are equal movements, whatever their source; -1 for none.
+        Equal numbers are equal movements, across sources; -1 for none.
     label : str
         Empty for none.
 
@@ -106,31 +104,30 @@ class Node:
 
     @property
     def name(self) -> str:
-        """Return the super-node: the label, else the cluster's number; empty for neither."""
+        """Return the name of the super-node: label, else cluster number, else empty."""
         return self.label or (str(self.cluster) if self.cluster >= 0 else "")
 
 
 @dataclass(frozen=True)
 class Edge:
-    """From one node to another that can be played after it.
+    """A transition from one node to another that can be played next.
 
     Parameters
     ----------
     tail, head : int
-        Numbers of the nodes.
+        Indices of the nodes.
     leave : int
-        The frame after the last played of the tail's source.
+        Frame after the last one played of the tail's source.
     enter : int
-        The first frame played of the head's source.
+        First frame played of the head's source.
     distance : float
-        Of the point clouds, metres; 0 for the recording's own successor.
+        Distance of the point clouds, metres; 0 for the successor in the recording.
     angle : float
-        To go on from where the tail is, the head's source is turned about the vertical
-        by so many radians,
+        Turn of the head's source about the vertical, relative to the tail, radians.
     shift : pair of float
-        then moved by so many metres in x and z.
+        Shift of the head's source in x and z after the turn, metres.
     jump : bool
-        Whether the head is not the recording's own successor.
+        False for the successor in the recording.
 
     Examples
     --------
@@ -151,16 +148,16 @@ class Edge:
 
 @dataclass(frozen=True)
 class MotionGraph:
-    """Nodes, in the order of sources and time, and the edges between them.
+    """Nodes, sorted by source and time, and the edges between them.
 
     Parameters
     ----------
     sources : tuple of Source
-        Recordings, of one skeleton.
+        Recordings with one skeleton.
     nodes : tuple of Node
-        Spans of them.
+        Spans of the sources.
     edges : tuple of Edge
-        Ordered by tail, then head; at most one for each pair.
+        Sorted by tail, then head; at most one for each pair.
     fps : float
         Frames per second of all sources.
     threshold : float
@@ -186,12 +183,12 @@ class MotionGraph:
 
     @cached_property
     def names(self) -> dict[str, int]:
-        """Super-nodes and how many nodes each has, in order of appearance."""
+        """Return the number of nodes of each super-node, in order of appearance."""
         return dict(Counter(node.name for node in self.nodes if node.name))
 
     @cached_property
     def leaving(self) -> tuple[tuple[int, ...], ...]:
-        """Return for each node the numbers of the edges that leave it."""
+        """Return the indices of the edges that leave each node."""
         lists: list[list[int]] = [[] for _ in self.nodes]
         for number, edge in enumerate(self.edges):
             lists[edge.tail].append(number)
@@ -199,27 +196,27 @@ class MotionGraph:
 
     @cached_property
     def edge_between(self) -> dict[tuple[int, int], int]:
-        """Return the number of the edge from one node to another."""
+        """Return the index of the edge for each connected pair of nodes."""
         return {(edge.tail, edge.head): number for number, edge in enumerate(self.edges)}
 
     def nodes_of(self, name: str) -> list[int]:
-        """Return the nodes of a super-node; ParameterError if there is none of that name."""
+        """Return the nodes of a super-node; raise ParameterError if it does not exist."""
         if name not in self.names:
-            listing = ", ".join(f"{name} ({n})" for name, n in self.names.items())
-            raise ParameterError(f"no node is called {name!r}; there are {listing or 'no names'}")
+            available = ", ".join(f"{name} ({n})" for name, n in self.names.items())
+            raise ParameterError(f"no node is called {name!r}; there are {available or 'no names'}")
         return [i for i, node in enumerate(self.nodes) if node.name == name]
 
     def core(self) -> Ints:
-        """Return the largest strongly connected component: its nodes all reach each other.
+        """Return the largest strongly connected component, whose nodes all reach each other.
 
-        Ties go to the component of more edges, then to the earlier one. A node alone
-        is one only if it can repeat itself; empty if there is none.
+        Ties go to the component with more edges, then to the earlier one. A single node counts
+        only if it has an edge to itself. Empty if there is no component.
         """
         from scipy.sparse.csgraph import connected_components
 
         component = connected_components(self._adjacency(), connection="strong")[1]
         inner = [edge for edge in self.edges if component[edge.tail] == component[edge.head]]
-        # Only components with an edge inside: a node alone counts if it can repeat itself.
+        # Only components with an internal edge count.
         edges = Counter(int(component[edge.tail]) for edge in inner)
         sizes = Counter(component.tolist())
         # The minus makes the earlier component win a tie.
@@ -227,20 +224,20 @@ class MotionGraph:
         return np.flatnonzero(component == largest)
 
     def pruned(self) -> MotionGraph:
-        """Return the graph of the core alone; ParameterError if there is none."""
-        kept = self.core().tolist()
-        if not kept:
+        """Return the graph reduced to its core; raise ParameterError if there is none."""
+        nodes = self.core().tolist()
+        if not nodes:
             raise ParameterError(
                 f"no node can be reached again with jumps of at most {self.threshold:g} m; "
                 "raise the threshold, or give recordings that repeat an action"
             )
-        number = {node: i for i, node in enumerate(kept)}
+        number = {node: i for i, node in enumerate(nodes)}
         edges = [
             replace(edge, tail=number[edge.tail], head=number[edge.head])
             for edge in self.edges
             if edge.tail in number and edge.head in number
         ]
-        return replace(self, nodes=tuple(self.nodes[i] for i in kept), edges=tuple(edges))
+        return replace(self, nodes=tuple(self.nodes[i] for i in nodes), edges=tuple(edges))
 
     def _adjacency(self) -> Any:
         from scipy.sparse import csr_array
@@ -252,7 +249,7 @@ class MotionGraph:
 
 
 def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
-    """Leave the graph at ``path``.
+    """Write a graph to a JSON file.
 
     Parameters
     ----------
@@ -262,7 +259,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
     Raises
     ------
     ParameterError
-        A source came from no file, so that nobody could read it again.
+        A source was not read from a file, so it could not be read again.
     WriteError
         The file cannot be written.
 
@@ -284,7 +281,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
         "window": graph.window,
         "sources": [_format_sources(source, folder) for source in graph.sources],
     }
-    # The rows follow one on a line, so the closing brace comes last.
+    # Rows are appended one per line below, so remove the closing brace.
     text = json.dumps(head, indent=2).removesuffix("\n}")
     for name, rows in (("nodes", graph.nodes), ("edges", graph.edges)):
         lines = ",\n".join(f"    {json.dumps(asdict(row))}" for row in rows)
@@ -294,7 +291,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
 
 
 def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
-    """Return the graph at ``path``.
+    """Read a graph from a JSON file.
 
     Parameters
     ----------
@@ -307,7 +304,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     Raises
     ------
     ReadError
-        Missing, damaged or of another version.
+        The file is missing, damaged or of another version.
 
     Examples
     --------
@@ -335,7 +332,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
 
 
 def load_sources(graph: MotionGraph) -> list[Motion]:
-    """Return the recordings the graph was built on, in order.
+    """Read the source recordings of a graph, in order.
 
     Parameters
     ----------
@@ -348,7 +345,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     Raises
     ------
     ReadError
-        One is missing or was changed since.
+        A file is missing or was changed.
 
     Examples
     --------
@@ -369,7 +366,7 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
         if not exists:
             raise ReadError(path, "is not there, and the graph was built on it: put it back, "
                             "or build the graph anew")  # fmt: skip
-        # Digests must match: spans of frames mean nothing in a changed file.
+        # Digests must match, since spans of frames are meaningless in a changed file.
         if digest != source.sha256:
             raise ReadError(path, "has changed since the graph was built on it: build it anew")
         motions.append(read_motion(path, **vars(source.options)))
@@ -394,14 +391,14 @@ def _make_relative(path: str, folder: Path) -> str:
 
 
 def _parse_graph(data: dict[str, Any]) -> MotionGraph:
-    """What a file holds; ValueError where parts are missing, or cannot be of its recordings."""
+    """Return the graph in parsed JSON; raise ValueError if parts are missing or inconsistent."""
     _check_complete(data, MotionGraph)
     graph = convert_json(data, MotionGraph)
     for name, kind in (("sources", Source), ("nodes", Node), ("edges", Edge)):
         for row in data[name]:
             _check_complete(row, kind)
     for row in data["sources"]:
-        options_from_json(ReadOptions, row["options"])  # refuses options it does not know
+        options_from_json(ReadOptions, row["options"])  # rejects unknown options
     for part, sound in _check_parts(graph):
         if not sound:
             raise ValueError(str(part))
@@ -415,7 +412,7 @@ def _check_complete(row: dict[str, Any], kind: Any) -> None:
 
 
 def _resolve_source(source: Source, folder: Path) -> Source:
-    """Return a source whose paths, in the file relative to its folder, are found from anywhere."""
+    """Return a source with its paths resolved against the folder of the graph's file."""
     options = source.options
     if options.skeleton is not None:
         options = replace(options, skeleton=str(folder / options.skeleton))
@@ -423,7 +420,7 @@ def _resolve_source(source: Source, folder: Path) -> Source:
 
 
 def _check_parts(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
-    """Yield every part of a graph, and whether it can be of its recordings."""
+    """Yield every part of a graph, and whether it is consistent with the sources."""
     for name in ("fps", "threshold", "window"):
         value = getattr(graph, name)
         yield f"{name} is {value}", 0 < value < _FASTEST
@@ -434,7 +431,7 @@ def _check_parts(graph: MotionGraph) -> Iterator[tuple[object, bool]]:
     for node in graph.nodes:
         placed = node.source in range(len(frames)) and node.cluster >= -1
         yield node, placed and 0 <= node.start < node.stop <= frames[node.source]
-    # A jump must not leave a node before its middle, nor enter it after: nodes keep some length.
+    # Jumps leave a node after its middle and enter before it, so that nodes keep some length.
     middles = [(node.start + node.stop) / 2 for node in graph.nodes]
     nodes = range(len(middles))
     for edge in graph.edges:

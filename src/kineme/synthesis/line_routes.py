@@ -1,12 +1,12 @@
-"""A route through a motion graph that follows a line on the floor.
+"""Find a route through a motion graph that follows a line on the floor.
 
 The cost of a route is the integral over time of the squared distance of the root from the line,
-plus a little for the time itself, so that a route takes no longer than it must. The cheapest is
-found by a beam search. Of the candidates that have come equally far down the line, to a quarter of
-a metre, the cheapest go on: one for each node and direction, and only so many. It is deterministic.
+plus a small cost of time, which avoids detours. A deterministic beam search finds the cheapest
+route: among candidates with equal progress along the line (to a quarter of a metre), the cheapest
+are continued, one for each node and direction, up to a maximum number.
 
-Source: Kovar, Gleicher and Pighin 2002, section 5, who compare with the point of
-the line at equal arc length; the nearest point farther on forgives swaying.
+Source: Kovar, Gleicher and Pighin 2002, section 5. They compare with the point at equal arc
+length; the nearest point ahead, used here, tolerates swaying.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from kineme.synthesis.graph import MotionGraph
 Complex = NDArray[np.complex128]
 
 SPACING = 0.05
-"""Metres between the points that stand for the line."""
+"""Distance in metres between the points that sample the line."""
 FAR = 0.25
-"""Metres of the line that count as equally far; no line is shorter."""
+"""Metres of progress that count as equal; also the shortest line."""
 
 
 def parse_line(text: str) -> list[tuple[float, float]]:
-    """Points (x, z) on the floor in metres, as people type them.
+    """Parse points (x, z) on the floor in metres from text.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def parse_line(text: str) -> list[tuple[float, float]]:
     Raises
     ------
     ParameterError
-        It is something else.
+        The text has another format.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def parse_line(text: str) -> list[tuple[float, float]]:
 
 
 def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
-    """Points of the line, equally far from each other."""
+    """Return equidistant points of a line as complex numbers x + iz."""
     corners = np.array([complex(x, z) for x, z in line])
     lengths = np.abs(np.diff(corners))
     total = lengths.sum()
@@ -85,22 +85,22 @@ def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
 
 
 TOLERANCE = 0.5
-"""Metres that the root may get away from the line."""
+"""Largest distance of the root from the line, metres."""
 AHEAD = 0.6
-"""Metres of the line in which the next nearest point is looked for."""
+"""Length of the line in which the next nearest point is searched, metres."""
 STEP = 0.1
-"""Seconds from one compared pose to the next."""
+"""Seconds between compared poses."""
 TIME = 0.1
-"""Cost of a second, m² s: as much as being 32 cm off for that long."""
+"""Cost per second in m²: equals a distance of 32 cm for that time."""
 TURN = np.pi / 12
-"""Radians that count as the same direction."""
+"""Radians of direction that count as equal."""
 WIDTH = 400
-"""Candidates kept among those equally far."""
+"""Beam width: candidates kept among those with equal progress."""
 
 
 @dataclass(frozen=True)
 class _Progress:
-    """How far down the line a candidate has come, what it cost, where it was worst."""
+    """Progress of a candidate: point reached, cost, largest distance and its point."""
 
     point: int = 0
     cost: float = 0.0
@@ -110,7 +110,7 @@ class _Progress:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """A route up to a node that was entered at a frame, but not yet played."""
+    """A route up to a node that is entered at a frame but not yet played."""
 
     node: int
     enter: int
@@ -134,19 +134,19 @@ def line_route(
     actions: Collection[str] = (),
     tolerance: float = TOLERANCE,
 ) -> tuple[list[int], Placement]:
-    """Return the route whose root follows a line, and where its first node is laid.
+    """Return the route whose root follows a line best, and the placement of its first node.
 
     Parameters
     ----------
     graph : MotionGraph
     motions : sequence of Motion
-        Those it was built on, in order.
+        Source motions of the graph, in order.
     line : sequence of (float, float)
         Two or more points (x, z) on the floor, metres, joined by straight lines.
     actions : collection of str
-        Names of the super-nodes that may be played; all where none is given.
+        Names of the super-nodes that may be played; all by default.
     tolerance : float
-        Metres that the root may get away from the line.
+        Largest distance of the root from the line, metres.
 
     Returns
     -------
@@ -156,8 +156,8 @@ def line_route(
     Raises
     ------
     ParameterError
-        A line without length, an action that no node has, or no route stays within the
-        tolerance; the message says how near one comes.
+        The line is too short, an action is unknown, or no route stays within the tolerance; the
+        message contains the best distance.
 
     Examples
     --------
@@ -198,17 +198,16 @@ def line_route(
 def _search_route(
     graph: MotionGraph, floors: Sequence[Complex], points: Complex, nodes: set[int]
 ) -> tuple[_Candidate, _Progress] | None:
-    """Return the cheapest candidate at the end of the line; None where all end before it."""
+    """Return the cheapest candidate that reaches the end of the line, or None."""
     heap: list[tuple[int, float, int, _Candidate]] = []
     done: list[tuple[_Candidate, _Progress]] = []
     visited: set[tuple[int, int, int]] = set()
     counts: Counter[int] = Counter()
-    number = count()  # of equal candidates the one found first goes first
+    number = count()  # breaks ties in the order of discovery
 
     def push(candidate: _Candidate) -> None:
-        # Equal progress means the same bucket, so candidates compete by cost only.
+        # Candidates with equal progress share a bucket and compete by cost.
         bucket = candidate.progress.point // round(FAR / SPACING)
-        # The running number decides ties before candidates would be compared.
         heappush(heap, (bucket, candidate.progress.cost, next(number), candidate))
 
     for node in sorted(nodes):
@@ -216,14 +215,14 @@ def _search_route(
         push(_Candidate(node, graph.nodes[node].start, at, _Progress()))
     while heap:
         bucket, _, _, candidate = heappop(heap)
-        # Directions are counted round the circle.
+        # Quantise the direction; the modulo makes it circular.
         direction = round(candidate.at.angle / TURN) % round(2 * np.pi / TURN)
         if counts[bucket] == WIDTH or (bucket, candidate.node, direction) in visited:
             continue
         visited.add((bucket, candidate.node, direction))
         counts[bucket] += 1
         reached, onward = _expand(graph, floors, points, nodes, candidate)
-        # The end of the line is reached within the last node.
+        # The last node reaches the end of the line.
         if reached.point == len(points) - 1:
             done.append((candidate, reached))
         else:
@@ -239,18 +238,18 @@ def _expand(
     nodes: set[int],
     candidate: _Candidate,
 ) -> tuple[_Progress, list[_Candidate]]:
-    """Return how far a candidate comes in its last node, and those that are longer by one."""
+    """Play the last node of a candidate: return its progress, and the candidates that follow."""
     step = max(round(STEP * graph.fps), 1)
     node = graph.nodes[candidate.node]
     edges = [graph.edges[number] for number in graph.leaving[candidate.node]]
     edges = [edge for edge in edges if edge.head in nodes]
     stop = max([node.stop, *(edge.leave for edge in edges)])
-    # Positions of the hips in the node, one for each step.
+    # Hip positions in the node, one per step.
     floor = floors[node.source][candidate.enter : stop : step]
     reached = _measure_progress(candidate, floor, points, step / graph.fps)
     onward = []
     for edge in edges:
-        # The recording's own successor stays where it is placed.
+        # The successor in the recording keeps its placement.
         at = candidate.at.after(edge.angle, edge.shift) if edge.jump else candidate.at
         # Progress up to the frame at which the edge leaves the node.
         travel = reached[_count_poses(candidate.enter, edge.leave, step)]
@@ -259,7 +258,7 @@ def _expand(
 
 
 def _count_poses(start: int, stop: int, step: int) -> int:
-    """Return how many poses lie in frames [start, stop)."""
+    """Return the number of poses in frames [start, stop)."""
     # Division rounded up.
     return -(-(stop - start) // step)
 
@@ -267,29 +266,29 @@ def _count_poses(start: int, stop: int, step: int) -> int:
 def _measure_progress(
     candidate: _Candidate, floor: Complex, points: Complex, seconds: float
 ) -> list[_Progress]:
-    """Return the progress before each of some poses, ``seconds`` apart, and after the last."""
+    """Return the progress before each pose and after the last; poses are ``seconds`` apart."""
     now = candidate.progress
     reached = [now]
     ahead = round(AHEAD / SPACING)
     for place in np.exp(-1j * candidate.at.angle) * floor + candidate.at.shift:
         if now.point < len(points) - 1:
-            # Only points of the line ahead are looked at, so that progress never goes back.
+            # Only search ahead, so that progress never decreases.
             apart = np.abs(points[now.point : now.point + ahead] - place)
-            near = int(apart.argmin())
-            off = float(apart[near])
+            nearest = int(apart.argmin())
+            off = float(apart[nearest])
             # Integral of the squared distance plus the price of time.
             now = _Progress(
-                now.point + near,
+                now.point + nearest,
                 now.cost + (off**2 + TIME) * seconds,
-                # Tuples compare by distance first, and keep the place of the worst one.
-                *max((now.worst, now.worst_at), (off, now.point + near)),
+                # Tuples compare by distance first and keep the point of the largest one.
+                *max((now.worst, now.worst_at), (off, now.point + nearest)),
             )
         reached.append(now)
     return reached
 
 
 def _find_allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
-    """Return the nodes that may be played: those named, and transition phases."""
+    """Return the nodes that may be played: those named, and transitions."""
     if not actions:
         return set(range(len(graph.nodes)))
     named = {node for name in actions for node in graph.nodes_of(name)}
@@ -299,7 +298,7 @@ def _find_allowed(graph: MotionGraph, actions: Collection[str]) -> set[int]:
 def _place_start(
     graph: MotionGraph, floors: Sequence[Complex], node: int, points: Complex
 ) -> Placement:
-    """Where a node begins at the line's first point and heads down it."""
+    """Return the placement with which a node starts at the line's first point, along the line."""
     span = graph.nodes[node]
     floor = floors[span.source]
     travel = floor[min(span.stop, len(floor) - 1)] - floor[span.start]

@@ -1,6 +1,6 @@
-"""Routes through a motion graph: actions in order, or at random.
+"""Find routes through a motion graph: for a sequence of actions, or at random.
 
-A route is a list of node numbers, each joined to the next by an edge; see
+A route is a list of node numbers, each connected to the next by an edge; see
 `kineme.synthesize`.
 """
 
@@ -19,11 +19,11 @@ from kineme.errors import ParameterError
 from kineme.synthesis.graph import MotionGraph
 
 EDGE_COST = 1e-3
-"""Metres that every edge costs besides its distance: of equal routes the shorter is taken."""
+"""Cost of each edge in metres besides its distance, which favours shorter routes."""
 
 
 def parse_actions(text: str) -> list[tuple[str, int]]:
-    """Names of super-nodes with counts, as people type them.
+    """Parse names of super-nodes with counts from text.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def parse_actions(text: str) -> list[tuple[str, int]]:
     Raises
     ------
     ParameterError
-        It is something else.
+        The text has another format.
 
     Examples
     --------
@@ -56,15 +56,15 @@ def parse_actions(text: str) -> list[tuple[str, int]]:
 
 
 def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list[int]:
-    """Return the route of least distance in sum that plays the named primitives in this order.
+    """Return the route with the smallest total distance that plays the named primitives in order.
 
-    Between two of them only transition phases may come, which have no name.
+    Only transitions, which have no name, may come between them.
 
     Parameters
     ----------
     graph : MotionGraph
     actions : sequence of (str, int)
-        Super-nodes, by name, each with how often it is repeated.
+        Names of super-nodes with the number of repetitions.
 
     Returns
     -------
@@ -73,8 +73,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     Raises
     ------
     ParameterError
-        No node has the name, or no route leads on; the message says where one could go
-        instead.
+        Unknown name, or no route exists; the message lists possible continuations.
 
     Examples
     --------
@@ -94,7 +93,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     total = np.zeros(len(layers[0]))
     chosen = []
     for i in range(1, len(layers)):
-        # (nodes before, nodes after): total cost through each of the nodes before.
+        # (nodes before, nodes after): total cost via each node before.
         through = total[:, None] + cost[np.ix_(layers[i - 1], layers[i])]
         chosen.append(through.argmin(axis=0))
         total = through.min(axis=0)
@@ -110,7 +109,7 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
 
 
 def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
-    """Return a random walk of at least ``duration`` seconds that stays where it can go on.
+    """Return a random walk of at least ``duration`` seconds without dead ends.
 
     All edges of a node are equally likely; the same seed gives the same walk.
 
@@ -150,7 +149,7 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
     frames = float(graph.nodes[route[0]].stop - graph.nodes[route[0]].start)
     while frames < duration * graph.fps:
         edges = [graph.edges[i] for i in graph.leaving[route[-1]]]
-        # Only edges that stay in the component, from which there is always a way on.
+        # Stay in the strongly connected component, which has no dead ends.
         edge = edges[int(rng.choice([i for i, e in enumerate(edges) if e.head in inside]))]
         # A jump may leave before the end of a node and enter after the start of the next.
         frames += edge.leave - graph.nodes[edge.tail].stop
@@ -160,7 +159,7 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
 
 
 def find_following(graph: MotionGraph, name: str) -> list[str]:
-    """Return the super-nodes of which some primitive can come after one of ``name``.
+    """Return the super-nodes that can follow a super-node.
 
     Parameters
     ----------
@@ -191,10 +190,10 @@ def find_following(graph: MotionGraph, name: str) -> list[str]:
 
 
 def _find_cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]:
-    """Least costs from node to node through nameless nodes, and predecessors on these paths.
+    """Return the least costs between nodes via nameless nodes, and predecessors on these paths.
 
-    Every node is in the search twice: as one that is left, and, n later, as one
-    that is reached; from there only the nameless go on.
+    Every node is in the search graph twice: as a start (i), and as a destination (n + i). Only
+    nameless nodes can be left again from their second copy.
     """
     from scipy.sparse import csr_array
     from scipy.sparse.csgraph import dijkstra
@@ -202,20 +201,20 @@ def _find_cheapest_paths(graph: MotionGraph) -> tuple[Floats, NDArray[np.int32]]
     n = len(graph.nodes)
     rows, columns, costs = [], [], []
     for edge in graph.edges:
-        # A nameless node may also be passed through: the edge leaves its second copy, too.
+        # Edges of a nameless node also leave its second copy, so that paths pass through it.
         for tail in (edge.tail, *([] if graph.nodes[edge.tail].name else [n + edge.tail])):
             rows.append(tail)
-            # An edge leads to the second copy, where a path may end.
+            # Edges lead to the second copy, where paths may end.
             columns.append(n + edge.head)
             costs.append(edge.distance + EDGE_COST)
     matrix: Any = csr_array((costs, (rows, columns)), shape=(2 * n, 2 * n))
     cost, before = dijkstra(matrix, indices=np.arange(n), return_predecessors=True)
-    # Costs of reaching: columns of the second copies.
+    # Keep the columns of destinations.
     return cost[:, n:], before
 
 
 def _trace_path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
-    """Return the nodes from start to stop, without stop."""
+    """Return the nodes on the path from start to stop, without stop."""
     n = len(before)
     # Backwards from the second copy of the last node.
     path = [int(before[start, n + stop])]

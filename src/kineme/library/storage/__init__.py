@@ -1,9 +1,8 @@
-"""What lies where: libraries and recordings in folders, and wherever else fsspec reaches.
+"""Storage of libraries in local folders and at URLs that fsspec supports.
 
-`layout` names the files of a library, `pieces` and `tables` are what they hold.
+`layout` names the files of a library, `analyses` and `tables` define their content.
 
-A URL such as ``s3://bucket/takes`` becomes what behaves like a path (`places.make_path`), by
-universal_pathlib. `places` writes to it whole and keeps what was read from it near;
-`kineme.library.planning` lists and reads recordings there. Paths of this machine are paths, and
-need none of it.
+`places.make_path` turns a URL such as ``s3://bucket/takes`` into a path object of
+universal_pathlib. `places` also writes remote files atomically and caches those that were read;
+`kineme.library.planning` lists and reads remote recordings.
 """

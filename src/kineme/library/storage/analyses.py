@@ -1,8 +1,8 @@
-"""Analyses: what is kept of one recording, as it was found alone.
+"""Read and write analyses: the stored results of one recording on its own.
 
-The segments with their embeddings are a Parquet file, whose metadata tell of the recording; its
-features, their windows for an index, and the samples of channels are plain arrays beside it. These
-are written first: where there is a Parquet file, the analysis is whole.
+A Parquet file holds the segments with their embeddings, and facts about the recording as metadata.
+Features, their windows for an index, and samples of channels are npy files beside it. These are
+written first: if the Parquet file exists, the analysis is complete.
 """
 
 from __future__ import annotations
@@ -31,26 +31,26 @@ from kineme.transfer.channel_samples import thin_samples
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
 KEY_LENGTH = 32
-"""Characters of the name of an analysis; see `kineme.library.planning.make_analysis_key`."""
+"""Length of the key of an analysis; see `kineme.library.planning.make_analysis_key`."""
 _FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
 LARGEST = 1e30
-"""Sum of the squares of all features of a recording; no distance overflows below it."""
+"""Largest sum of squares of a recording's features for which no distance overflows."""
 LARGEST_SAMPLE = 1e18
-"""Of any number in the samples of channels."""
+"""Largest absolute value in the samples of channels."""
 
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """What is kept of a recording.
+    """Stored results of a recording.
 
     Attributes
     ----------
     facts : dict
-        Of the recording and its features; see `kineme.library.descriptions.make_analysis`.
+        About the recording and its features; see `kineme.library.descriptions.make_analysis`.
     table : SegmentTable
         Its segments, with the clusters of this recording alone.
     embeddings : (segments, 32) array of float32
-        Zero for those that were not embedded: transitions, and where there are no features.
+        Zero for transitions, and for recordings without features.
     """
 
     facts: dict[str, Any]
@@ -65,7 +65,7 @@ def write_analysis(
     features: NDArray[np.float32],
     channel_samples: NDArray[np.float32] | None = None,
 ) -> None:
-    """Leave an analysis in a folder, with features (samples, dims) and samples of channels."""
+    """Write an analysis with features (samples, dims) and samples of channels to a folder."""
     pa, parquet = import_arrow()
     values = np.ascontiguousarray(features, np.float32)
     arrays: dict[str, NDArray[Any]] = {FEATURES: values}
@@ -74,7 +74,7 @@ def write_analysis(
     if channel_samples is not None:
         arrays[SAMPLES] = channel_samples
     for suffix, array in arrays.items():
-        buffer = BytesIO()  # into a file itself, numpy does not tell that the disk is full
+        buffer = BytesIO()  # np.save into a file would not report a full disk
         np.save(buffer, array, allow_pickle=False)
         with write_locally(folder / f"{key}{suffix}") as draft:
             draft.write_bytes(buffer.getbuffer())
@@ -93,17 +93,17 @@ def write_analysis(
 
 
 def is_analysis(name: str) -> bool:
-    """Return whether a file of an analysis is named so."""
+    """Return whether a file name is that of an analysis."""
     return _FILE.fullmatch(name) is not None
 
 
 def has_analysis(folder: Path, key: str) -> bool:
-    """Return whether there is a whole analysis of that name."""
+    """Return whether the complete analysis with this key exists."""
     return (folder / f"{key}.parquet").is_file()
 
 
 def read_analysis(folder: Path, key: str) -> Analysis:
-    """Return the analysis of that name."""
+    """Read the analysis with this key."""
     pa, parquet = import_arrow()
     path = folder / f"{key}.parquet"
     with translate_read_errors(path):
@@ -116,13 +116,13 @@ def read_analysis(folder: Path, key: str) -> Analysis:
 
 
 def read_features(folder: Path, key: str) -> NDArray[np.float32]:
-    """Return the matching features in an analysis, float32 (samples, dims)."""
+    """Read the matching features of an analysis, float32 (samples, dims)."""
     features: NDArray[np.float32] = _read_array(folder / f"{key}{FEATURES}", np.float32)
     return features
 
 
 def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
-    """Return the windows of these features, as `describe_all_windows` gives them."""
+    """Read the windows of an analysis, the result of `describe_all_windows`."""
     windows: NDArray[np.int8] = _read_array(folder / f"{key}{WINDOWS}", np.int8)
     return windows
 
@@ -130,7 +130,7 @@ def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
 def read_parts(
     folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
 ) -> None:
-    """Fill arrays (samples, dims) with the features in an analysis, each from a sample on."""
+    """Read features of an analysis into arrays (samples, dims), each from a first sample on."""
     with _open_features(folder, key) as (file, start, _):
         _read_rows(file, start, starts, into)
 
@@ -138,7 +138,7 @@ def read_parts(
 def read_spans(
     folder: Path, key: str, spans: Sequence[tuple[int, int]]
 ) -> list[NDArray[np.float32]]:
-    """Return the features in an analysis from some samples to others."""
+    """Read the features of an analysis in several spans of samples."""
     with _open_features(folder, key) as (file, start, dims):
         parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
         _read_rows(file, start, [first for first, _ in spans], parts)
@@ -146,7 +146,7 @@ def read_spans(
 
 
 def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
-    """The samples of channels in an analysis, one of each ``step``: second, means, deviations."""
+    """Read every ``step``-th channel sample of an analysis: second, means, deviations."""
     path = folder / f"{key}{SAMPLES}"
     with _open_array(path):
         rows: NDArray[np.float32] = np.load(copy_nearby(path), mmap_mode="r", allow_pickle=False)
@@ -160,7 +160,7 @@ def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.fl
 
 
 def _read_header(file: IO[bytes]) -> tuple[int, int]:
-    """Where the rows of an npy file begin, and how many float32 numbers each has."""
+    """Return the offset of the rows in an npy file, and the float32 values per row."""
     length = int.from_bytes(file.read(10)[8:], "little")
     header = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
     if header is None:
@@ -171,7 +171,7 @@ def _read_header(file: IO[bytes]) -> tuple[int, int]:
 def _read_rows(
     file: IO[bytes], start: int, firsts: Iterable[int], parts: Iterable[NDArray[np.float32]]
 ) -> None:
-    """Rows of an npy file from some samples on."""
+    """Read rows of an npy file into ``parts``, each from a first row on."""
     for first, part in zip(firsts, parts, strict=True):
         file.seek(start + part.itemsize * part.shape[1] * first)
         if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
@@ -190,14 +190,14 @@ def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
 
 
 def _check_plausible(features: NDArray[np.float32]) -> None:
-    squares = float(np.vdot(features, features))  # one pass, not finite if any of them is not
+    squares = float(np.vdot(features, features))  # not finite if any value is not
     if not squares < LARGEST:
         raise ValueError("features that no recording has")
 
 
 @contextmanager
 def _open_features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
-    """A block that reads features of an analysis: their file, where they begin in it, and dims."""
+    """Open the features of an analysis: the file, the byte at which rows begin, and dims."""
     path = folder / f"{key}{FEATURES}"
     with _open_array(path), copy_nearby(path).open("rb", buffering=0) as file:
         yield file, *_read_header(file)
@@ -205,7 +205,7 @@ def _open_features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int
 
 @contextmanager
 def _open_array(path: Path) -> Iterator[None]:
-    """A block that reads an array of an analysis, or ends in a ReadError."""
+    """Turn errors while reading an array of an analysis into ReadError."""
     try:
         yield
     except FileNotFoundError as error:

@@ -1,7 +1,7 @@
-"""The windows of all recordings of a library, kept beside its tables.
+"""The search index: the windows of all recordings of a library, stored beside its tables.
 
-``windows.LENGTH.npy`` holds those of one length, recording after recording in the order of the
-table of recordings. Libraries of up to `FROM_HOURS` have none: they are searched as a whole.
+``windows.LENGTH.npy`` holds the windows of one length, in the order of the table of recordings.
+Libraries below `FROM_HOURS` have no index: they are searched as a whole.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from kineme.library.storage.places import copy_nearby, write_locally
 from kineme.library.windows import LENGTHS, NUMBERS, Bytes, count_windows, group_by_length
 
 FROM_HOURS = 100.0
-"""Of recordings of bodies, from which a library has an index."""
+"""Hours of recordings of bodies from which on a library has an index."""
 
 
 class Windows(NamedTuple):
@@ -30,11 +30,11 @@ class Windows(NamedTuple):
     ----------
     length : int
     embedded : (windows, 32) array of int8
-        In a file that is mapped.
+        Memory-mapped.
     firsts : (recordings + 1,) array
-        The first window of each recording, and the end.
+        First window of each recording, and the total number.
     samples : (recordings,) array
-        Samples of the features of each recording.
+        Number of feature samples of each recording.
     """
 
     length: int
@@ -43,13 +43,13 @@ class Windows(NamedTuple):
     samples: Ints
 
 
-def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> None:
-    """Leave an index beside the tables of that name, where the library is large enough."""
+def write_index(folder: Path, tables: str, recordings: dict[str, list[Any]]) -> None:
+    """Write an index beside the tables of that name, if the library is large enough."""
     samples = _list_samples(recordings)
     rates = zip(samples.tolist(), recordings["features_fps"], strict=True)
     if sum(n / fps for n, fps in rates if n) < FROM_HOURS * 3600:
         return
-    home = folder / TABLES / named
+    home = folder / TABLES / tables
     if all(_make_path(home, length).is_file() for length in LENGTHS):
         return
     with ExitStack() as stack:
@@ -73,10 +73,10 @@ def write_index(folder: Path, named: str, recordings: dict[str, list[Any]]) -> N
 
 
 def open_index(
-    folder: Path, named: str, recordings: dict[str, list[Any]], length: int
+    folder: Path, tables: str, recordings: dict[str, list[Any]], length: int
 ) -> Windows | None:
-    """Return the windows of one length, or None where the library has no index."""
-    path = _make_path(folder / TABLES / named, length)
+    """Return the windows of one length, or None if the library has no index."""
+    path = _make_path(folder / TABLES / tables, length)
     try:
         embedded: Bytes = np.load(copy_nearby(path), mmap_mode="r", allow_pickle=False)
     except FileNotFoundError:
@@ -91,7 +91,7 @@ def open_index(
 
 
 def _list_samples(recordings: dict[str, list[Any]]) -> Ints:
-    """Return the samples of each recording, 0 of those that are no bodies."""
+    """Return the number of samples of each recording, 0 for those that are not bodies."""
     bodies = np.array(recordings["vocabulary"], object) == BODIES
     return np.where(bodies, np.array(recordings["samples"], np.int64), 0)
 

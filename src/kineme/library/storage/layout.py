@@ -1,4 +1,4 @@
-"""Where everything lies in the folder of a library, and how its JSON files are read and written."""
+"""File names in the folder of a library, and access to its JSON files and Arrow columns."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ if sys.platform != "win32":
     import fcntl
 
 SCHEMA = "kineme.library/5"
-"""Of the folder; a change that old readers would misunderstand gets the next number."""
+"""Schema of the folder; increment the number for changes that old readers would misread."""
 HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
 TABLES, ANALYSES = "tables", "pieces"
 EMBEDDED = 32
-"""Numbers in an embedding."""
+"""Length of an embedding."""
 BODIES = "bodies"
-"""The vocabulary of everything that has a body."""
+"""Vocabulary of all recordings of bodies."""
 MOST_CLUSTERS = 1 << 62
-"""Above the number of any cluster, so that columns of integers hold it."""
+"""Upper limit of cluster numbers, which fits into int64 columns."""
 _KINDS = {
     "clustering": dict,
     "failed": dict,
@@ -45,11 +45,11 @@ _KINDS = {
     "tables": str,
 }
 EXTRA = "library"
-"""The extra that installs what libraries need."""
+"""Extra that installs the dependencies of libraries."""
 
 
 def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
-    """Return what ``library.json`` says."""
+    """Return the content of ``library.json``; raise ReadError if it is invalid."""
     path = make_path(folder) / HEAD
     if not path.is_file():
         raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
@@ -66,7 +66,7 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
 
 
 def _is_complete(head: Mapping[str, Any]) -> bool:
-    """Return whether everything in a head is of its type."""
+    """Return whether all entries of a head are present and valid."""
     if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
         return False
     constants = head["clustering"]
@@ -80,7 +80,7 @@ def _is_complete(head: Mapping[str, Any]) -> bool:
 
 
 def read_json(path: Path, values: Any = Any) -> dict[str, Any]:
-    """The object in a JSON file, whose values are of a type; an empty one where there is none."""
+    """Return the object in a JSON file with values of a type; empty if the file is missing."""
     try:
         return load_json(path, dict[str, values])
     except ReadError as error:
@@ -90,8 +90,8 @@ def read_json(path: Path, values: Any = Any) -> dict[str, Any]:
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
-    """Leave an object at ``path``, whole or not at all."""
-    # Escaped, for names of files need not be UTF-8.
+    """Write an object to a JSON file atomically."""
+    # ASCII only, since file names need not be UTF-8.
     text = json.dumps(content, indent=1, sort_keys=True)
     with write_locally(path) as draft:
         draft.write_text(text + "\n", encoding="utf-8")
@@ -99,11 +99,11 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
 
 @contextmanager
 def lock_for_writing(folder: Path, what: str, name: str = LOCK) -> Iterator[None]:
-    """The library, for one writer alone; WriteError where another one holds it.
+    """Lock the library for writing; raise WriteError if another process holds the lock.
 
-    ``what`` is what to do once that is done, ``name`` that of the lock: of builds, or of edits.
+    ``what`` is the action that the error suggests to repeat, ``name`` the lock file.
     """
-    if is_remote(folder):  # nobody locks there
+    if is_remote(folder):  # no locks there
         yield
         return
     try:
@@ -131,8 +131,8 @@ def lock_for_writing(folder: Path, what: str, name: str = LOCK) -> Iterator[None
 def import_arrow() -> tuple[Any, Any]:
     """Return the modules pyarrow and pyarrow.parquet.
 
-    Read with ``use_threads=False``: a thread of theirs that lets go of bytes of Python while Python
-    ends makes it abort, with all work done (https://github.com/apache/arrow/issues/34314).
+    Read with ``use_threads=False``: an Arrow thread that releases Python bytes while Python exits
+    aborts the process (https://github.com/apache/arrow/issues/34314).
     """
     with require_extra("pyarrow", EXTRA):
         import pyarrow as pa
@@ -141,9 +141,9 @@ def import_arrow() -> tuple[Any, Any]:
 
 
 def as_array(column: Any) -> NDArray[Any]:
-    """Return a column of a pyarrow.Table as an array, of objects where it holds texts.
+    """Return a column of a pyarrow.Table as an array; texts become objects.
 
-    By way of DLPack: pyarrow's own way imports pandas.
+    Uses DLPack, since pyarrow's own conversion imports pandas.
     """
     pa, _ = import_arrow()
     values = column.combine_chunks()
@@ -156,9 +156,9 @@ def as_array(column: Any) -> NDArray[Any]:
 
 
 def as_column(values: Iterable[Any], kind: type) -> Any:
-    """Texts, or numbers of a type, as a pyarrow.Array.
+    """Return texts, or numbers of a type, as a pyarrow.Array.
 
-    By way of buffers: pyarrow's own way imports pandas.
+    Uses buffers, since pyarrow's own conversion imports pandas.
     """
     pa, _ = import_arrow()
     if kind is str:

@@ -1,4 +1,4 @@
-"""Paths and URLs: told apart, written whole, and kept near."""
+"""Handle paths and URLs alike: convert, write atomically, and cache."""
 
 from __future__ import annotations
 
@@ -24,48 +24,48 @@ from kineme.errors import (
 )
 
 EXTRA = "remote"
-"""The extra that installs what URLs need."""
+"""Extra that installs the dependencies of URLs."""
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
 
-def make_path(given: str | PathLike[str], caller: str = "make_path") -> Path:
-    """Return a path, or what behaves like one where a URL is given.
+def make_path(path: str | PathLike[str], caller: str = "make_path") -> Path:
+    """Return a path object for a path or URL.
 
     Examples
     --------
     >>> make_path("file:///tmp/takes").name
     'takes'
     """
-    if is_remote(given):
-        return cast("Path", given)
-    check_path(given, caller)
-    if not isinstance(given, str) or not _URL.match(given):
-        return Path(given)
-    if given.lower().startswith("file://"):
-        return Path(url2pathname(urlparse(given).path))
+    if is_remote(path):
+        return cast("Path", path)
+    check_path(path, caller)
+    if not isinstance(path, str) or not _URL.match(path):
+        return Path(path)
+    if path.lower().startswith("file://"):
+        return Path(url2pathname(urlparse(path).path))
     with require_extra("universal_pathlib", EXTRA):
         from upath import UPath
     try:
-        found = UPath(given)
-        _ = found.fs
-    except (ImportError, ValueError) as error:  # such as: Install s3fs to access S3
-        raise ParameterError(f"{given:.200} cannot be reached: {error}") from error
-    return cast("Path", found)
+        remote = UPath(path)
+        _ = remote.fs
+    except (ImportError, ValueError) as error:  # e.g. "Install s3fs to access S3"
+        raise ParameterError(f"{path:.200} cannot be reached: {error}") from error
+    return cast("Path", remote)
 
 
 def is_remote(path: str | PathLike[str]) -> bool:
-    """Return whether a place is elsewhere."""
+    """Return whether a path is a URL of universal_pathlib."""
     return hasattr(path, "protocol")
 
 
 def is_inside(path: Path, folder: Path) -> bool:
-    """Return whether a place is in a folder; what is elsewhere is in none of this machine."""
+    """Return whether a path lies in a folder; a remote path is in no local folder."""
     return is_remote(path) == is_remote(folder) and path.is_relative_to(folder)
 
 
 @contextmanager
 def translate_remote_errors(path: Path) -> Iterator[None]:
-    """A block that uses a place: what goes wrong on the way there is a ReadError."""
+    """Turn connection errors while using a remote path into ReadError."""
     try:
         yield
     except KinemeError:
@@ -79,9 +79,9 @@ def translate_remote_errors(path: Path) -> Iterator[None]:
 
 @contextmanager
 def write_locally(path: Path) -> Iterator[Path]:
-    """A path of this machine to write to; what is there when the block ends becomes ``path``.
+    """Provide a local file to write, which replaces ``path`` when the block ends.
 
-    Whole or not at all: as `kineme._util.files.atomic_write` here, and as one object elsewhere.
+    Atomic: local files use `kineme._util.files.atomic_write`, remote ones are put as one object.
     """
     if not is_remote(path):
         with atomic_write(path) as draft:
@@ -99,9 +99,9 @@ def write_locally(path: Path) -> Iterator[Path]:
 
 
 def copy_nearby(path: Path) -> Path:
-    """A file that never changes under its name, on this machine: its copy, where it is elsewhere.
+    """Return a local path for a file whose content never changes; remote files are cached.
 
-    Copies are in ``KINEME_CACHE``, else in ``~/.cache/kineme``, and may be deleted.
+    The cache is in ``KINEME_CACHE`` or ``~/.cache/kineme`` and may be deleted.
     """
     if not is_remote(path):
         refuse_pipe(path)

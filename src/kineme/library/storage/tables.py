@@ -1,7 +1,7 @@
-"""The tables of a library: what was computed over all recordings, as Parquet.
+"""Read and write the tables of a library, Parquet files with results over all recordings.
 
-``DESCRIBED`` tells every column. Tables of one build lie in one folder, which is called by a digest
-of what it holds; the head of the library names the valid one.
+``DESCRIBED`` documents every column. The tables of a build lie in one folder, which is named by a
+digest of its content; the head of the library names the current one.
 """
 
 from __future__ import annotations
@@ -62,35 +62,35 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
         "embedding": Column(f"{EMBEDDED} numbers, near each other for similar segments", float),
     },
 }
-"""The columns of each table, edits applied, and what is in them."""
+"""Columns of each table with edits applied, and their descriptions."""
 
 _FOLDER = re.compile(r"[0-9a-f]{16}|\.[0-9a-f]{12}")
-"""Name of the tables of a build, or of a draft of them."""
+"""Matches folders of tables, and drafts of them."""
 _WINDOWS = re.compile(r"windows\.\d+\.npy")
 
 LARGEST = 1e30
-"""Of any number in a table."""
+"""Largest absolute value in a table."""
 
 ADDED = ("label", "action_label")
-"""Columns that come with the edits, where a table has none."""
+"""Columns that `apply_edits` adds if a table lacks them."""
 
 
 def is_tables_folder(name: str) -> bool:
-    """Return whether the folder of the tables of a build is named so."""
+    """Return whether a folder name is that of a build's tables."""
     return _FOLDER.fullmatch(name) is not None
 
 
 def is_table_file(name: str) -> bool:
-    """Return whether a file in such a folder is named so: a table, an index or a draft."""
+    """Return whether a file name in such a folder is that of a table, an index or a draft."""
     stem, _, suffix = name.partition(".")
     table = stem in DESCRIBED and suffix == "parquet"
     return table or is_draft(name) or _WINDOWS.fullmatch(name) is not None
 
 
 def make_table(name: str, columns: Mapping[str, Any]) -> Any:
-    """Return a table of computed columns, a pyarrow.Table; of any number of rows, with none, too.
+    """Return computed columns as a pyarrow.Table with the declared types, even without rows.
 
-    Embeddings are a pyarrow.Array already.
+    Embeddings must be a pyarrow.Array.
     """
     pa, _ = import_arrow()
     return pa.table(
@@ -105,7 +105,7 @@ def make_table(name: str, columns: Mapping[str, Any]) -> Any:
 
 
 def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
-    """Leave tables in the folder of a library; the name under which they lie there."""
+    """Write tables to the folder of a library and return the name of their folder."""
     _, parquet = import_arrow()
     home = folder / TABLES
     if is_remote(home):
@@ -118,30 +118,33 @@ def write_tables(folder: Path, tables: Mapping[str, Any]) -> str:
             with atomic_write(draft / f"{name}.parquet") as file:
                 parquet.write_table(table, file, compression="zstd")
             digest.update((draft / f"{name}.parquet").read_bytes())
-        named = digest.hexdigest()[:16]
-        if not OwnedFolder(folder).path(TABLES, named).is_dir():
-            draft.rename(home / named)
+        folder_name = digest.hexdigest()[:16]
+        if not OwnedFolder(folder).path(TABLES, folder_name).is_dir():
+            draft.rename(home / folder_name)
     except OSError as error:
         raise WriteError(folder, f"cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(draft, ignore_errors=True)
-    return named
+    return folder_name
 
 
 def _upload_tables(home: Path, tables: Mapping[str, Any]) -> str:
-    """The same where folders cannot be moved: nothing names these tables before all are there."""
-    with TemporaryDirectory(prefix="kineme-") as near:
-        named = write_tables(Path(near), tables)
-        for file in sorted((Path(near) / TABLES / named).iterdir()):
-            with write_locally(home / named / file.name) as draft:
+    """Upload tables file by file, since remote folders cannot be renamed; return their name.
+
+    This is safe because the head names the tables only after all files exist.
+    """
+    with TemporaryDirectory(prefix="kineme-") as local_folder:
+        folder_name = write_tables(Path(local_folder), tables)
+        for file in sorted((Path(local_folder) / TABLES / folder_name).iterdir()):
+            with write_locally(home / folder_name / file.name) as draft:
                 shutil.copy(file, draft)
-    return named
+    return folder_name
 
 
-def read_table(folder: Path, named: str, name: str) -> Any:
-    """Return a table of those that the head of the library names, a pyarrow.Table."""
+def read_table(folder: Path, folder_name: str, name: str) -> Any:
+    """Read a table from the folder of tables ``named``, as a pyarrow.Table."""
     pa, parquet = import_arrow()
-    path = folder / TABLES / named / f"{name}.parquet"
+    path = folder / TABLES / folder_name / f"{name}.parquet"
     with translate_read_errors(path):
         content = pa.BufferReader(path.read_bytes())
         table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
@@ -157,7 +160,7 @@ def read_table(folder: Path, named: str, name: str) -> Any:
 
 
 def _is_valid(column: Any, kind: type) -> bool:
-    """Return whether a column is of its type, and has a value in every row."""
+    """Return whether a column has its type, a value in every row, and no huge numbers."""
     pa, _ = import_arrow()
     types = {str: pa.string(), int: pa.int64(), float: pa.float64()}
     if column.null_count:
