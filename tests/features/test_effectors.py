@@ -45,7 +45,7 @@ PLAIN = ("LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand")
 
 
 def renamed(names: dict[str, str]) -> Skeleton:
-    """Rename some joints of the make_figure; give the others meaningless names."""
+    """Rename some joints of the figure; give the others meaningless names."""
     plain = make_figure()
     new = tuple(names.get(name, f"node{i}") for i, name in enumerate(plain.names))
     return Skeleton(new, plain.parents, plain.offsets, plain.end_sites)
