@@ -25,7 +25,7 @@ def score_file(
     *,
     quiet: bool,
 ) -> list[dict[str, Any]]:
-    """Return the scores of a result as records; printed unless quiet."""
+    """Return the scores of a result as records; print them unless quiet."""
     result = read_result(path, fps=fps)
     n_frames, rate = choose_comparison_rate(result)
     if is_annotation_file(labels):
