@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import KinemeWarning, MissingDependencyError, MotionError, ParameterError
 
-MOST_FRAMES_MORE = 1000
+MAX_FRAMES_RATIO = 1000
 """Frames at a new rate for one of the old, at most; beyond that the old one is wrong."""
 
 
@@ -34,7 +34,7 @@ def require_extra(package: str, extra: str) -> Iterator[None]:
 
 def check_rates(old: float, new: float) -> None:
     """ParameterError where the frames at a new rate would be beyond all measure."""
-    if new > MOST_FRAMES_MORE * old:
+    if new > MAX_FRAMES_RATIO * old:
         raise ParameterError(
             f"frames {1 / old:g} s apart are too far for {new:g} a second: is the frame rate right?"
         )

@@ -1,7 +1,7 @@
-"""Declare how a device lays out its table: the line of names, the clock, the rate, the counters.
+"""Describe the layout of a device's table: line of names, clock, rate, counters.
 
-A device is one module of this folder that ends in one `Dialect`, ``DIALECT``. Its ``layout`` is a
-`Layout`, or a function from table to table where patterns do not say it all.
+Each device is a module of this folder that defines a `Dialect` named ``DIALECT``. Its ``layout`` is
+a `Layout`, or a function from table to table if patterns are not sufficient.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from itertools import islice
 
 from kineme.formats.delimited import DelimitedText, find_separator, make_unique_names
 from kineme.formats.sniffing import (
-    HIGHEST,
+    MAX_HEADER_LINES,
     SEPARATOR,
     is_row,
     is_text_line,
@@ -25,7 +25,7 @@ Recognise = Callable[[Sequence[str], Sequence[str]], bool]
 
 
 def begins_with(pattern: str, *, within: int = 1) -> Recognise:
-    """Return a test of whether one of the first lines of a file begins as a pattern.
+    """Return a test of whether one of the first lines of a file starts with a pattern.
 
     Blank lines and the ``sep=;`` of spreadsheets do not count.
 
@@ -45,7 +45,23 @@ def begins_with(pattern: str, *, within: int = 1) -> Recognise:
 
 @dataclass(frozen=True)
 class Layout:
-    r"""Where a device's table stands in its file, and what the columns are.
+    r"""The position of a device's table in its file, and the meaning of its columns.
+
+    Parameters
+    ----------
+    head : str
+        Pattern at the start of the line of names or the first row; by default the first line.
+    names : sequence of str
+        Names of the columns, if the file has no line of names.
+    words : int
+        Number of lines between names and rows, such as units.
+    clocks : mapping of str to str
+        Patterns of the name of the column of times, and its unit ("" for dates). The first pattern
+        that matches a column is used.
+    rate : str
+        Pattern whose group is the frame rate, searched in the lines above the names.
+    hidden : str
+        Pattern of names of columns that are channels only if requested, such as counters.
 
     Parameters
     ----------
@@ -71,7 +87,7 @@ class Layout:
     >>> watch = Layout(head="t,", clocks={"t": "ms"}, rate=r"at (\d+) Hz", hidden="battery")
     >>> text = sniff(FileContent(Path("a.csv"), b"MyWatch at 50 Hz\nt,x,battery\n0,1.5,99\n"))
     >>> table = watch(text)
-    >>> table.rate, table.times, table.numeric()
+    >>> table.rate, table.times, table.find_numeric_columns()
     (50.0, {'t': 'time (ms)'}, ['t', 'x'])
     """
 
@@ -83,12 +99,13 @@ class Layout:
     hidden: str = ""
 
     def __call__(self, text: DelimitedText) -> DelimitedText:
-        """Return the table in the lines of a file; ReadError where its head is not there."""
+        """Return the table in the lines of a file; raise ReadError if its head is missing."""
         lines, head = text.lines, self._head(text)
         separator = find_separator(lines[head])
-        # names and rows may end in one more separator
+        # Names and rows may end with an additional separator.
         cells = split_head(text.content, lines[head].rstrip(f"{separator} "), "", separator)
         below = head + 1 + self.words
+        # Without a line of names the first row is in its place.
         if has_no_names := bool(self.names) and is_row(cells):
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
             cells, below = [*self.names, *numbered][: len(cells)], head
@@ -110,7 +127,7 @@ class Layout:
         )
 
     def _head(self, text: DelimitedText) -> int:
-        for i, line in enumerate(islice(text.lines, HIGHEST)):
+        for i, line in enumerate(islice(text.lines, MAX_HEADER_LINES)):
             if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
                 return i
         raise text.content.error("has no line of names where its device writes one")

@@ -1,6 +1,6 @@
-"""OpenSignals (BITalino, biosignalsplux): a header of JSON between lines of ``#``, then rows.
+"""Read OpenSignals (BITalino, biosignalsplux): a JSON header between lines of ``#``, then rows.
 
-The header tells the rate, the names of the columns, and which of them are sensors.
+The header states the rate, the names of the columns, and which of them are sensors.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from kineme.formats.dialects import Dialect
 
 
 def lay_out(text: DelimitedText) -> DelimitedText:
-    """Return the table, its columns called by label and sensor: ``A1 EMG``."""
+    """Return the table with columns named by label and sensor: ``A1 EMG``."""
     try:
         devices = [*json.loads(text.lines[1].lstrip("# ")).values()]
         rate = float(devices[0]["sampling rate"])

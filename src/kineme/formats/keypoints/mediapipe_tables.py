@@ -1,6 +1,6 @@
-"""MediaPipe's landmarks in tables, as people save them: a row for each frame, or for each landmark.
+"""Read MediaPipe's landmarks in tables with a row for each frame, or for each landmark.
 
-What the columns may be called: `kineme.formats.keypoints.mediapipe`.
+`kineme.formats.keypoints.mediapipe` describes the names of columns.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from kineme.recordings import Motion
 from kineme.recordings.regular import Timing
 from kineme.recordings.times import is_timing
 
-_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # read, stacked and placed
+_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # three copies of four numbers
 
 _FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3, "presence": 3, "score": 3}
 _WORD = r"(?:pose|landmarks?|lm|kp|keypoint|point)?[\s_.-]*"
@@ -40,7 +40,7 @@ _PLACES = {normalize_name(name): i for i, name in enumerate(NAMES)}
 
 
 def is_long(names: Sequence[str]) -> bool:
-    """Return whether columns of these names are landmarks, a row for each of them."""
+    """Return whether these are the columns of a table with a row for each landmark."""
     lower = [name.lower() for name in names]
     return {"x", "y"} <= set(lower) and None not in (
         _find_column(names, _FRAME),
@@ -49,13 +49,13 @@ def is_long(names: Sequence[str]) -> bool:
 
 
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks, a row for each frame."""
+    """Return the motion of MediaPipe's landmarks from a table with a row for each frame."""
     at = _find_landmark_columns(table.names)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)]
     frame = _find_column(table.names, _FRAME)
     extra = [*timing, *([frame] if frame is not None else [])]
     rows = table.numbers([*at.values(), *extra])
-    # Columns x, y, z and visibility; the last one is 1 where there is none.
+    # x, y, z and visibility, which is 1 if there is no column for it.
     poses = np.zeros((len(rows), len(NAMES), 4))
     poses[..., 3] = 1.0
     for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
@@ -87,19 +87,19 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks, a row for each landmark."""
+    """Return the motion of MediaPipe's landmarks from a table with a row for each landmark."""
     lower = [name.lower() for name in table.names]
     at = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
     landmark_column, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
     rows = table.numbers([frame or 0, *at.values(), *timing])
     landmarks = _parse_landmarks(table.content, table.texts(landmark_column or 0)[: len(rows)])
-    # Rows of one frame share a place.
+    # Index of the frame of each row.
     frames, place = np.unique(to_frame_numbers(table.content, rows[:, 0]), return_inverse=True)
     size = _BYTES_PER_POSE * len(frames)
     table.content.require_memory(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
     poses = np.full((len(frames), len(NAMES), 4), np.nan)
-    # Without z and visibility in the table, these are 0 and 1.
+    # Defaults of z and visibility.
     poses[..., 2:] = (0.0, 1.0)
     for k, field in enumerate(at, 1):
         poses[place, landmarks, field] = rows[:, k]
@@ -118,7 +118,7 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
-    """Return for each landmark and field the column; empty unless x and y of all 33 are there."""
+    """Return the column of each landmark and field; empty unless x and y of all 33 exist."""
     found: dict[tuple[str, int], int] = {}
     for column, name in enumerate(names):
         first, last = _FIELD_FIRST.fullmatch(name.strip()), _FIELD_LAST.fullmatch(name.strip())
@@ -128,7 +128,7 @@ def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
             found.setdefault((normalize_name(last[1]), _FIELDS[last[2].lower()]), column)
     by_name = {(_PLACES[name], field): i for (name, field), i in found.items() if name in _PLACES}
     by_number = {(int(m), field): i for (m, field), i in found.items() if m.isdecimal()}
-    # Landmarks counted from 1.
+    # Landmarks may count from 1.
     if by_number and min(landmark for landmark, _ in by_number) == 1:
         by_number = {(landmark - 1, field): i for (landmark, field), i in by_number.items()}
     for table in (by_name, by_number):
@@ -138,7 +138,7 @@ def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
 
 
 def _parse_landmarks(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
-    """Return the landmarks that people call by number or name."""
+    """Return the numbers of landmarks that are given by number or name."""
     numbers = []
     for text in texts:
         name = normalize_name(text.rpartition(".")[2])  # PoseLandmark.NOSE

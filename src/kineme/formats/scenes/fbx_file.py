@@ -1,4 +1,4 @@
-"""Nodes of an FBX file of version 7, be it binary or text.
+"""Parse the nodes of an FBX file of version 7, binary or text.
 
 In a binary file a node is::
 
@@ -7,11 +7,11 @@ In a binary file a node is::
     values                                           a letter for the type, then the value
     nodes                                            up to an empty one
 
-Arrays say their number, whether zlib packed them, and their bytes. They are left where they are
-until somebody asks for one: most are of meshes.
+Arrays store their length, whether zlib compressed them, and their bytes. They are parsed on demand,
+since most belong to meshes.
 
 Source: the format is not published; A. Gessler and C. Barton, "FBX binary file format
-specification", Blender's developer blog, 2013, and what programs write.
+specification", Blender's developer blog, 2013, and files of various programs.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ from kineme.formats.scenes.fbx_text import parse_text
 MAGIC = b"Kaydara FBX Binary  \x00"
 
 OLDEST = 7000
-"""Version, in thousandths."""
+"""Oldest supported version, in thousandths."""
 
 START = 27
-"""Where the first node of a binary file is."""
+"""Offset of the first node of a binary file."""
 
 WIDE = 7500
-"""From which version on nodes have 64 bits."""
+"""First version with 64 bits in the head of nodes."""
 
 _SCALARS = {
     ord(letter): struct.Struct(f"<{code}")
@@ -50,18 +50,18 @@ _ARRAYS = {
 
 
 def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
-    """Return version of an FBX file, in thousandths, and its nodes, below one without a name."""
+    """Return the version of an FBX file, in thousandths, and its nodes, below a nameless root."""
     if content.data.startswith(MAGIC):
         if len(content.data) < START:
             raise content.error("the file ends in its header: it is truncated")
-        # The version is in the four bytes before the first node.
+        # The four bytes before the first node are the version.
         version = int.from_bytes(content.data[START - 4 : START], "little")
         _refuse_old(content, version)
         return version, _parse_binary(content, get_head_struct(version))
     root = parse_text(content)
     header = root.child("FBXHeaderExtension")
-    found = header.child("FBXVersion") if header else None
-    number = found.values[0] if found and found.values else 0
+    version_node = header.child("FBXVersion") if header else None
+    number = version_node.values[0] if version_node and version_node.values else 0
     version = number if isinstance(number, int) else 0
     _refuse_old(content, version)
     return version, root
@@ -77,14 +77,14 @@ def _refuse_old(content: FileContent, version: int) -> None:
 
 
 def get_head_struct(version: int) -> struct.Struct:
-    """Return the layout of what stands before a node's name in a binary file."""
+    """Return the struct of the fields before a node's name in a binary file."""
     return struct.Struct("<QQQB" if version >= WIDE else "<IIIB")
 
 
 def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
     data = content.data
     root = FBXNode("")
-    # A stack instead of recursion: files may be nested deeply.
+    # Use a stack instead of recursion, since nodes may be nested deeply.
     open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
     at, nodes = START, 0
     while open_nodes:
@@ -96,7 +96,7 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
             raise content.error("breaks off between two nodes: the file is truncated or damaged")
         end, count, size, length = head.unpack_from(data, at)
         first, at = at, at + head.size
-        # An empty node ends the list of its parent's nodes.
+        # An empty node ends the list of children.
         if end == 0:
             if node is not root and at != stop:
                 raise content.error(f"node {node.name!r:.40} is not as long as it says: damaged")
@@ -111,7 +111,7 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
         child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
         node.children.append(child)
         at = start + size
-        # What is left of the node are its own nodes.
+        # The rest of the node holds its children.
         if at < end:
             open_nodes.append((child, end))
     return root
@@ -136,7 +136,7 @@ def _parse_values(content: FileContent, at: int, stop: int, count: int) -> list[
 
 
 def _parse_value(data: bytes, at: int) -> tuple[Any, int]:
-    """Return a value, and where the next one is."""
+    """Return a value and the offset of the next one."""
     kind = data[at]
     at += 1
     if scalar := _SCALARS.get(kind):
@@ -152,7 +152,7 @@ def _parse_value(data: bytes, at: int) -> tuple[Any, int]:
 
 @dataclass(slots=True)
 class _Array:
-    """An array in a binary file."""
+    """An array in a binary file, parsed on demand."""
 
     code: str
     count: int
@@ -169,7 +169,7 @@ class _Array:
         if self.packed:
             content.require_memory(size, f"an array of {self.count} numbers")
             try:
-                # One byte more shows that an array is longer than it says.
+                # One more byte reveals an array longer than declared.
                 raw = zlib.decompressobj().decompress(raw, size + 1)
             except zlib.error as error:
                 raise content.error(f"an array cannot be unpacked: {error}") from None

@@ -1,6 +1,6 @@
-"""FBX written as text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
+"""Parse FBX text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
 
-A semicolon begins a comment. Arrays are left where they are until somebody asks for one.
+A semicolon starts a comment. Arrays are parsed on demand.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _TOKEN = re.compile(
 _ARRAY = re.compile(rb"\s*\{\s*a\s*:")
 _ESCAPES = ((b"&quot;", b'"'), (b"&lf;", b"\n"), (b"&cr;", b"\r"))
 _BOM = b"\xef\xbb\xbf"
-_LONGEST = 40  # digits of a whole number
+_MAX_DIGITS = 40  # of a number
 
 
 def parse_text(content: FileContent) -> FBXNode:
@@ -36,15 +36,15 @@ def parse_text(content: FileContent) -> FBXNode:
 
 
 class _Text:
-    """Reads one token after another."""
+    """Parse one token after another."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
-        # In bytes throughout: places in the file are bytes.
+        # Offsets count bytes, so the text stays bytes.
         self.data = content.text.encode("utf-8") if content.is_utf16 else content.data
         self.root = FBXNode("")
         self.open_nodes = [self.root]
-        self.node: FBXNode | None = None  # whose values are being read
+        self.node: FBXNode | None = None  # the node whose values are being read
         self.count = 0
         self.at = len(_BOM) if self.data.startswith(_BOM) else 0
         while match := _TOKEN.match(self.data, self.at):
@@ -56,7 +56,7 @@ class _Text:
             raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
 
     def _error(self, reason: str, at: int) -> ReadError:
-        # Lines are counted only for messages.
+        # Count lines only when a message needs them.
         return self.content.error(reason, self.data.count(b"\n", 0, at) + 1)
 
     def _take(self, match: re.Match[bytes]) -> None:
@@ -86,13 +86,13 @@ class _Text:
             self.node.values.append(_parse_word(value))
 
     def _array(self, count: bytes) -> _Array:
-        """Return the array that begins here, which is skipped."""
+        """Return the array that starts here, and skip it."""
         start, stop = _ARRAY.match(self.data, self.at), self.data.find(b"}", self.at)
         if start is None or stop < 0:
             raise self._error("an array without its numbers", self.at)
-        found = _Array(int(count[:_LONGEST]), self.data, start.end(), stop)
+        array = _Array(int(count[:_MAX_DIGITS]), self.data, start.end(), stop)
         self.at = stop + 1
-        return found
+        return array
 
 
 def _unquote(quoted: bytes) -> str:
@@ -105,8 +105,8 @@ def _unquote(quoted: bytes) -> str:
 def _parse_word(word: bytes) -> int | float | str:
     for number in (int, float):
         try:
-            # Cut to some digits: a text of millions of digits takes long to convert.
-            return number(word[:_LONGEST])
+            # Limit the digits: converting millions of them takes long.
+            return number(word[:_MAX_DIGITS])
         except ValueError:
             continue
     return word.decode("utf-8", "replace")
@@ -114,7 +114,7 @@ def _parse_word(word: bytes) -> int | float | str:
 
 @dataclass(slots=True)
 class _Array:
-    """An array in a text."""
+    """An array in a text file, parsed on demand."""
 
     count: int
     data: bytes

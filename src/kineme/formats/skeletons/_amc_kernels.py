@@ -1,4 +1,4 @@
-"""Compiled reading of AMC text. The naive twin is in ``tests/helpers/naive``."""
+"""Compiled parser of AMC text. ``tests/helpers/naive`` has a simple equivalent."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ from numba import njit
 
 from kineme._util.parallel import OPTIONS
 
-TENS = 10.0 ** np.arange(23)  # each of them exact
-EXACT = 1 << 53
+TENS = 10.0 ** np.arange(23)  # powers of ten that are exact as float64
+
+EXACT = 1 << 53  # integers up to this are exact as float64
 SPACE, PLUS, MINUS, POINT, ZERO, NINE = 32, 43, 45, 46, 48, 57
 NOT_HERE = -1
 
 
 @njit("int64(uint8[::1], int64)", **OPTIONS)
 def find_word(text, at):
-    """Where the next word begins, or the text ends; `NOT_HERE` where no space is before it."""
+    """Return the start of the next word or the end of the text; `NOT_HERE` if no space precedes."""
     before = at
     while at < len(text) and (text[at] == SPACE or 9 <= text[at] <= 13):
         at += 1
@@ -24,7 +25,7 @@ def find_word(text, at):
 
 @njit("int64(uint8[::1], int64, uint8[::1])", **OPTIONS)
 def skip_name(text, at, name):
-    """Where a name ends that begins here; `NOT_HERE` where another word does."""
+    """Return the end of a name that starts here; `NOT_HERE` if another word does."""
     if at + len(name) > len(text):
         return NOT_HERE
     for i in range(len(name)):
@@ -35,10 +36,10 @@ def skip_name(text, at, name):
 
 @njit("int64(uint8[::1], int64, float64[::1])", **OPTIONS)
 def parse_number(text, at, value):
-    """Where a number ends that begins here; its value is left.
+    """Return the end of a number that starts here, and store its value.
 
-    `NOT_HERE` where none does, or one that the quotient of a whole number and a power of ten does
-    not give as exactly as ``float``.
+    Return `NOT_HERE` if there is none, or if dividing an integer by a power of ten may round
+    differently from ``float``.
     """
     negative = at < len(text) and text[at] == MINUS
     if negative or (at < len(text) and text[at] == PLUS):
@@ -50,7 +51,7 @@ def parse_number(text, at, value):
             mantissa = 10 * mantissa + (sign - ZERO)
             digits += 1
             decimals += point
-            # Beyond these a quotient of exact numbers may round differently from `float`.
+            # For larger numbers the quotient may round differently from `float`.
             if mantissa >= EXACT or digits == len(TENS):
                 return NOT_HERE
         elif sign == POINT and not point:
@@ -66,11 +67,11 @@ def parse_number(text, at, value):
 
 @njit("int64(uint8[::1], uint8[::1], int64[::1], int64[::1], float64[:, ::1])", **OPTIONS)
 def read_rows(text, names, ends, counts, rows):
-    """Frames of text into rows: the number of each, then the values of each bone.
+    """Parse frames into rows: the number of the frame, then the values of each bone.
 
-    A frame is its number and, for each bone, its name (``names`` up to its end) and as many
-    numbers as it has. How many frames there are; `NOT_HERE` where anything is written in another
-    way. The text begins and ends with a space; there are rows enough.
+    A frame is its number and, for each bone, its name (``names`` up to its end) and its values. The
+    text must start and end with a space, and ``rows`` be large enough. Return the number of frames,
+    or `NOT_HERE` if the text has another layout.
     """
     at, row, value = 0, 0, np.zeros(1)
     while True:
@@ -89,7 +90,7 @@ def read_rows(text, names, ends, counts, rows):
                 at = skip_name(text, at, names[first : ends[bone]])
             first = ends[bone]
             for _ in range(counts[bone]):
-                # Once something is missing, the rest of the bone is passed over.
+                # After a mismatch, skip the rest of the bone.
                 if at != NOT_HERE:
                     at = find_word(text, at)
                 if at != NOT_HERE:
