@@ -149,16 +149,16 @@ def _translate_open_errors(path: str | PathLike[str]) -> Iterator[None]:
         raise ReadError(path, f"cannot be opened: {error}") from error
 
 
-def find_sibling(content: FileContent, place: str | PathLike[str]) -> Path:
-    """Return the path of a file that ``content`` refers to by the relative path ``place``.
+def find_sibling(content: FileContent, relative: str | PathLike[str]) -> Path:
+    """Return the path of a file to which ``content`` refers by a relative path.
 
     Raise ReadError if it is not in the folder of ``content``, links included, or is a pipe.
     """
     folder = content.path.parent
-    path = folder / place
+    path = folder / relative
     if not Path(realpath(path)).is_relative_to(realpath(folder)):
         raise content.error(
-            f"names {str(place)!r:.90}, which leads out of its folder: put that file in it"
+            f"names {str(relative)!r:.90}, which leads out of its folder: put that file in it"
         )
     refuse_pipe(path)
     return path

@@ -114,11 +114,13 @@ def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
         )
 
 
-def _interpolate_cubic(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:
-    """Return values (at, 3) at the frames that were not seen."""
+def _interpolate_cubic(
+    visible: NDArray[np.intp], values: Floats, frames: NDArray[np.intp]
+) -> Floats:
+    """Return values (frames, 3) at the frames that were not seen."""
     if len(visible) == 1:
-        return np.repeat(values, len(at), axis=0)
+        return np.repeat(values, len(frames), axis=0)
     from scipy.interpolate import PchipInterpolator
 
-    inside = np.clip(at, visible[0], visible[-1])
+    inside = np.clip(frames, visible[0], visible[-1])
     return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)

@@ -143,12 +143,18 @@ def drop_duplicates(recordings: list[Path]) -> list[Path]:
 
 def _is_recording(path: Path) -> bool:
     suffix = path.suffix.lower()
-    formats = [each for each in supported_formats() if each.read and suffix in each.suffixes]
+    formats = [
+        candidate
+        for candidate in supported_formats()
+        if candidate.read and suffix in candidate.suffixes
+    ]
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _AMBIGUOUS:
         sample = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
-        is_known = any(recognises_safely(each.name, each.recognises, sample) for each in formats)
+        is_known = any(
+            recognises_safely(candidate.name, candidate.recognises, sample) for candidate in formats
+        )
         return is_known or (suffix != ".json" and _is_text_table(path))
     if suffix in (".csv", ".tsv"):
         return not _has_span_columns(path)

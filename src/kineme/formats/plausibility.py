@@ -79,17 +79,17 @@ def check_rigid_points(
     points: Floats, names: Sequence[str], bone_points: Sequence[int]
 ) -> list[Note]:
     """Warn of points on one bone whose distance changes: they were swapped or slipped."""
-    moved = []
+    changes = []
     if len(bone_points) < MIN_RIGID_POINTS:
         return []
-    for one, other in combinations(bone_points, 2):
-        lengths = np.linalg.norm(points[:, one] - points[:, other], axis=1)
+    for first, second in combinations(bone_points, 2):
+        lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
         low, middle, high = np.percentile(lengths, (2, 50, 98))
         if high - low > MAX_DISTANCE_CHANGE * middle:
-            moved.append(f"{names[one]} and {names[other]} (by {(high - low) / middle:.0%})")
-    if not moved:
+            changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
+    if not changes:
         return []
-    return [Note(f"points on one bone change their distance: {join_names(moved)}", "warning")]
+    return [Note(f"points on one bone change their distance: {join_names(changes)}", "warning")]
 
 
 def check_bone_lengths(motion: Motion) -> Motion:
@@ -138,10 +138,10 @@ def _find_jumps(
         steps = np.flatnonzero(fast[:, point]).tolist()
         while steps:
             away, *steps = steps
-            back = next((each for each in steps if each - away <= longest), None)
+            back = next((other for other in steps if other - away <= longest), None)
             if back is not None:
-                moved = np.linalg.norm(points[back + 1, point] - points[away, point])
-            if back is None or moved > step * (back + 1 - away):
+                distance = np.linalg.norm(points[back + 1, point] - points[away, point])
+            if back is None or distance > step * (back + 1 - away):
                 others.append((point, away + 1))
                 continue
             jumps.append((point, away + 1, back + 1))

@@ -143,7 +143,9 @@ def split_subjects(names: Sequence[str], person: str | None = None) -> tuple[lis
     for i, name in enumerate(names):
         points.setdefault(name.rpartition(":")[0], []).append(i)
     short = [name.rpartition(":")[2] for name in names]
-    subjects = [who for who, members in points.items() if "pelvis" in find_body(short, members)]
+    subjects = [
+        subject for subject, members in points.items() if "pelvis" in find_body(short, members)
+    ]
     chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
     if subjects:
         chosen = person if person in subjects else subjects[0]
@@ -228,7 +230,9 @@ def _describe_splits(
     return [Note(note, "warning")]
 
 
-def _describe_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int) -> list[str]:
+def _describe_gaps(
+    names: list[str], gaps: Gaps, kept_points: list[int], n_frames: int
+) -> list[str]:
     notes: list[str] = []
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])
@@ -240,7 +244,7 @@ def _describe_gaps(names: list[str], gaps: Gaps, kept: list[int], n_frames: int)
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
         notes.append(f"never seen, left out: {join_names([names[p] for p in never])}")
-    broken = [p for p in gaps.open if p not in never and p not in kept]
+    broken = [p for p in gaps.open if p not in never and p not in kept_points]
     if broken:
         parts = [
             f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken

@@ -88,7 +88,7 @@ def read(
     if skeleton is not None:
         check_path(skeleton, "skeleton")
     skeleton_path, person_name, take_name = (
-        None if each is None else str(each) for each in (skeleton, person, take)
+        None if value is None else str(value) for value in (skeleton, person, take)
     )
     options = ReadOptions(
         skeleton_path, fps, unit, up, person_name, confidence, columns, emg, take_name

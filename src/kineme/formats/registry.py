@@ -70,40 +70,6 @@ class Format:
         Takes motions by name, the path of the file that they came from, and a path. Writes a copy
         of that file with these animations instead of its own.
 
-    Parameters
-    ----------
-    name : str
-        As people call it.
-    suffixes : tuple of str
-        Lower case, with the dot.
-    recognises : callable
-        Whether a file's first 4096 bytes look like this format.
-    read : callable, optional
-        From `FileContent` and `ReadOptions` to the recording in it.
-    write : callable, optional
-        From a motion to a path.
-    write_signals : callable, optional
-        From signals to a path.
-    read_folder : callable, optional
-        From a folder of files that are one recording to this recording, None where there
-        are none of this format in it.
-    channels : bool
-        Whether files can hold channels, so that ``read`` minds ``columns`` and ``emg``.
-    analog : bool
-        Whether channels stand beside the motion in a file, as force plates and muscles do, so
-        that ``read`` gives either.
-    sketch : callable, optional
-        From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
-        much sooner than ``read``; None where that cannot be.
-    write_animations : callable, optional
-        From motions of one skeleton, by their names, to a path; for formats that hold several.
-    is_video : bool
-        Whether files are videos, of which ``read`` gets the first bytes alone and opens the path.
-        Beside a recording of its name a video is no other recording, but shows that one.
-    copy_animations : callable, optional
-        From the same and the file that they came from to a path: a copy of that file with these
-        animations instead of its own.
-
     Examples
     --------
     >>> def levels(content, options):
@@ -215,14 +181,20 @@ def supported_formats() -> tuple[Format, ...]:
 
 def find_writer(suffix: str) -> Format | None:
     """Return the format that writes motions to files of this suffix, or None."""
-    writers = (each for each in supported_formats() if each.write and suffix in each.suffixes)
+    writers = (
+        candidate
+        for candidate in supported_formats()
+        if candidate.write and suffix in candidate.suffixes
+    )
     return next(writers, None)
 
 
 def is_video(path: Path) -> bool:
     """Return whether a path has the suffix of a video."""
     suffix = path.suffix.lower()
-    return any(each.is_video and suffix in each.suffixes for each in supported_formats())
+    return any(
+        candidate.is_video and suffix in candidate.suffixes for candidate in supported_formats()
+    )
 
 
 def recognise(content: FileContent) -> Format:

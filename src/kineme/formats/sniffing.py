@@ -59,11 +59,6 @@ def sniff(content: FileContent) -> DelimitedText:
     ReadError
         The file is empty, or the names cannot be read.
 
-    Raises
-    ------
-    ReadError
-        There are no lines, or the names cannot be read.
-
     Examples
     --------
     >>> from pathlib import Path
@@ -127,9 +122,9 @@ def is_text_line(line: str) -> bool:
     return bool(line.strip()) and line[0] != "#" and not SEPARATOR.fullmatch(line)
 
 
-def note_skipped_lines(count: int, what: str) -> tuple[str, ...]:
+def note_skipped_lines(count: int, name: str) -> tuple[str, ...]:
     """Return a note on the number of lines above the table, if there are any."""
-    return (f"{format_count(count, 'line')} above the {what} passed over",) if count else ()
+    return (f"{format_count(count, 'line')} above the {name} passed over",) if count else ()
 
 
 def split_head(content: FileContent, line: str, row: str, separator: str) -> list[str]:
@@ -149,17 +144,17 @@ def split_head(content: FileContent, line: str, row: str, separator: str) -> lis
 
 
 def _is_head(
-    lines: Sequence[str], content_lines: Sequence[int], at: int, separator: str | None
+    lines: Sequence[str], content_lines: Sequence[int], index: int, separator: str | None
 ) -> bool:
     """Return whether a line holds names: rows below have as many cells, lines above fewer."""
-    separator = separator or find_separator(lines[content_lines[at]])
+    separator = separator or find_separator(lines[content_lines[index]])
     names, *below = (
-        split_cells(lines[i], separator) for i in content_lines[at : at + MAX_WORD_LINES + 3]
+        split_cells(lines[i], separator) for i in content_lines[index : index + MAX_WORD_LINES + 3]
     )
     rows = [*dropwhile(lambda cells: not any(map(is_number, cells)), below)][:2]
     # Spreadsheets pad lines with separators.
     cells_above = (
-        split_cells(lines[i].strip().rstrip(separator), separator) for i in content_lines[:at]
+        split_cells(lines[i].strip().rstrip(separator), separator) for i in content_lines[:index]
     )
     return (
         len(names) > 1
@@ -193,8 +188,8 @@ def _count_word_lines(lines: Sequence[str], content_lines: Sequence[int], separa
     row = below[len(words)] if len(words) < len(below) else []
     if len(names) == 1 or any(map(is_number, names)) or not _fits(row, len(names)):
         return 0
-    positions = [[i for i, cell in enumerate(each) if cell.lower() not in EMPTY] for each in words]
-    fits = all(_fits(each, len(names)) for each in words)
+    positions = [[i for i, cell in enumerate(line) if cell.lower() not in EMPTY] for line in words]
+    fits = all(_fits(line, len(names)) for line in words)
     has_values_below = all(positions) and all(
         i < len(names) and _has_value(row[i]) for i in chain(*positions)
     )

@@ -228,7 +228,7 @@ def _find_human_unit(spread: float) -> str | None:
 
 
 def infer_up_axis(
-    usual: str, positions: Floats, body: Body, *, is_stated: bool = False
+    default: str, positions: Floats, body: Body, *, is_stated: bool = False
 ) -> tuple[str, list[str]]:
     """Return the axis along which the body stands, else the usual one, and notes.
 
@@ -237,15 +237,15 @@ def infer_up_axis(
     upper = list(body.get("head", ()) or body.get("pelvis", ()))
     feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
     up = _find_body_axis(positions, feet, upper, 0.7) if upper and feet else None
-    if is_stated and up in (None, usual):
-        return usual, []
+    if is_stated and up in (None, default):
+        return default, []
     if up is None:
-        return usual, [f"up axis {usual} assumed; give up= (--up) if it is another"]
+        return default, [f"up axis {default} assumed; give up= (--up) if it is another"]
     part = "head" if body.get("head") else "pelvis"
     note = f"up axis {up} inferred: {part} and feet lie along it"
     if not is_stated:
         return up, [note]
-    return up, [Note(f"{note}, though the file names {usual}; up= (--up) overrides", "warning")]
+    return up, [Note(f"{note}, though the file names {default}; up= (--up) overrides", "warning")]
 
 
 def find_lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:

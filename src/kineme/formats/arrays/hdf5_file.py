@@ -33,12 +33,12 @@ def parse_hdf5(content: FileContent) -> dict[str, Any]:
         import h5py
     try:
         with h5py.File(io.BytesIO(content.data), "r") as file:
-            return _Reader(content, file).group(file, 0)
+            return _HDF5Reader(content, file).read_group(file, 0)
     except _DAMAGE as error:
         raise content.error(f"is no whole HDF5 file: {shorten_error(error)}") from error
 
 
-class _Reader:
+class _HDF5Reader:
     """Read groups and data sets within the memory limit of the file."""
 
     def __init__(self, content: FileContent, file: Any) -> None:
@@ -50,7 +50,7 @@ class _Reader:
         self.required += size
         self.content.require_memory(self.required, "to unpack to much more than it holds")
 
-    def group(self, group: Any, depth: int) -> dict[str, Any]:
+    def read_group(self, group: Any, depth: int) -> dict[str, Any]:
         """Return the contents of a group; they count again for every link to it."""
         import h5py
 
@@ -67,15 +67,15 @@ class _Reader:
             if not isinstance(link, h5py.HardLink):  # soft links may be circular or leave the file
                 continue
             self.require_memory(_BYTES_PER_LINK)
-            contents[name] = self.value(group[name], depth)
+            contents[name] = self.read_value(group[name], depth)
         self.open.pop()
         return contents
 
-    def value(self, item: Any, depth: int) -> Any:
+    def read_value(self, item: Any, depth: int) -> Any:
         import h5py
 
         if isinstance(item, h5py.Group):
-            return self.group(item, depth + 1)
+            return self.read_group(item, depth + 1)
         if not isinstance(item, h5py.Dataset) or item.shape is None:
             return None
         # Python integers do not overflow with absurd shapes.
@@ -83,15 +83,15 @@ class _Reader:
         if item.attrs.get("MATLAB_empty", 0):
             return np.empty((0, 0))
         if h5py.check_ref_dtype(item.dtype) is not None:
-            return self.cells(item, depth)
+            return self.read_cells(item, depth)
         return _read_dataset(item)
 
-    def cells(self, item: Any, depth: int) -> list[Any]:
+    def read_cells(self, item: Any, depth: int) -> list[Any]:
         """Return the values that the references of a data set point to."""
         if depth > _MAX_DEPTH:
             raise ValueError("cells too deep in one another")
         # Skip empty references.
-        return [self.value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
+        return [self.read_value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
 
 
 def _read_dataset(item: Any) -> Any:

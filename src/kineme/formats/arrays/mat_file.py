@@ -77,15 +77,15 @@ def _unpack(body: Bytes, budget: int) -> Bytes:
 
 def _split_elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
     """Yield type and bytes of each element."""
-    at = 0
-    while at + 8 <= len(data):
-        first, size = np.frombuffer(data, f"{order}u4", 2, at).tolist()
+    offset = 0
+    while offset + 8 <= len(data):
+        first, size = np.frombuffer(data, f"{order}u4", 2, offset).tolist()
         if first >> 16:  # a small element: four bytes of size and type, four of data
-            kind, size, start, step = first & 0xFFFF, first >> 16, at + 4, 8
+            kind, size, start, step = first & 0xFFFF, first >> 16, offset + 4, 8
             if size > 4:
                 raise _DamagedError(f"a small element of {size} bytes")
         else:
-            kind, start = first, at + 8
+            kind, start = first, offset + 8
             # Elements are padded to eight bytes, except compressed ones.
             step = 8 + (size if kind == _COMPRESSED else -(-size // 8) * 8)
         if start + size > len(data):
@@ -93,7 +93,7 @@ def _split_elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
                 f"an element of {size} bytes, of which {len(data) - start} are there"
             )
         yield kind, data[start : start + size]
-        at += step
+        offset += step
 
 
 def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:

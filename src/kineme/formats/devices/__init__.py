@@ -63,22 +63,6 @@ class Layout:
     hidden : str
         Pattern of names of columns that are channels only if requested, such as counters.
 
-    Parameters
-    ----------
-    head : str
-        Pattern that the line of names, or the first row, begins with; by default the first line.
-    names : sequence of str
-        Of the columns, where a row stands in place of the line of names.
-    words : int
-        Lines between names and rows, such as units.
-    clocks : mapping of str to str
-        From patterns of the name of the column of times to its unit, "" for dates. The first that
-        a column has counts.
-    rate : str
-        Pattern whose group is the frame rate, anywhere in the lines above the names.
-    hidden : str
-        Pattern of names of columns that are channels only if they are asked for, such as counters.
-
     Examples
     --------
     >>> from pathlib import Path
@@ -100,7 +84,7 @@ class Layout:
 
     def __call__(self, text: DelimitedText) -> DelimitedText:
         """Return the table in the lines of a file; raise ReadError if its head is missing."""
-        lines, head = text.lines, self._head(text)
+        lines, head = text.lines, self._find_head(text)
         separator = find_separator(lines[head])
         # Names and rows may end with an additional separator.
         cells = split_head(text.content, lines[head].rstrip(f"{separator} "), "", separator)
@@ -110,7 +94,7 @@ class Layout:
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
             cells, below = [*self.names, *numbered][: len(cells)], head
         names = make_unique_names(cells)
-        clocks = self._clocks(names)
+        clocks = self._find_clocks(names)
         hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
         passed = sum(map(is_text_line, lines[:head]))
         return DelimitedText(
@@ -120,26 +104,26 @@ class Layout:
             head,
             below,
             separator,
-            rate=self._rate(lines[:head]),
+            rate=self._find_rate(lines[:head]),
             notes=note_skipped_lines(passed, "rows" if has_no_names else "names"),
             hidden=frozenset(hidden - clocks.keys()),
             clocks=clocks,
         )
 
-    def _head(self, text: DelimitedText) -> int:
+    def _find_head(self, text: DelimitedText) -> int:
         for i, line in enumerate(islice(text.lines, MAX_HEADER_LINES)):
             if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
                 return i
         raise text.content.error("has no line of names where its device writes one")
 
-    def _clocks(self, names: Sequence[str]) -> dict[str, str]:
+    def _find_clocks(self, names: Sequence[str]) -> dict[str, str]:
         for pattern, unit in self.clocks.items():
             for name in names:
                 if re.fullmatch(pattern, name):
                     return {name: unit}
         return {}
 
-    def _rate(self, lines: Sequence[str]) -> float | None:
+    def _find_rate(self, lines: Sequence[str]) -> float | None:
         matches = (re.search(self.rate, line) for line in lines if self.rate)
         rates = (float(match[1]) for match in matches if match)
         return next((rate for rate in rates if rate > 0), None)

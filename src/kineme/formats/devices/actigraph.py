@@ -29,7 +29,9 @@ _LAYOUT = Layout(
 def lay_out(text: DelimitedText) -> DelimitedText:
     """Return the table with the header's date format and, for counts, the rate of its epochs."""
     epochs = (_EPOCH.match(line) for line in text.lines[:MAX_HEADER_LINES])
-    hours, minutes, seconds = next((map(int, each.groups()) for each in epochs if each), (0, 0, 0))
+    hours, minutes, seconds = next(
+        (map(int, match.groups()) for match in epochs if match), (0, 0, 0)
+    )
     period = 3600 * hours + 60 * minutes + seconds
     # Users choose the columns of counts, so their names are unknown.
     table = replace(_LAYOUT, names=("1",))(text) if period else _LAYOUT(text)

@@ -20,10 +20,10 @@ def lay_out(text: DelimitedText) -> DelimitedText:
         rate = float(devices[0]["sampling rate"])
         sensors = {
             label: label if sensor in ("RAW", "") else f"{label} {sensor}"
-            for each in devices
-            for label, sensor in zip(each["label"], each["sensor"], strict=True)
+            for device in devices
+            for label, sensor in zip(device["label"], device["sensor"], strict=True)
         }
-        columns = [str(column) for each in devices for column in each["column"]]
+        columns = [str(column) for device in devices for column in device["column"]]
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise text.content.error(f"its header cannot be read: {error}", 2) from None
     names = [sensors.get(column, column) for column in columns]

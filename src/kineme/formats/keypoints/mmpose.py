@@ -40,18 +40,20 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
             raise content.error(f"frame {index} has no list of 'instances'")
         number = frame.get("frame_id")
         numbers.append(number if isinstance(number, int) else index)
-        instances_found += [(numbers[-1], each) for each in instances if isinstance(each, Mapping)]
-    width = max((len(_get_points(each)) for _, each in instances_found), default=0)
+        instances_found += [
+            (numbers[-1], instance) for instance in instances if isinstance(instance, Mapping)
+        ]
+    width = max((len(_get_points(instance)) for _, instance in instances_found), default=0)
     names = _find_names(data, width)
     if not names:
         raise content.error(f"a person has {width} keypoints, and 'meta_info' does not name them")
-    has_ids = all(each.get("track_id") is not None for _, each in instances_found)
+    has_ids = all(instance.get("track_id") is not None for _, instance in instances_found)
     people = []
-    for number, each in instances_found:
-        scores = each.get("keypoint_scores")
+    for number, instance in instances_found:
+        scores = instance.get("keypoint_scores")
         confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
-        person = str(each["track_id"])[:40] if has_ids else None
-        people.append(Person(number, _get_points(each)[: len(names)], confidence, person))
+        person = str(instance["track_id"])[:40] if has_ids else None
+        people.append(Person(number, _get_points(instance)[: len(names)], confidence, person))
     first = people[0].points[0]
     is_flat = isinstance(first, list) and len(first) == 2
     unit, up = ("pixel", "-y") if is_flat else (None, "z")

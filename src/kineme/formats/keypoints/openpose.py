@@ -166,8 +166,8 @@ def _to_motion(
             raise content.error(f"a person has {count} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
     n = len(names)  # leaves out hands and face of whole bodies
-    people = [replace(each, points=each.points[:n], confidence=each.confidence[:n])
-              for each in people]  # fmt: skip
+    people = [replace(person, points=person.points[:n], confidence=person.confidence[:n])
+              for person in people]  # fmt: skip
     video = Video("OpenPose", names, people, LIMIT, frames=frames)
     if in_space:
         video = replace(video, unit=None, up=None)

@@ -40,7 +40,7 @@ class Detections:
     who: Sequence[str | None]  # name or number in the file
 
 
-class PersonFound(NamedTuple):
+class SelectedPerson(NamedTuple):
     """Rows and name of a person, all people, and notes."""
 
     rows: Rows
@@ -49,7 +49,9 @@ class PersonFound(NamedTuple):
     notes: list[str]
 
 
-def select_person(content: FileContent, detections: Detections, person: str | None) -> PersonFound:
+def select_person(
+    content: FileContent, detections: Detections, person: str | None
+) -> SelectedPerson:
     """Return the rows of the requested person, or of the only one.
 
     Raise SeveralPeopleError if the person does not exist, or several exist and none is requested.
@@ -66,11 +68,11 @@ def select_person(content: FileContent, detections: Detections, person: str | No
         for name, rows in candidates.items()
     ]
     name = choose_person(content.path, candidates, person, shown=shown)
-    others = tuple(each for each in people if each in staying or each == name)
+    all_people = tuple(other for other in people if other in staying or other == name)
     note = f"person {name} of {len(people)}"
     if person is None:
         note = f"person {name}; {len(people) - 1} seen only in passing are left out"
-    return PersonFound(people[name], name, others, [note] if len(people) > 1 else [])
+    return SelectedPerson(people[name], name, all_people, [note] if len(people) > 1 else [])
 
 
 def _group_by_person(detections: Detections) -> dict[str, Rows]:
@@ -87,8 +89,8 @@ def _group_by_person(detections: Detections) -> dict[str, Rows]:
         rows.setdefault(number, []).append(row)
     return {
         # Use the first of several rows of a person in one frame.
-        name: np.array(places)[np.unique(detections.frames[places], return_index=True)[1]]
-        for name, places in rows.items()
+        name: np.array(person_rows)[np.unique(detections.frames[person_rows], return_index=True)[1]]
+        for name, person_rows in rows.items()
     }
 
 

@@ -111,19 +111,19 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
         from pyarrow import parquet
 
     times = np.unique(rows["time"])
-    found = rows[rows["person"] != NOBODY]
-    frames = np.searchsorted(times, found["time"])
-    points = np.pad(found["image"].astype(np.float64), ((0, 0), (0, 0), (0, 1)))
-    person = [0] * len(found)
+    person_rows = rows[rows["person"] != NOBODY]
+    frames = np.searchsorted(times, person_rows["time"])
+    points = np.pad(person_rows["image"].astype(np.float64), ((0, 0), (0, 0), (0, 1)))
+    person = [0] * len(person_rows)
     if len(np.unique(frames)) < len(frames):
-        person = track_people(Detections(frames, points, [None] * len(found)))
+        person = track_people(Detections(frames, points, [None] * len(person_rows)))
     columns: dict[str, Any] = {
-        "time": found["time"] - times[0],
+        "time": person_rows["time"] - times[0],
         "person": pa.array(person, "int32"),
     }
     metadata = {
         **head,
-        "depth": bool(np.isfinite(found["metres"]).any()),
+        "depth": bool(np.isfinite(person_rows["metres"]).any()),
         "frames": len(times),
         "fps": round(place_rows(times).fps, 3) if len(times) > 1 else 1.0,
         "start": float(times[0]) - float(head.get("begins", 0.0)),
@@ -131,7 +131,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
         "changes": np.unique(rows["time"][rows["change"] >= CHANGE] - times[0]).tolist(),
     }
     for column, (field, k, axis) in _list_columns(metadata).items():
-        values = found[field][:, k] if axis is None else found[field][:, k, axis]
+        values = person_rows[field][:, k] if axis is None else person_rows[field][:, k, axis]
         columns[column] = np.ascontiguousarray(values)
     table = pa.table(columns).replace_schema_metadata({KEY: json.dumps(metadata).encode()})
     with atomic_write(path) as draft:
@@ -200,8 +200,8 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     numbers = np.rint(rows["time"] * float(head["fps"])).astype(np.int64)
     field = "metres" if head["depth"] else "image"
     steady_points = np.array(rows[field], np.float64)
-    for each in np.unique(rows["person"]):
-        is_person = rows["person"] == each
+    for person in np.unique(rows["person"]):
+        is_person = rows["person"] == person
         steady_points[is_person] = _steady_points(
             steady_points[is_person], rows["confidence"][is_person], float(head["fps"])
         )
@@ -242,8 +242,8 @@ def find_cuts(rows: Rows, head: Head) -> list[float]:
     changed = np.isin(rows["time"][1:], head.get("changes", []))
     is_next = steps < 2 / float(head["fps"])  # otherwise there is a gap already
     is_cut = is_next & ((jumps > limits) | (changed & (jumps > limits / 4)))
-    found: list[float] = rows["time"][1:][is_cut].tolist()
-    return found
+    seconds: list[float] = rows["time"][1:][is_cut].tolist()
+    return seconds
 
 
 def _steady_points(points: Floats, confidence: Floats, fps: float) -> Floats:

@@ -27,18 +27,20 @@ def is_ultralytics(data: Any) -> bool:
 def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person in Ultralytics' results."""
     people_found = [
-        (number, each) for number, frame in enumerate(data) for each in _list_people(frame)
+        (number, detection)
+        for number, frame in enumerate(data)
+        for detection in _list_people(frame)
     ]
-    width = max(len(each["keypoints"]["x"]) for _, each in people_found)
+    width = max(len(detection["keypoints"]["x"]) for _, detection in people_found)
     names = COCO if width == len(COCO) else tuple(f"point{i + 1}" for i in range(width))
-    has_ids = all(each.get("track_id") is not None for _, each in people_found)
+    has_ids = all(detection.get("track_id") is not None for _, detection in people_found)
     people = []
-    for number, each in people_found:
-        points = each["keypoints"]
+    for number, detection in people_found:
+        points = detection["keypoints"]
         x, y = points["x"], points["y"]
         if len(x) != len(y):
             raise content.error(f"frame {number} has {len(x)} x and {len(y)} y of keypoints")
-        person = str(each["track_id"])[:40] if has_ids else None
+        person = str(detection["track_id"])[:40] if has_ids else None
         pairs = list(zip(x, y, strict=True))
         # Keypoints that were not found are at the corner of the image.
         confidence = points.get("visible") or [float(any(pair)) for pair in pairs]
@@ -50,10 +52,10 @@ def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> M
 def _list_people(frame: Any) -> list[Mapping[str, Any]]:
     """Return the people of a frame that have keypoints."""
     return [
-        each
-        for each in (frame if isinstance(frame, list) else [])
-        if isinstance(each, Mapping)
-        and isinstance(each.get("keypoints"), Mapping)
-        and all(isinstance(each["keypoints"].get(axis), list) for axis in "xy")
-        and each["keypoints"]["x"]
+        person
+        for person in (frame if isinstance(frame, list) else [])
+        if isinstance(person, Mapping)
+        and isinstance(person.get("keypoints"), Mapping)
+        and all(isinstance(person["keypoints"].get(axis), list) for axis in "xy")
+        and person["keypoints"]["x"]
     ]

@@ -75,7 +75,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     points[is_unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
     detections = Detections(frames, points, [person.who for person in people])
-    rows, name, others, notes = select_person(content, detections, options.person)
+    rows, name, all_people, notes = select_person(content, detections, options.person)
     positions = np.full((n_frames, len(video.names), 3), np.nan)
     positions[frames[rows]] = points[rows]
     if is_unsure[rows].any():
@@ -84,7 +84,9 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     notes += [*video.notes, *_note_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
     named_points = Points(video.names, positions, fps, unit, up)
-    return to_motion(named_points, content.provenance(video.format, notes).of_person(name, others))
+    return to_motion(
+        named_points, content.provenance(video.format, notes).of_person(name, all_people)
+    )
 
 
 def parse_json(content: FileContent) -> Any:
@@ -124,17 +126,17 @@ def to_frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
 
 
 def _number_frames(
-    content: FileContent, video: Video, found: list[int]
+    content: FileContent, video: Video, frames: list[int]
 ) -> tuple[NDArray[np.intp], int]:
     """Return frames counted from 0, and the number of frames."""
-    numbers = {*found, *video.frames}
+    numbers = {*frames, *video.frames}
     first, last = min(numbers), max(numbers)
     if last - first >= MAX_FRAMES_RATIO * (len(numbers) + 1):
         raise content.error(
             f"the numbers of {len(numbers)} frames run from {first} to {last}: these are no frame "
             "numbers"
         )
-    return np.array([frame - first for frame in found], np.intp), last - first + 1
+    return np.array([frame - first for frame in frames], np.intp), last - first + 1
 
 
 def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:

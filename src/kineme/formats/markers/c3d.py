@@ -163,8 +163,8 @@ def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
             f"--columns (columns=), of {', '.join(names)}"
         )
     others = [name for name in names if name not in muscles]
-    left = f"; left out: {', '.join(others)}" if others else ""
-    return muscles, f"channels taken for muscles: {', '.join(muscles)}{left}"
+    suffix = f"; left out: {', '.join(others)}" if others else ""
+    return muscles, f"channels taken for muscles: {', '.join(muscles)}{suffix}"
 
 
 def is_muscle(label: str, description: str = "", unit: str = "") -> bool:

@@ -102,7 +102,7 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
 
 
 def _repeat_per_channel(parameters: Parameters, name: str, channels: int, default: float) -> Floats:
-    """Return a value for each channel, ``usual`` where missing."""
+    """Return a value for each channel, ``default`` where missing."""
     values = parameters.numbers("ANALOG", name, signed=True)[:channels]
     return np.array(values + [default] * (channels - len(values)))
 
@@ -122,7 +122,7 @@ def _read_group_events(parameters: Parameters) -> list[tuple[float, str]]:
     times = parameters.numbers("EVENT", "TIMES")
     labels = parameters.strings("EVENT", "LABELS")
     contexts = _pad(parameters.strings("EVENT", "CONTEXTS"), len(labels))
-    names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
+    names = [f"{side} {label}".strip() for side, label in zip(contexts, labels, strict=False)]
     # Times are pairs of minutes and seconds.
     minutes = zip(times[::2], times[1::2], strict=False)
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
@@ -152,14 +152,14 @@ def _scale_points(stored: Stored, scale: float) -> tuple[Floats, NDArray[np.bool
     return positions, visible & positions.any(axis=2)
 
 
-def _read_labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
+def _read_labels(parameters: Parameters, group: str, n: int, default: str) -> list[str]:
     labels = list(parameters.strings(group, "LABELS"))
     for number in count(2):
         more = parameters.strings(group, f"LABELS{number}")
         if not more or len(labels) >= n:
             break
         labels += more
-    return [label or f"{usual}{i}" for i, label in enumerate(_pad(labels, n), 1)]
+    return [label or f"{default}{i}" for i, label in enumerate(_pad(labels, n), 1)]
 
 
 def _pad(labels: list[str], n: int) -> list[str]:
@@ -329,17 +329,17 @@ class Parameters:
     @cached_property
     def places(self) -> dict[tuple[str, str], int]:
         """Offset of the values of each parameter."""
-        groups = {-each.number: each.name for each in self.records if each.number < 0}
+        groups = {-record.number: record.name for record in self.records if record.number < 0}
         return {
-            (groups.get(each.number, ""), each.name): each.values
-            for each in self.records
-            if each.number > 0
+            (groups.get(record.number, ""), record.name): record.values
+            for record in self.records
+            if record.number > 0
         }
 
-    def number(self, group: str, name: str, usual: float) -> float:
-        """Return the first value as a finite number, ``usual`` if there is none."""
+    def number(self, group: str, name: str, default: float) -> float:
+        """Return the first value as a finite number, ``default`` if there is none."""
         values = self.numbers(group, name)
-        return values[0] if values and np.isfinite(values[0]) else usual
+        return values[0] if values and np.isfinite(values[0]) else default
 
     def numbers(self, group: str, name: str, *, signed: bool = False) -> list[float]:
         """Return the values as numbers, none if they are text.
@@ -374,14 +374,14 @@ class Parameters:
 
     def stored(self, group: str, name: str) -> tuple[int, list[int], bytes]:
         """Return type, dimensions and bytes of a parameter; empty if it is missing or truncated."""
-        at = self.places.get((group, name))
+        offset = self.places.get((group, name))
         data = self.content.data
-        if at is None or at + 2 > len(data):
+        if offset is None or offset + 2 > len(data):
             return 0, [], b""
-        kind = int.from_bytes(data[at : at + 1], signed=True)
+        kind = int.from_bytes(data[offset : offset + 1], signed=True)
         # The number of dimensions, then one byte for each.
-        shape = list(data[at + 2 : at + 2 + data[at + 1]])
-        start = at + 2 + data[at + 1]
+        shape = list(data[offset + 2 : offset + 2 + data[offset + 1]])
+        start = offset + 2 + data[offset + 1]
         # The type is the size of a value in bytes; -1 is text.
         size = abs(kind) * prod(shape)
         if start + size > len(data):
@@ -403,20 +403,20 @@ def read_parameters(content: FileContent) -> Parameters:
         )
     order = "big" if processor == MIPS else "little"
     records: list[Record] = []
-    at = start + 4
-    while at + 2 <= len(data):
-        length = abs(int.from_bytes(data[at : at + 1], signed=True))
-        group = int.from_bytes(data[at + 1 : at + 2], signed=True)
-        after = at + 2 + length
+    offset = start + 4
+    while offset + 2 <= len(data):
+        length = abs(int.from_bytes(data[offset : offset + 1], signed=True))
+        group = int.from_bytes(data[offset + 1 : offset + 2], signed=True)
+        after = offset + 2 + length
         # The distance to the next record counts from its own position.
         step = int.from_bytes(data[after : after + 2], order)  # type: ignore[arg-type]
         if length == 0 or group == 0:
             break
-        name = decode_text(data[at + 2 : after]).upper()
-        records.append(Record(group, name, at, after + 2, after + step if step else None))
+        name = decode_text(data[offset + 2 : after]).upper()
+        records.append(Record(group, name, offset, after + 2, after + step if step else None))
         if step == 0:
             break
-        at = after + step
+        offset = after + step
     return Parameters(content, processor, start, records)
 
 

@@ -94,13 +94,13 @@ def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]])
     """Return whether a file still has its parameters, and has these events."""
     # Besides the events only `DATA_START` may change.
     unchanged = (
-        place
-        for place in before.places
-        if place[0] != EVENT or place[1] not in PER_EVENT
-        if place != ("POINT", "DATA_START")
+        key
+        for key in before.places
+        if key[0] != EVENT or key[1] not in PER_EVENT
+        if key != ("POINT", "DATA_START")
     )
     return (
-        all(before.stored(*place) == after.stored(*place) for place in unchanged)
+        all(before.stored(*key) == after.stored(*key) for key in unchanged)
         and int(after.number(EVENT, "USED", 0)) == len(table["LABELS"])
         and len(after.numbers(EVENT, "TIMES")) == 2 * len(table["LABELS"])
     )
@@ -119,7 +119,7 @@ def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, lis
         stored = (
             parameters.texts(EVENT, name)
             if default == b""
-            else [int(each) for each in parameters.numbers(EVENT, name, signed=True)]
+            else [int(value) for value in parameters.numbers(EVENT, name, signed=True)]
         )[: len(pairs)]
         table[name] = [*stored, *([default] * (len(pairs) - len(stored)))]
     subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
@@ -175,16 +175,16 @@ def _replace_event_records(layout: Layout, table: dict[str, list[Any]]) -> list[
 def _read_records(parameters: Parameters) -> list[RawRecord]:
     """Return the stored records, each from the length of its name to the start of the next one."""
     data, records = parameters.content.data, []
-    for each in parameters.records:
-        stop = each.stop
+    for record in parameters.records:
+        stop = record.stop
         if stop is None:  # the last record may not state its end
-            stop = _find_end(data, each.number, each.values)
-        raw = bytearray(data[each.start : stop])
+            stop = _find_end(data, record.number, record.values)
+        raw = bytearray(data[record.start : stop])
         # Rewrite the distance: it was 0 in the last record.
-        raw[each.values - 2 - each.start : each.values - each.start] = _encode_distance(
-            stop - (each.values - 2), parameters.processor
+        raw[record.values - 2 - record.start : record.values - record.start] = _encode_distance(
+            stop - (record.values - 2), parameters.processor
         )
-        records.append((each.number, each.name, bytes(raw)))
+        records.append((record.number, record.name, bytes(raw)))
     return records
 
 
@@ -216,7 +216,7 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     available = layout.start - start
     if available <= 0:
         raise content.error("has its data before its parameters, which cannot grow there")
-    last_record = max((each.start for each in parameters.records), default=start)
+    last_record = max((record.start for record in parameters.records), default=start)
     # The third byte is the number of blocks of the section.
     size = data[start + 2] * BLOCK
     if not last_record - start < size <= available:  # the count is wrong
@@ -237,34 +237,34 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
         if header[2 * 147 : 2 * 148] == _encode_integers([_LABELS_AND_RANGES], kind):
             _move_pointer(header, 2 * 148, kind, grown)
         points = {-number for number, name, _ in records if number < 0 and name == "POINT"}
-        at = 4
+        offset = 4
         for number, name, raw in records:
             if name == "DATA_START" and number in points:
                 # Length, group and distance precede the type.
                 length = abs(int.from_bytes(raw[:1], signed=True))
-                _move_value(section, at + 4 + length, kind, grown)
-            at += len(raw)
+                _move_value(section, offset + 4 + length, kind, grown)
+            offset += len(raw)
     return bytes(header + section) + data[start + size :]
 
 
 def _move_value(section: bytearray, values: int, processor: int, by: int) -> None:
     """Add ``by`` blocks to a parameter whose type is at byte ``values`` of the section."""
-    place = values + 2 + section[values + 1]
+    offset = values + 2 + section[values + 1]
     if section[values] == 2:
-        _move_pointer(section, place, processor, by)
+        _move_pointer(section, offset, processor, by)
     elif section[values] == 4:
         kind = get_number_type(processor, real=True)
-        stored = np.frombuffer(bytes(section[place : place + 4]), kind)
-        moved = as_float32(stored, processor) + by
-        section[place : place + 4] = _encode_reals(moved, processor)
+        stored = np.frombuffer(bytes(section[offset : offset + 4]), kind)
+        new_value = as_float32(stored, processor) + by
+        section[offset : offset + 4] = _encode_reals(new_value, processor)
 
 
-def _move_pointer(data: bytearray, place: int, processor: int, by: int) -> None:
+def _move_pointer(data: bytearray, offset: int, processor: int, by: int) -> None:
     """Add ``by`` blocks to a pointer of two bytes, unless it is 0 (null)."""
     order: Any = "big" if processor == MIPS else "little"
-    block = int.from_bytes(data[place : place + 2], order)
+    block = int.from_bytes(data[offset : offset + 2], order)
     if block:
-        data[place : place + 2] = (block + by).to_bytes(2, order)
+        data[offset : offset + 2] = (block + by).to_bytes(2, order)
 
 
 def _encode_integers(values: Sequence[int], processor: int) -> bytes:

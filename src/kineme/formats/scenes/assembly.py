@@ -57,7 +57,7 @@ class Transform(NamedTuple):
     inheritance: Inheritance = "RSrs"
 
 
-class Local(NamedTuple):
+class LocalTransforms(NamedTuple):
     """Rotations and positions of joints relative to their parents, as `build_motion` takes them."""
 
     rotations: Floats
@@ -66,14 +66,14 @@ class Local(NamedTuple):
 
 
 def require_frame_memory(
-    content: FileContent, joints: int, frames: int, *, beside: int = 0
+    content: FileContent, joints: int, frames: int, *, external_size: int = 0
 ) -> None:
     """Raise ReadError if a file of this size cannot plausibly hold so many frames.
 
-    ``beside`` is the size in bytes of other files that belong to it.
+    ``external_size`` is the size in bytes of other files that belong to it.
     """
     size = BYTES_PER_JOINT * joints * frames
-    if size > max(MIN_FRAME_MEMORY, MAX_EXPANSION * beside):
+    if size > max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size):
         content.require_memory(size, f"{joints} joints in {frames} frames")
 
 
@@ -152,7 +152,7 @@ def _build_rig(
     numbers: Sequence[int],
 ) -> Rig | None:
     """Return the rig of these nodes, parents first; None if a scale is not uniform."""
-    indices = {node: place for place, node in enumerate(chosen)}
+    indices = {node: index for index, node in enumerate(chosen)}
     parents = tuple(indices.get(nodes[node].parent, -1) for node in chosen)
     parts = stack_transforms([rest(node) for node in chosen], parents)
     if parts is None:
@@ -184,15 +184,15 @@ def stack_transforms(
     transforms: Sequence[Transform], parents: Sequence[int]
 ) -> tuple[Floats, Floats, Floats] | None:
     """Return translations, rotations and scales of a rig's nodes; None if a scale is uneven."""
-    if any(_find_uniform_scale(each.scale, UNIFORM) is None for each in transforms):
+    if any(_find_uniform_scale(transform.scale, UNIFORM) is None for transform in transforms):
         return None
-    scales = np.array([each.scale for each in transforms])
-    for node, (each, parent) in enumerate(zip(transforms, parents, strict=True)):
-        if each.inheritance == "Rrs" and parent >= 0:
+    scales = np.array([transform.scale for transform in transforms])
+    for node, (transform, parent) in enumerate(zip(transforms, parents, strict=True)):
+        if transform.inheritance == "Rrs" and parent >= 0:
             # Nodes of a rig inherit the parent's scale, so divide it out.
             scales[node] /= _find_uniform_scale(transforms[parent].scale, UNIFORM) or 1.0
-    translations = np.array([each.translation for each in transforms])
-    return translations, np.array([each.rotation for each in transforms]), scales
+    translations = np.array([transform.translation for transform in transforms])
+    return translations, np.array([transform.rotation for transform in transforms]), scales
 
 
 def _apply_scale(
@@ -202,7 +202,7 @@ def _apply_scale(
     transform: Callable[[int], Transform],
     n_frames: int,
     turn: Floats,
-) -> Local | None:
+) -> LocalTransforms | None:
     """Return unchanged rotations and scaled offsets; None if a scale is not uniform."""
     # The transforms of the nodes above the root become part of the root.
     position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
@@ -235,7 +235,7 @@ def _apply_scale(
         rotations[:, j] = current.rotation
         scales.append((_multiply_scale(scale, parent_factor, factor, current.inheritance), factor))
         _store_shift(j, scale * current.translation, offsets, slides)
-    return Local(rotations, offsets, slides)
+    return LocalTransforms(rotations, offsets, slides)
 
 
 def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
@@ -273,7 +273,7 @@ def _multiply_matrices(
     transform: Callable[[int], Transform],
     n_frames: int,
     turn: Floats,
-) -> Local:
+) -> LocalTransforms:
     """Return rotations and translations from the products of matrices."""
     # Ancestors get negative numbers, joints those from 0; the ground has the lowest number.
     carriers = range(-len(ancestors), 0)
@@ -290,22 +290,22 @@ def _multiply_matrices(
         n = span.stop - span.start
         ground = np.broadcast_to(matrices(turn), (n, 3, 3))
         worlds = {-len(ancestors) - 1: (ground, ground, np.zeros((n, 3)))}
-        turned: dict[int, Floats] = {}
+        world_rotations: dict[int, Floats] = {}
         for number, parent, _ in links:
-            found = transforms[number]
-            before = transforms.get(parent)
-            worlds[number] = _multiply_transform(worlds[parent], found, before, span)
+            current = transforms[number]
+            parent_transform = transforms.get(parent)
+            worlds[number] = _multiply_transform(worlds[parent], current, parent_transform, span)
             if number < 0:
                 continue
             axes, _, position = worlds[number]
-            turned[number] = quaternions(axes)
+            world_rotations[number] = quaternions(axes)
             if parents[number] < 0:
-                rotations[span, number] = turned[number]
+                rotations[span, number] = world_rotations[number]
                 shifts[number, span] = position
                 continue
             # Express the joint relative to the parent's axes.
-            inverse = rot.conjugate(turned[parent])
-            rotations[span, number] = rot.multiply(inverse, turned[number])
+            inverse = rot.conjugate(world_rotations[parent])
+            rotations[span, number] = rot.multiply(inverse, world_rotations[number])
             shifts[number, span] = rot.rotate(inverse, position - worlds[parent][2])
     offsets = np.zeros((len(joints), 3))
     slides: dict[int, Floats] = {}
@@ -314,7 +314,7 @@ def _multiply_matrices(
             slides[j] = shifts[j]
         else:
             _store_shift(j, shifts[j], offsets, slides)
-    return Local(rotations, offsets, slides)
+    return LocalTransforms(rotations, offsets, slides)
 
 
 World = tuple[Floats, Floats, Floats]
@@ -340,8 +340,10 @@ def _multiply_transform(
         product = axes @ turn @ inherited
     # Scale the columns, which are the axes.
     product = product * scale[:, None, :]
-    place = position + np.einsum("fij,fj->fi", matrix, _select_frames(transform.translation, span))
-    return orthogonalize(product), product, place
+    new_position = position + np.einsum(
+        "fij,fj->fi", matrix, _select_frames(transform.translation, span)
+    )
+    return orthogonalize(product), product, new_position
 
 
 def _select_frames(values: Floats, span: slice) -> Floats:

@@ -94,7 +94,9 @@ def find_character(
     if props:
         notes.append(f"left out as props: {join_names([nodes[j].name for j in props])}")
     large = [
-        nodes[j].name for j, moved in props.items() if moved >= max(MIN_SIZE_RATIO * largest, 2)
+        nodes[j].name
+        for j, n_animated in props.items()
+        if n_animated >= max(MIN_SIZE_RATIO * largest, 2)
     ]
     if large:
         remark = (
@@ -113,12 +115,14 @@ def list_ancestors(nodes: Sequence[SceneNode], node: int) -> list[int]:
     return ancestors
 
 
-def find_moving_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
+def find_moving_takes(moved_nodes: Sequence[set[int]], bones: set[int]) -> list[int]:
     """Return the animations that move a bone, or anything if there are no bones.
 
-    ``moved`` are the nodes moved by each animation.
+    ``moved_nodes`` are the nodes moved by each animation.
     """
-    return [number for number, nodes in enumerate(moved) if (nodes & bones if bones else nodes)]
+    return [
+        number for number, nodes in enumerate(moved_nodes) if (nodes & bones if bones else nodes)
+    ]
 
 
 def choose_take(

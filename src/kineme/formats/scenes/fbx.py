@@ -49,11 +49,11 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a character in an FBX file."""
     version, root = parse_fbx(content)
     scene = FBXScene(content, root)
-    moved = [scene.find_moved(take) for take in scene.takes]
-    animated = find_moving_takes(moved, scene.bones)
+    moved_models = [scene.find_moved(take) for take in scene.takes]
+    animated = find_moving_takes(moved_models, scene.bones)
     names = unique(take.name for take in scene.takes)
     number, notes = choose_take(content, names, animated, options.take)
-    take, nodes = scene.takes[number], scene.nodes(moved[number])
+    take, nodes = scene.takes[number], scene.make_nodes(moved_models[number])
     character = find_character(content, nodes, options.person)
     joints = [scene.models[j].number for j in character.joints]
     fps, rate_notes = _find_rate(scene, take, joints, options)
@@ -65,14 +65,14 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         content,
         nodes,
         character.joints,
-        pose.transform,
-        pose.rest,
+        pose.compute_transform,
+        pose.compute_rest,
         len(frame_times),
         fps,
         unit=options.unit or _find_unit(scene),
         turn=turn,
         provenance=content.provenance("FBX", [*notes, *rate_notes, *turn_notes])
-        .of_take(names[number], (names[each] for each in animated))
+        .of_take(names[number], (names[moving] for moving in animated))
         .of_person(character.name, character.people),
         numbers=[model.number for model in scene.models],
     )
@@ -84,8 +84,8 @@ def _find_rate(
     """Return frames per second, and notes."""
     if options.fps is not None:
         return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
-    mode = int(scene.setting("TimeMode", 0))
-    fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.setting("CustomFrameRate", 0.0)
+    mode = int(scene.get_setting("TimeMode", 0))
+    fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.get_setting("CustomFrameRate", 0.0)
     keys = _infer_rate(scene, take, joints)
     if not MIN_RATE <= fps <= MAX_RATE:
         if keys:
@@ -100,7 +100,7 @@ def _find_rate(
 
 def _infer_rate(scene: FBXScene, take: Take, joints: list[int]) -> float:
     """Return the keys per second of the first curve with evenly spaced keys; 0 if there is none."""
-    for times in scene.key_times(take, joints):
+    for times in scene.iterate_key_times(take, joints):
         steps = np.diff(times)
         if len(steps) < _EVEN_KEYS:
             continue
@@ -121,7 +121,7 @@ def _compute_frame_times(scene: FBXScene, take: Take, joints: list[int], fps: fl
     memory_limit = max(MIN_FRAME_MEMORY, scene.content.memory_limit)
     # If the span of the take is missing or absurdly long, use that of its keys.
     if stop <= start or count * BYTES_PER_JOINT * len(joints) > memory_limit:
-        ends = [(times[0], times[-1]) for times in scene.key_times(take, joints)]
+        ends = [(times[0], times[-1]) for times in scene.iterate_key_times(take, joints)]
         start = min((first for first, _ in ends), default=0.0)
         stop = max((last for _, last in ends), default=0.0)
         count = (stop - start) / TICKS * fps + 1
@@ -133,7 +133,7 @@ def _compute_frame_times(scene: FBXScene, take: Take, joints: list[int], fps: fl
 
 def _find_unit(scene: FBXScene) -> float:
     """Return the metres in one unit of the file; its scale factor counts centimetres."""
-    factor = scene.setting("UnitScaleFactor", 1.0)
+    factor = scene.get_setting("UnitScaleFactor", 1.0)
     return CENTIMETRE * (factor if factor > 0 else 1.0)
 
 
@@ -146,9 +146,9 @@ def _find_turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]
         return make_up_rotation(options.up), []
     # Rows are the file's axes to the right, upwards and to the front.
     rows = np.zeros((3, 3))
-    for row, (name, usual) in enumerate((("Coord", 0), ("Up", 1), ("Front", 2))):
-        axis = int(scene.setting(f"{name}Axis", usual))
-        sign = -1.0 if scene.setting(f"{name}AxisSign", 1) < 0 else 1.0
+    for row, (name, default) in enumerate((("Coord", 0), ("Up", 1), ("Front", 2))):
+        axis = int(scene.get_setting(f"{name}Axis", default))
+        sign = -1.0 if scene.get_setting(f"{name}AxisSign", 1) < 0 else 1.0
         if 0 <= axis < 3:
             rows[row, axis] = sign
     up = int(np.abs(rows[1]).argmax())

@@ -53,7 +53,7 @@ def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
             write_takes(motions, path)
             return
         scene = FBXScene(content, root)
-        copy = _Copy(scene, next(iter(motions.values())), source, path)
+        copy = _CopyWriter(scene, next(iter(motions.values())), source, path)
     for name, motion in motions.items():
         copy.animate(name, motion)
     _warn_of_textures(scene, source, path)
@@ -64,22 +64,22 @@ def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
         draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
 
 
-class _Copy(TakeWriter):
+class _CopyWriter(TakeWriter):
     """Collect takes for the models of a file, whose rest is their transform without animation."""
 
     def __init__(self, scene: FBXScene, motion: Motion, source: Path, path: Path) -> None:
         rig = get_rig(motion.skeleton)
-        places = {model.number: place for place, model in enumerate(scene.models)}
-        if not {*rig.numbers} - {-1} <= places.keys():
+        indices = {model.number: index for index, model in enumerate(scene.models)}
+        if not {*rig.numbers} - {-1} <= indices.keys():
             raise WriteError(path, f"{source.name} has changed since it was read")
-        self._places = [places.get(number, -1) for number in rig.numbers]
+        self._places = [indices.get(number, -1) for number in rig.numbers]
         pose = Pose(scene, REST_TAKE, Sampler(np.zeros(1)))
-        self._rest = [pose.transform(max(place, 0)) for place in self._places]
+        self._rest = [pose.compute_transform(max(index, 0)) for index in self._places]
         if -1 in self._places:
             # Clips may have an additional root bone; its children keep their inheritance of scale.
             root, below = rig.above, self._rest[rig.above + 1]
-            still = rig.translations[root], rig.rotations[root], rig.scales[root]
-            self._rest[root] = Transform(*still, below.inheritance)
+            root_rest = rig.translations[root], rig.rotations[root], rig.scales[root]
+            self._rest[root] = Transform(*root_rest, below.inheritance)
         parts = stack_transforms(self._rest, rig.parents)
         if parts is None:
             raise make_uneven_error(source, path)
@@ -107,8 +107,10 @@ class _Copy(TakeWriter):
         if self._places[node] < 0:
             return super().find_values(node, shifts, turns)
         model, rest = self.scene.models[self._places[node]], self._rest[node]
-        still, _ = invert_transform(model, rest.translation, rest.rotation[None], rest.scale)
-        return *invert_transform(model, shifts, turns, rest.scale), still[0]
+        rest_translation, _ = invert_transform(
+            model, rest.translation, rest.rotation[None], rest.scale
+        )
+        return *invert_transform(model, shifts, turns, rest.scale), rest_translation[0]
 
     def rebuild(self, root: FBXNode) -> Iterator[FBXNode]:
         """Yield the nodes of the source with the new takes instead of its own."""
@@ -120,7 +122,7 @@ class _Copy(TakeWriter):
         )
         change = len(self.objects) - len(dropped)
         ancestors = {0, *self.models[: self.rig.above]}
-        settings = {name: value for name, *_, value in self.time_settings()}
+        settings = {name: value for name, *_, value in self.make_time_settings()}
         for node in root.children:
             if node.name == "Objects":
                 kept_nodes = [each for each in node.children if each.name not in _ANIMATION]
@@ -134,7 +136,7 @@ class _Copy(TakeWriter):
             elif node.name == "Definitions":
                 yield _replace_children(node, _count_objects(node, counts, change))
             elif node.name == "Takes":
-                yield _replace_children(node, [make_node("Current", names[0]), *self._spans()])
+                yield _replace_children(node, [make_node("Current", names[0]), *self._make_takes()])
             else:
                 yield _set_properties(node, {**settings, "ActiveAnimStackName": names[0]})
 
@@ -151,10 +153,10 @@ class _Copy(TakeWriter):
         if not self.moved & {int(each.number(0, -1)) for each in entries if each}:
             return node
         others = (child for child in node.children if child.name != "NbPoseNodes")
-        new = self._bind_pose()[self.rig.above]
+        new = self._make_bind_pose()[self.rig.above]
         return _replace_children(node, [make_node("NbPoseNodes", len(entries) + 1), *others, new])
 
-    def _spans(self) -> Iterator[FBXNode]:
+    def _make_takes(self) -> Iterator[FBXNode]:
         """Yield the takes in the form of older programs."""
         for name, stop in self.stops.items():
             span = [np.int64(0), np.int64(stop)]
@@ -172,8 +174,8 @@ def _count_objects(node: FBXNode, counts: Mapping[str, int], change: int) -> Ite
         if child.name == "Count":
             yield make_node("Count", int(child.number(0)) + change)
         elif child.name == "ObjectType" and child.text(0) in counts:
-            rest = (each for each in child.children if each.name != "Count")
-            yield _replace_children(child, [make_node("Count", counts[child.text(0)]), *rest])
+            others = (grandchild for grandchild in child.children if grandchild.name != "Count")
+            yield _replace_children(child, [make_node("Count", counts[child.text(0)]), *others])
         else:
             yield child
     for kind in counts.keys() - kinds:

@@ -159,14 +159,14 @@ class Sampler:
     Most curves of a file have keys at the same times, so the last result of the search is cached.
     """
 
-    def __init__(self, at: Floats) -> None:
-        self.at = at
-        self._frame_times = at  # last key times that match the frames
+    def __init__(self, frame_times: Floats) -> None:
+        self.frame_times = frame_times
+        self._matched_times = frame_times  # last key times that match the frames
         self._times = np.empty(0)
         self._index: NDArray[np.intp] = np.empty(0, np.intp)
         self._share = np.empty(0)
 
-    def values(self, curve: Curve) -> Floats:
+    def sample(self, curve: Curve) -> Floats:
         """Return values (frames,), or () if the curve is constant."""
         times, values = curve.times, curve.values
         # With tangents, a cubic curve may bulge between equal values.
@@ -178,7 +178,7 @@ class Sampler:
             return values[:1].reshape(()) if is_constant else values
         if len(times) == 1:
             return values.reshape(())
-        self._find(times)
+        self._find_keys(times)
         i, share = self._index, self._share
         sampled = values[i] + share * (values[i + 1] - values[i])
         flags = curve.flags[i]
@@ -194,19 +194,19 @@ class Sampler:
 
     def _are_frames(self, times: Floats) -> bool:
         """Return whether there is a key at each frame."""
-        if times is self._frame_times:
+        if times is self._matched_times:
             return True
-        if len(times) != len(self.at) or np.abs(times - self.at).max() > SLACK:
+        if len(times) != len(self.frame_times) or np.abs(times - self.frame_times).max() > SLACK:
             return False
-        self._frame_times = times
+        self._matched_times = times
         return True
 
-    def _find(self, times: Floats) -> None:
+    def _find_keys(self, times: Floats) -> None:
         """Find the key before each frame, and the fraction of the interval that has passed."""
         if len(times) == len(self._times) and np.array_equal(times, self._times):
             return
         self._times = times
-        self._index, self._share = find_keys(times, self.at, SLACK)
+        self._index, self._share = find_keys(times, self.frame_times, SLACK)
 
 
 def _evaluate_bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:
@@ -217,10 +217,14 @@ def _evaluate_bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats
     first, last = right_weight[i], left_weight[i]
     # With weights other than a third, time is a Bézier curve as well.
     parameter = _solve_parameter(share, first, 1 - last)
-    rest = 1 - parameter
+    complement = 1 - parameter
     # Inner points of the Bézier curve lie on the slopes, weight times the interval away.
     out, into = start + right[i] * first * step, stop - left[i] * last * step
-    value = rest**3 * start + 3 * rest**2 * parameter * out + 3 * rest * parameter**2 * into
+    value = (
+        complement**3 * start
+        + 3 * complement**2 * parameter * out
+        + 3 * complement * parameter**2 * into
+    )
     return np.asarray(value + parameter**3 * stop, np.float64)
 
 
@@ -236,8 +240,8 @@ def _solve_parameter(share: Floats, first: Floats, second: Floats) -> Floats:
     low, high = np.zeros_like(share), np.ones_like(share)
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        rest = 1 - middle
-        time = 3 * rest**2 * middle * first + 3 * rest * middle**2 * second + middle**3
+        complement = 1 - middle
+        time = 3 * complement**2 * middle * first + 3 * complement * middle**2 * second + middle**3
         low, high = np.where(time < share, middle, low), np.where(time < share, high, middle)
     return (low + high) / 2
 

@@ -86,72 +86,72 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
     root = FBXNode("")
     # Use a stack instead of recursion, since nodes may be nested deeply.
     open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
-    at, nodes = START, 0
+    offset, nodes = START, 0
     while open_nodes:
         node, stop = open_nodes[-1]
-        if at == stop and node is not root:
+        if offset == stop and node is not root:
             open_nodes.pop()
             continue
-        if at + head.size > stop:
+        if offset + head.size > stop:
             raise content.error("breaks off between two nodes: the file is truncated or damaged")
-        end, count, size, length = head.unpack_from(data, at)
-        first, at = at, at + head.size
+        end, count, size, length = head.unpack_from(data, offset)
+        first, offset = offset, offset + head.size
         # An empty node ends the list of children.
         if end == 0:
-            if node is not root and at != stop:
+            if node is not root and offset != stop:
                 raise content.error(f"node {node.name!r:.40} is not as long as it says: damaged")
             open_nodes.pop()
             continue
-        start = at + length
+        start = offset + length
         if not start + size <= end <= stop:
             raise content.error("a node is longer than what it stands in: truncated or damaged")
         nodes += 1
         require_node_memory(content, nodes)
-        name = data[at:start].decode("utf-8", "replace")
+        name = data[offset:start].decode("utf-8", "replace")
         child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
         node.children.append(child)
-        at = start + size
+        offset = start + size
         # The rest of the node holds its children.
-        if at < end:
+        if offset < end:
             open_nodes.append((child, end))
     return root
 
 
-def _parse_values(content: FileContent, at: int, stop: int, count: int) -> list[Any]:
+def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> list[Any]:
     values: list[Any] = []
     for _ in range(count):
-        if at >= stop:
+        if offset >= stop:
             raise content.error("a node has fewer values than it says: truncated or damaged")
         try:
-            value, at = _parse_value(content.data, at)
+            value, offset = _parse_value(content.data, offset)
         except struct.error:
             raise content.error("breaks off within a value: the file is truncated") from None
         except KeyError:
-            kind = chr(content.data[at])
+            kind = chr(content.data[offset])
             raise content.error(f"a value is of the unknown type {kind!r}: damaged") from None
-        if at > stop:
+        if offset > stop:
             raise content.error("a value is longer than its node: truncated or damaged")
         values.append(value)
     return values
 
 
-def _parse_value(data: bytes, at: int) -> tuple[Any, int]:
+def _parse_value(data: bytes, offset: int) -> tuple[Any, int]:
     """Return a value and the offset of the next one."""
-    kind = data[at]
-    at += 1
+    kind = data[offset]
+    offset += 1
     if scalar := _SCALARS.get(kind):
-        return scalar.unpack_from(data, at)[0], at + scalar.size
+        return scalar.unpack_from(data, offset)[0], offset + scalar.size
     if kind in b"SR":
-        size = int.from_bytes(data[at : at + 4], "little")
-        raw = data[at + 4 : at + 4 + size]
-        return raw.decode("utf-8", "replace") if kind == ord("S") else raw, at + 4 + size
+        size = int.from_bytes(data[offset : offset + 4], "little")
+        raw = data[offset + 4 : offset + 4 + size]
+        return raw.decode("utf-8", "replace") if kind == ord("S") else raw, offset + 4 + size
     code = _ARRAYS[kind]
-    count, packed, size = struct.unpack_from("<III", data, at)
-    return _Array(code, count, packed, at + 12, size), at + 12 + size
+    count, packed, size = struct.unpack_from("<III", data, offset)
+    return _BinaryArray(code, count, packed, offset + 12, size), offset + 12 + size
 
 
 @dataclass(slots=True)
-class _Array:
+class _BinaryArray:
     """An array in a binary file, parsed on demand."""
 
     code: str

@@ -14,7 +14,7 @@ BYTES_PER_NODE = 600
 """Bytes of memory of a node with a few values."""
 
 
-class Stored(Protocol):
+class StoredArray(Protocol):
     """An array that is parsed on demand."""
 
     def raw(self, content: FileContent) -> bytes:
@@ -44,22 +44,22 @@ class FBXNode:
     def all(self, name: str) -> Iterator[FBXNode]:
         return (child for child in self.children if child.name == name)
 
-    def number(self, at: int, usual: float = 0.0) -> float:
-        """Return a value as a number, ``usual`` if it is not one."""
-        value = self.values[at] if at < len(self.values) else None
-        return value if isinstance(value, int | float) else usual
+    def number(self, index: int, default: float = 0.0) -> float:
+        """Return a value as a number, ``default`` if it is not one."""
+        value = self.values[index] if index < len(self.values) else None
+        return value if isinstance(value, int | float) else default
 
-    def text(self, at: int) -> str:
-        value = self.values[at] if at < len(self.values) else None
+    def text(self, index: int) -> str:
+        value = self.values[index] if index < len(self.values) else None
         return value if isinstance(value, str) else ""
 
-    def stored(self, child: str) -> Stored | None:
+    def stored(self, child: str) -> StoredArray | None:
         """Return the unparsed array in a child, None if there is none."""
         node = self.child(child)
         value = node.values[0] if node and node.values else None
         if value is None or isinstance(value, str | bytes | int | float):
             return None
-        stored: Stored = value
+        stored: StoredArray = value
         return stored
 
     def array(self, content: FileContent, child: str) -> NDArray[Any] | None:

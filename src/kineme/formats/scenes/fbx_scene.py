@@ -100,10 +100,10 @@ class FBXScene:
         for group in root.all("Connections"):
             for link in group.children:
                 self._connect(link)
-        self.bones = self._bones()
-        self.binds = self._binds()
-        self.models = self._models()
-        self.takes = self._takes(root)
+        self.bones = self._find_bones()
+        self.binds = self._read_binds()
+        self.models = self._order_models()
+        self.takes = self._read_takes(root)
 
     def _connect(self, link: FBXNode) -> None:
         part, parent = link.number(1, -1), link.number(2, -1)
@@ -115,7 +115,7 @@ class FBXScene:
             self._driven.setdefault(part, []).append((parent, link.text(3)))
             self._driving.setdefault(parent, []).append((part, link.text(3)))
 
-    def _bones(self) -> set[int]:
+    def _find_bones(self) -> set[int]:
         """Return the numbers of the models that are bones, by kind or by being part of a skin."""
         bones: set[int] = set()
         for number, node in self.objects.items():
@@ -126,7 +126,7 @@ class FBXScene:
                 bones |= {part for part in self._parts.get(number, ()) if self._is(part, "Model")}
         return bones
 
-    def _binds(self) -> dict[int, Floats]:
+    def _read_binds(self) -> dict[int, Floats]:
         """Return the world matrix of each model in the bind pose.
 
         Matrices of skin clusters override those of poses.
@@ -136,21 +136,23 @@ class FBXScene:
             if node.name == "Pose":
                 for entry in node.all("PoseNode"):
                     reference = entry.child("Node")
-                    self._bind(
+                    self._store_bind(
                         matrices, reference.number(0, -1) if reference else -1, entry, "Matrix"
                     )
             elif node.name == "Deformer" and node.text(2) == "Cluster":
                 for part in self._parts.get(number, ()):
-                    self._bind(matrices, part, node, "TransformLink")
+                    self._store_bind(matrices, part, node, "TransformLink")
         return matrices
 
-    def _bind(self, found: dict[int, Floats], model: float, node: FBXNode, name: str) -> None:
+    def _store_bind(
+        self, matrices: dict[int, Floats], model: float, node: FBXNode, name: str
+    ) -> None:
         matrix = node.array(self.content, name)
         if matrix is not None and len(matrix) == 16 and np.isfinite(matrix).all():
             # The file stores columns first.
-            found[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
+            matrices[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
 
-    def _models(self) -> list[Model]:
+    def _order_models(self) -> list[Model]:
         """Return all models, parents before their children, without cycles."""
         models: list[Model] = []
         children = {part for parent in self.objects for part in self._parts.get(parent, ())}
@@ -173,7 +175,7 @@ class FBXScene:
             waiting += [(part, index) for part in reversed(self._parts.get(number, []))]
         return models
 
-    def _takes(self, root: FBXNode) -> list[Take]:
+    def _read_takes(self, root: FBXNode) -> list[Take]:
         spans = _read_spans(root)
         takes = []
         for number, node in self.objects.items():
@@ -197,7 +199,7 @@ class FBXScene:
         node = self.objects.get(number)
         return node is not None and node.name == name
 
-    def nodes(self, moved: set[int]) -> list[SceneNode]:
+    def make_nodes(self, moved: set[int]) -> list[SceneNode]:
         """Return the models as nodes of a scene; ``moved`` are the numbers of animated ones."""
         return [
             SceneNode(
@@ -218,14 +220,14 @@ class FBXScene:
             for layer in take.layers
             for part in self._parts.get(layer, ())
             if self._has_curve(part)
-            for model, what in self._driven.get(part, ())
-            if what in (TRANSLATION, ROTATION, SCALING)
+            for model, property_name in self._driven.get(part, ())
+            if property_name in (TRANSLATION, ROTATION, SCALING)
         }
 
     def _has_curve(self, number: int) -> bool:
         return any(self._is(curve, "AnimationCurve") for curve, _ in self._driving.get(number, ()))
 
-    def tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
+    def find_tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
         """Return layers and curve nodes of each model and property, the base layer first."""
         tracks: dict[tuple[int, str], list[tuple[int, int]]] = {}
         for layer in take.layers:
@@ -235,30 +237,30 @@ class FBXScene:
                         tracks.setdefault(driven, []).append((layer, part))
         return tracks
 
-    def curves(self, number: int) -> dict[str, Curve]:
+    def read_curves(self, number: int) -> dict[str, Curve]:
         """Return the curves of a curve node by axis, ``d|X`` and so on."""
-        found = {}
+        curves = {}
         for part, axis in self._driving.get(number, ()):
             node = self.objects.get(part)
             if node is not None and node.name == "AnimationCurve":
                 curve = self._reader.read(node)
                 if curve is not None:
-                    found[axis] = curve
-        return found
+                    curves[axis] = curve
+        return curves
 
-    def key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
+    def iterate_key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
         """Yield the times in ticks of the keys of each curve that moves one of these models."""
         numbers = set(models)
-        for (model, what), parts in self.tracks(take).items():
-            if model in numbers and what in (TRANSLATION, ROTATION, SCALING):
+        for (model, property_name), parts in self.find_tracks(take).items():
+            if model in numbers and property_name in (TRANSLATION, ROTATION, SCALING):
                 for _, part in parts:
-                    yield from (curve.times for curve in self.curves(part).values())
+                    yield from (curve.times for curve in self.read_curves(part).values())
 
-    def setting(self, name: str, usual: float) -> float:
+    def get_setting(self, name: str, default: float) -> float:
         """Return a number in the file's global settings."""
-        return _get_number(self.settings, name, usual)
+        return _get_number(self.settings, name, default)
 
-    def properties(self, number: int) -> Properties:
+    def get_properties(self, number: int) -> Properties:
         return _read_properties(self.objects.get(number))
 
 
@@ -267,38 +269,40 @@ class Pose:
 
     def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
         self.scene, self.sampler = scene, sampler
-        self.tracks = scene.tracks(take)
-        self.layers = {number: scene.properties(number) for number in take.layers}
+        self.tracks = scene.find_tracks(take)
+        self.layers = {number: scene.get_properties(number) for number in take.layers}
 
-    def rest(self, number: int) -> Transform:
+    def compute_rest(self, number: int) -> Transform:
         """Return the transform of a model, by its index among the nodes, in the bind pose.
 
         Without a bind pose it is the transform without animation.
         """
         if self.scene.models[number].number not in self.scene.binds:
-            return self.transform(number, animated=False)
+            return self.compute_transform(number, animated=False)
         parent = self.scene.models[number].parent
-        local = np.linalg.solve(self._rest_matrix(parent), self._rest_matrix(number))
+        local = np.linalg.solve(
+            self._compute_rest_matrix(parent), self._compute_rest_matrix(number)
+        )
         return decompose(np.asarray(local, np.float64))
 
-    def _rest_matrix(self, number: int) -> Floats:
+    def _compute_rest_matrix(self, number: int) -> Floats:
         """Return the world matrix of a node in the bind pose; -1 is the ground."""
         if number < 0:
             return np.eye(4)
         model = self.scene.models[number]
         if (bind := self.scene.binds.get(model.number)) is not None:
             return bind
-        local = [part[None] for part in self.transform(number, animated=False)[:3]]
-        return np.asarray(self._rest_matrix(model.parent) @ compose(*local)[0], np.float64)
+        local = [part[None] for part in self.compute_transform(number, animated=False)[:3]]
+        return np.asarray(self._compute_rest_matrix(model.parent) @ compose(*local)[0], np.float64)
 
-    def transform(self, number: int, *, animated: bool = True) -> Transform:
+    def compute_transform(self, number: int, *, animated: bool = True) -> Transform:
         """Return the transform of a model, by its index among the nodes."""
         if not animated and self.tracks:
-            return Pose(self.scene, REST_TAKE, self.sampler).transform(number)
+            return Pose(self.scene, REST_TAKE, self.sampler).compute_transform(number)
         model = self.scene.models[number]
         properties = model.properties
         order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
-        turn = self._rotation(model, order)
+        turn = self._compute_rotation(model, order)
         pre_rotation, post_rotation = (
             _get_vector(properties, "PreRotation"),
             _get_vector(properties, "PostRotation"),
@@ -307,16 +311,19 @@ class Pose:
             turn = rot.multiply(_to_rotation(pre_rotation, "zyx"), turn)
         if post_rotation.any():
             turn = rot.multiply(turn, rot.conjugate(_to_rotation(post_rotation, "zyx")))
-        scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
+        scale, shift = (
+            self._combine_layers(model, SCALING, 1.0),
+            self._combine_layers(model, TRANSLATION, 0.0),
+        )
         shift = _add_pivots(properties, shift, turn, scale)
         inheritance = INHERITANCE[_get_choice(properties, "InheritType", len(INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
-    def _rotation(self, model: Model, order: str) -> Floats:
+    def _compute_rotation(self, model: Model, order: str) -> Floats:
         """Return the rotation of a model, (4,) or (frames, 4)."""
         angles = _get_vector(model.properties, ROTATION)
         turn: Floats | None = None  # replaces the angles once layers were multiplied
-        for value, weight, properties in self._layers(model, ROTATION, angles):
+        for value, weight, properties in self._sample_layers(model, ROTATION, angles):
             # A weight of None replaces all previous layers.
             if weight is None:
                 angles, turn = value, None
@@ -335,59 +342,62 @@ class Pose:
                 turn = rot.multiply(turn, rot.exponential(weight * rot.logarithm(layer)))
         return _to_rotation(angles, order) if turn is None else turn
 
-    def _values(self, model: Model, what: str, usual: float) -> Floats:
+    def _combine_layers(self, model: Model, property_name: str, default: float) -> Floats:
         """Return a property of a model combined from all layers, (3,) or (frames, 3)."""
-        result = _get_vector(model.properties, what, usual)
-        for value, weight, properties in self._layers(model, what, result):
+        result = _get_vector(model.properties, property_name, default)
+        for value, weight, properties in self._sample_layers(model, property_name, result):
             if weight is None:
                 result = value
-            elif what == SCALING and _get_choice(properties, "ScaleAccumulationMode", 2) == 0:
-                rest = 1 - weight if _replaces(properties) else 1
+            elif (
+                property_name == SCALING
+                and _get_choice(properties, "ScaleAccumulationMode", 2) == 0
+            ):
+                previous_weight = 1 - weight if _replaces(properties) else 1
                 # Multiplied scales have weights as exponents.
-                result = np.abs(result) ** rest * np.abs(value) ** weight
+                result = np.abs(result) ** previous_weight * np.abs(value) ** weight
             else:
                 result = result * (1 - weight if _replaces(properties) else 1) + value * weight
         return result
 
-    def _layers(
-        self, model: Model, what: str, usual: Floats
+    def _sample_layers(
+        self, model: Model, property_name: str, default: Floats
     ) -> Iterator[tuple[Floats, Floats | float | None, Properties]]:
-        """Yield value, weight and properties of each layer; the weight is None if it replaces all."""
+        """Yield value, weight (None: replaces all others) and properties of each layer."""
         base = next(iter(self.layers), None)
-        for layer, part in self.tracks.get((model.number, what), ()):
+        for layer, part in self.tracks.get((model.number, property_name), ()):
             table = self.layers[layer]
             if layer == base:
-                yield self._sample_curve(part, usual), None, table
+                yield self._sample_curve(part, default), None, table
             elif not _get_number(table, "Mute", 0):
                 # Axes without a curve add nothing: 0, or a scale of 1.
-                rest = np.full(3, 1.0 if what == SCALING else 0.0)
+                rest = np.full(3, 1.0 if property_name == SCALING else 0.0)
                 overrides = _get_choice(table, "BlendMode", 3) == _OVERRIDE
                 yield (
                     self._sample_curve(part, rest),
-                    None if overrides else self._weight(layer),
+                    None if overrides else self._sample_weight(layer),
                     table,
                 )
 
-    def _weight(self, layer: int) -> Floats | float:
+    def _sample_weight(self, layer: int) -> Floats | float:
         """Return the weight of a layer as a number or (frames, 1)."""
         table = self.layers[layer]
         for _, part in self.tracks.get((layer, "Weight"), ()):
-            for curve in self.scene.curves(part).values():
+            for curve in self.scene.read_curves(part).values():
                 # Weights are stored in percent.
-                sampled = np.clip(np.asarray(self.sampler.values(curve)) / 100, 0, 1)
+                sampled = np.clip(np.asarray(self.sampler.sample(curve)) / 100, 0, 1)
                 return sampled[:, None] if sampled.ndim else float(sampled)
         return min(max(_get_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
 
-    def _sample_curve(self, part: int, usual: Floats) -> Floats:
+    def _sample_curve(self, part: int, defaults: Floats) -> Floats:
         """Return the values of a curve node for the three axes, (3,) or (frames, 3)."""
-        curves, table = self.scene.curves(part), self.scene.properties(part)
+        curves, table = self.scene.read_curves(part), self.scene.get_properties(part)
         axes = []
-        for letter, rest in zip("XYZ", usual.tolist(), strict=True):
+        for letter, default in zip("XYZ", defaults.tolist(), strict=True):
             curve = curves.get(f"d|{letter}")
             value = (
-                _get_number(table, f"d|{letter}", rest)
+                _get_number(table, f"d|{letter}", default)
                 if curve is None
-                else self.sampler.values(curve)
+                else self.sampler.sample(curve)
             )
             axes.append(np.asarray(value, np.float64))
         return np.stack(np.broadcast_arrays(*axes)).T  # each axis is contiguous
@@ -403,7 +413,7 @@ def invert_transform(
     properties = model.properties
     order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
     pre_rotation, post_rotation = (
-        _to_rotation(_get_vector(properties, f"{at}Rotation"), "zyx") for at in ("Pre", "Post")
+        _to_rotation(_get_vector(properties, f"{kind}Rotation"), "zyx") for kind in ("Pre", "Post")
     )
     inner = rot.multiply(rot.multiply(rot.conjugate(pre_rotation), turns), post_rotation)
     # The contribution of pivots does not depend on the translation.
@@ -420,10 +430,10 @@ def _to_rotation(angles: Floats, axes: str) -> Floats:
     order = ["xyz".index(axis) for axis in axes]
     if angles.ndim == 1:
         return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
-    turned = np.empty((4, len(angles)))
+    rotations = np.empty((4, len(angles)))
     for span in iterate_blocks(len(angles)):
-        turned[:, span] = rot.from_euler(np.radians(angles[span].T[order]).T, axes).T
-    return turned.T
+        rotations[:, span] = rot.from_euler(np.radians(angles[span].T[order]).T, axes).T
+    return rotations.T
 
 
 def _to_angles(turn: Floats, axes: str) -> Floats:
@@ -482,11 +492,11 @@ def _read_properties(node: FBXNode | None) -> Properties:
     return {entry.text(0): entry.values[4:] for entry in table.all("P")}
 
 
-def _get_number(properties: Properties, name: str, usual: float) -> float:
-    values = properties.get(name) or [usual]
+def _get_number(properties: Properties, name: str, default: float) -> float:
+    values = properties.get(name) or [default]
     value = values[0]
     if not isinstance(value, int | float) or not isfinite(value):
-        return usual
+        return default
     return float(value)
 
 
@@ -496,10 +506,10 @@ def _get_choice(properties: Properties, name: str, count: int) -> int:
     return int(value) if 0 <= value < count else 0
 
 
-def _get_vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
+def _get_vector(properties: Properties, name: str, default: float = 0.0) -> Floats:
     values = properties.get(name) or []
     numbers = [v for v in values[:3] if isinstance(v, int | float) and abs(v) < _MAX_VALUE]
-    return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, usual)
+    return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, default)
 
 
 def _strip_class(name: str) -> str:

@@ -32,10 +32,10 @@ _MAX_DIGITS = 40  # of a number
 
 def parse_text(content: FileContent) -> FBXNode:
     """Return the nodes of a text, below one without a name."""
-    return _Text(content).root
+    return _TextParser(content).root
 
 
-class _Text:
+class _TextParser:
     """Parse one token after another."""
 
     def __init__(self, content: FileContent) -> None:
@@ -46,22 +46,24 @@ class _Text:
         self.open_nodes = [self.root]
         self.node: FBXNode | None = None  # the node whose values are being read
         self.count = 0
-        self.at = len(_BOM) if self.data.startswith(_BOM) else 0
-        while match := _TOKEN.match(self.data, self.at):
-            self.at = match.end()
-            self._take(match)
-        if self.data[self.at :].strip():
-            raise self._error(f"{self.data[self.at : self.at + 40].strip()!r} is no FBX", self.at)
+        self.offset = len(_BOM) if self.data.startswith(_BOM) else 0
+        while match := _TOKEN.match(self.data, self.offset):
+            self.offset = match.end()
+            self._parse_token(match)
+        if self.data[self.offset :].strip():
+            raise self._make_error(
+                f"{self.data[self.offset : self.offset + 40].strip()!r} is no FBX", self.offset
+            )
         if len(self.open_nodes) > 1:
             raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
 
-    def _error(self, reason: str, at: int) -> ReadError:
+    def _make_error(self, reason: str, offset: int) -> ReadError:
         # Count lines only when a message needs them.
-        return self.content.error(reason, self.data.count(b"\n", 0, at) + 1)
+        return self.content.error(reason, self.data.count(b"\n", 0, offset) + 1)
 
-    def _take(self, match: re.Match[bytes]) -> None:
+    def _parse_token(self, match: re.Match[bytes]) -> None:
         kind = match.lastgroup or ""
-        value, at = match[kind], match.start(kind)
+        value, offset = match[kind], match.start(kind)
         if kind == "name":
             self.node = FBXNode(value.decode("utf-8", "replace"))
             self.open_nodes[-1].children.append(self.node)
@@ -69,29 +71,29 @@ class _Text:
             require_node_memory(self.content, self.count)
         elif value == b"}" and kind == "mark":
             if len(self.open_nodes) == 1:
-                raise self._error("a '}' too many", at)
+                raise self._make_error("a '}' too many", offset)
             self.open_nodes.pop()
             self.node = None
         elif self.node is None:
-            raise self._error(f"a name expected, found {value[:40]!r}", at)
+            raise self._make_error(f"a name expected, found {value[:40]!r}", offset)
         elif value == b"{" and kind == "mark":
             self.open_nodes.append(self.node)
             self.node = None
         elif kind == "count":
-            self.node.values.append(self._array(value))
+            self.node.values.append(self._parse_array(value))
             self.node = None
         elif kind == "text":
             self.node.values.append(_unquote(value))
         elif kind == "word":
             self.node.values.append(_parse_word(value))
 
-    def _array(self, count: bytes) -> _Array:
+    def _parse_array(self, count: bytes) -> _TextArray:
         """Return the array that starts here, and skip it."""
-        start, stop = _ARRAY.match(self.data, self.at), self.data.find(b"}", self.at)
+        start, stop = _ARRAY.match(self.data, self.offset), self.data.find(b"}", self.offset)
         if start is None or stop < 0:
-            raise self._error("an array without its numbers", self.at)
-        array = _Array(int(count[:_MAX_DIGITS]), self.data, start.end(), stop)
-        self.at = stop + 1
+            raise self._make_error("an array without its numbers", self.offset)
+        array = _TextArray(int(count[:_MAX_DIGITS]), self.data, start.end(), stop)
+        self.offset = stop + 1
         return array
 
 
@@ -113,7 +115,7 @@ def _parse_word(word: bytes) -> int | float | str:
 
 
 @dataclass(slots=True)
-class _Array:
+class _TextArray:
     """An array in a text file, parsed on demand."""
 
     count: int

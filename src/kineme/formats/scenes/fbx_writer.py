@@ -56,11 +56,11 @@ def write_fbx(motion: Motion, path: Path) -> None:
 
 def write_takes(motions: Mapping[str, Motion], path: Path) -> None:
     """Write one or more motions of one skeleton to an FBX file, each as a take of its name."""
-    scene = _Scene(check_animations(motions, path, "an FBX"), path)
+    scene = _SceneWriter(check_animations(motions, path, "an FBX"), path)
     for name, motion in motions.items():
         scene.animate(name, motion)
     with atomic_write(path) as draft:
-        draft.write_bytes(encode_fbx(scene.file(), _START, FOOTER))
+        draft.write_bytes(encode_fbx(scene.make_nodes(), _START, FOOTER))
 
 
 class TakeWriter:
@@ -83,8 +83,8 @@ class TakeWriter:
         self.objects.append(FBXNode(kind, values, list(children)))
         return number
 
-    def _link(self, part: int, parent: int, what: str | None = None) -> None:
-        kind, end = ("OO", []) if what is None else ("OP", [what])
+    def _link(self, part: int, parent: int, property_name: str | None = None) -> None:
+        kind, end = ("OO", []) if property_name is None else ("OP", [property_name])
         self.links.append(FBXNode("C", [kind, np.int64(part), np.int64(parent), *end]))
 
     def _add_model(self, node: int, name: str, rest: Transform) -> int:
@@ -116,7 +116,7 @@ class TakeWriter:
         self._link(model, self.models[parent] if parent >= 0 else 0)
         return model
 
-    def _bind_pose(self) -> list[FBXNode]:
+    def _make_bind_pose(self) -> list[FBXNode]:
         """Return the world matrix of each model at rest."""
         return [
             FBXNode(
@@ -161,12 +161,12 @@ class TakeWriter:
         self, node: int, shifts: Floats, turns: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """Return translations and angles that move a node like this, and its rest translation."""
-        turned = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
-        angles = np.degrees(rot.to_euler_zyx(turned))[:, ::-1]
+        local_rotations = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
+        angles = np.degrees(rot.to_euler_zyx(local_rotations))[:, ::-1]
         return shifts, angles, self.rig.translations[node]
 
     def _add_curves(
-        self, layer: int, model: int, what: str, short: str, times: Any, values: Floats
+        self, layer: int, model: int, property_name: str, short: str, times: Any, values: Floats
     ) -> None:
         start = [
             (f"d|{axis}", "Number", "", x)
@@ -174,7 +174,7 @@ class TakeWriter:
         ]
         node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _make_properties(*start))
         self._link(node, layer)
-        self._link(node, self.models[model], what)
+        self._link(node, self.models[model], property_name)
         for axis, column in zip("XYZ", values.T.astype("<f4"), strict=True):
             # A constant curve needs one key.
             n = 1 if np.ptp(column) == 0 else len(column)
@@ -193,7 +193,7 @@ class TakeWriter:
             )
             self._link(curve, node, f"d|{axis}")
 
-    def time_settings(self) -> list[tuple[str, str, str, Any]]:
+    def make_time_settings(self) -> list[tuple[str, str, str, Any]]:
         """Return name, type, label and value of the settings for frame rate and time span."""
         mode = next((mode for mode, fps in RATES.items() if abs(fps - self.fps) < 1e-9), CUSTOM)
         return [
@@ -204,7 +204,7 @@ class TakeWriter:
         ]
 
 
-class _Scene(TakeWriter):
+class _SceneWriter(TakeWriter):
     """Collect the models of a skeleton and its takes."""
 
     def __init__(self, motion: Motion, path: Path) -> None:
@@ -216,12 +216,12 @@ class _Scene(TakeWriter):
         for node, name in enumerate(names):
             rest = Transform(rig.translations[node], rig.rotations[node], rig.scales[node])
             self.models.append(self._add_model(node, name, rest))
-        entries = self._bind_pose()
+        entries = self._make_bind_pose()
         head = [make_node("Type", "BindPose"), make_node("Version", 100)]
         head.append(make_node("NbPoseNodes", len(entries)))
         self._add("Pose", "rest", "Pose", "BindPose", *head, *entries)
 
-    def file(self) -> list[FBXNode]:
+    def make_nodes(self) -> list[FBXNode]:
         """Return the top nodes of the file."""
         kinds = [node.name for node in self.objects]
         counted = [
@@ -250,7 +250,7 @@ class _Scene(TakeWriter):
                         *((f"{name}AxisSign", "int", "Integer", 1) for name, _ in _AXES),
                         ("UnitScaleFactor", "double", "Number", 1.0),
                         ("OriginalUnitScaleFactor", "double", "Number", 1.0),
-                        *self.time_settings(),
+                        *self.make_time_settings(),
                     ),
                 ],
             ),

@@ -78,7 +78,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     order, parents = _order_nodes(file)
     objects = [file.tree.nodes[number] for number in order]
     bones = {joint for skin in file.tree.skins for joint in skin.joints}
-    moved = [
+    moved_nodes = [
         {
             # Morph weights of meshes do not move joints.
             target.node
@@ -87,7 +87,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         }
         for animation in file.tree.animations
     ]
-    animated = find_moving_takes(moved, bones)
+    animated = find_moving_takes(moved_nodes, bones)
     names = unique(animation.name or "animation" for animation in file.tree.animations)
     number, notes = choose_take(content, names, animated, options.take)
     nodes = [
@@ -96,7 +96,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
             parents[j],
             order[j] in bones,
             each.mesh is not None or each.camera is not None,
-            order[j] in moved[number],
+            order[j] in moved_nodes[number],
             end=_is_marked(each) if _is_kineme(file) else is_end(each.name),
         )
         for j, each in enumerate(objects)
@@ -107,12 +107,12 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     )
     fps, rate_notes = _find_rate(file, keys, options)
     start, n_frames = _find_span(keys, fps)
-    require_frame_memory(content, len(character.joints), n_frames, beside=file.beside)
+    require_frame_memory(content, len(character.joints), n_frames, external_size=file.external_size)
     frame_times = start + np.arange(n_frames) / fps
 
     def transform(j: int) -> Transform:
         return _sample_transform(
-            objects[j], {what: keys.get((order[j], what)) for what in _WIDTHS}, frame_times
+            objects[j], {path: keys.get((order[j], path)) for path in _WIDTHS}, frame_times
         )
 
     return assemble(
@@ -135,7 +135,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
 
 def _read_binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) -> dict[int, Floats]:
     """Return the bind matrices of nodes by their index in the tree, as Blender interprets them."""
-    indices = {number: place for place, number in enumerate(order)}
+    indices = {number: index for index, number in enumerate(order)}
     matrices: dict[int, Floats] = {}
     for skin in file.tree.skins:
         # Bind matrices are relative to the skin's skeleton node, or to its parent if it is a joint.
@@ -145,7 +145,9 @@ def _read_binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) ->
             continue
         with suppress(ReadError, ValueError):  # ignore damaged skins
             # The file stores columns first.
-            inverse = file.array(skin.inverse_bind_matrices).reshape(-1, 4, 4).transpose(0, 2, 1)
+            inverse = (
+                file.read_array(skin.inverse_bind_matrices).reshape(-1, 4, 4).transpose(0, 2, 1)
+            )
             for joint, matrix in zip(skin.joints, inverse, strict=False):
                 if joint in indices and np.isfinite(matrix).all() and np.linalg.det(matrix) > 0:
                     matrices[indices[joint]] = np.asarray(np.linalg.inv(matrix), np.float64)
@@ -157,8 +159,8 @@ def _is_kineme(file: GLTFFile) -> bool:
     return isinstance(extras, dict) and EXTRAS in extras
 
 
-def _is_marked(each: SceneObject) -> bool:
-    return isinstance(each.extras, dict) and each.extras.get("end_site") is True
+def _is_marked(node: SceneObject) -> bool:
+    return isinstance(node.extras, dict) and node.extras.get("end_site") is True
 
 
 def _order_nodes(file: GLTFFile) -> tuple[list[int], list[int]]:
@@ -197,12 +199,12 @@ def _read_keys(
         node, path = channel.target.node, channel.target.path
         if node is None or node not in nodes or path not in _WIDTHS:
             continue
-        sampler = file.part(animation.samplers, channel.sampler, "sampler")
+        sampler = file.get_part(animation.samplers, channel.sampler, "sampler")
         if sampler.input not in times:
-            times[sampler.input] = file.array(sampler.input)[:, 0]
+            times[sampler.input] = file.read_array(sampler.input)[:, 0]
             if (np.diff(times[sampler.input]) <= 0).any():
                 raise file.content.error("the times of keys are in no order: damaged")
-        values = file.array(sampler.output)
+        values = file.read_array(sampler.output)
         # A cubic key has two tangents and a value.
         count = len(times[sampler.input]) * (3 if sampler.interpolation == "CUBICSPLINE" else 1)
         if values.shape != (count, _WIDTHS[path]):
@@ -223,7 +225,7 @@ def _find_rate(
     if isinstance(fps, int | float) and MIN_RATE <= fps <= MAX_RATE:
         return float(fps), []
     # The longest list of times shows uneven spacing best.
-    times = max((each.times for each in keys.values()), key=len, default=np.empty(0))
+    times = max((track.times for track in keys.values()), key=len, default=np.empty(0))
     steps = np.diff(times)
     if len(steps) > 1 and np.abs(steps / steps.mean() - 1).max() <= _EVEN:
         fps = len(steps) / float(times[-1] - times[0])
@@ -238,19 +240,21 @@ def _find_rate(
 
 def _find_span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
     """Return the second of the first key, and the number of frames up to the last one."""
-    start = min((float(each.times[0]) for each in keys.values()), default=0.0)
-    stop = max((float(each.times[-1]) for each in keys.values()), default=0.0)
+    start = min((float(track.times[0]) for track in keys.values()), default=0.0)
+    stop = max((float(track.times[-1]) for track in keys.values()), default=0.0)
     return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MAX_FRAMES))
 
 
-def _sample_transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
+def _sample_transform(
+    node: SceneObject, keys: dict[str, Keys | None], frame_times: Floats
+) -> Transform:
     """Return a node's transform at these seconds."""
     rest = dict(zip(_WIDTHS, _read_rest(node)[:3], strict=True))
     samples = {
-        what: rest[what]
+        path: rest[path]
         if track is None
-        else _sample_channel(track, at, is_rotation=what == ROTATION)
-        for what, track in keys.items()
+        else _sample_channel(track, frame_times, is_rotation=path == ROTATION)
+        for path, track in keys.items()
     }
     return Transform(samples[TRANSLATION], samples[ROTATION], samples[SCALE])
 
@@ -269,12 +273,12 @@ def _read_rest(node: SceneObject) -> Transform:
     )
 
 
-def _to_array(values: list[float] | None, usual: list[float]) -> Floats:
-    fits = values is not None and len(values) == len(usual)
-    return np.array(values if fits else usual, np.float64)
+def _to_array(values: list[float] | None, default: list[float]) -> Floats:
+    fits = values is not None and len(values) == len(default)
+    return np.array(values if fits else default, np.float64)
 
 
-def _sample_channel(keys: Keys, at: Floats, *, is_rotation: bool) -> Floats:
+def _sample_channel(keys: Keys, frame_times: Floats, *, is_rotation: bool) -> Floats:
     """Return values at these seconds (frames, 3); rotations as (frames, 4), w first."""
     times, values = keys.times, keys.values
     cubic = keys.interpolation == "CUBICSPLINE"
@@ -285,13 +289,13 @@ def _sample_channel(keys: Keys, at: Floats, *, is_rotation: bool) -> Floats:
     values = tangents[:, 1] if cubic else tangents[:, 0]
     if is_rotation:
         values = rot.normalize(values)
-    slack = SLACK * (at[1] - at[0] if len(at) > 1 else 1.0)
+    slack = SLACK * (frame_times[1] - frame_times[0] if len(frame_times) > 1 else 1.0)
     if len(times) == 1:
         sampled = values[0]
-    elif len(times) == len(at) and np.abs(times - at).max() <= slack:
+    elif len(times) == len(frame_times) and np.abs(times - frame_times).max() <= slack:
         sampled = values
     else:
-        index, share = find_keys(times, at, slack)
+        index, share = find_keys(times, frame_times, slack)
         start, stop = values[index], values[index + 1]
         if keys.interpolation == "STEP":
             sampled = np.where(share[:, None] >= 1, stop, start)

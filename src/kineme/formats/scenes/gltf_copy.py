@@ -85,7 +85,7 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
         if number in copy.free_views:
             continue
         start = view.get("byteOffset", 0)
-        stored = file.buffer(view["buffer"])[start : start + view["byteLength"]]
+        stored = file.read_buffer(view["buffer"])[start : start + view["byteLength"]]
         if len(stored) < view["byteLength"]:
             raise ReadError(file.content.path, f"buffer view {number} is longer than its buffer")
         view |= {"buffer": 0, "byteOffset": len(copy.data)}
@@ -130,9 +130,9 @@ def _add_root(copy: Animator, file: GLTFFile, rig: Rig) -> int:
             continue
         skin["joints"].append(new)
         if "inverseBindMatrices" in skin:
-            matrices = file.array(skin["inverseBindMatrices"])
+            matrices = file.read_array(skin["inverseBindMatrices"])
             matrices = np.concatenate([matrices, bind.T.reshape(1, 16)])
-            skin["inverseBindMatrices"] = copy.accessor(matrices, None)
+            skin["inverseBindMatrices"] = copy.add_accessor(matrices, None)
     return new
 
 
@@ -143,7 +143,7 @@ def _embed_images(copy: Animator, file: GLTFFile) -> None:
         if uri.startswith("data:"):
             continue
         try:
-            stored = base64.b64encode(file.stored(uri)).decode()
+            stored = base64.b64encode(file.read_uri(uri)).decode()
         except ReadError:
             warn(f"{file.content.path.name}: the texture {uri!r:.60} is missing")
             continue

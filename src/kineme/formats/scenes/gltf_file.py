@@ -176,19 +176,19 @@ class GLTFFile:
         self.text = text
         """The JSON as text."""
         self.tree = decode_json(text, content.path, Tree)
-        self.beside = 0
+        self.external_size = 0
         """Size in bytes of buffers in other files."""
         self._buffers: dict[int, bytes] = {}
 
-    def part(self, parts: Sequence[Part], number: int | None, what: str) -> Part:
+    def get_part(self, parts: Sequence[Part], number: int | None, what: str) -> Part:
         """Return an item of a list in the JSON; raise ReadError if there is none of this number."""
         if number is None or not 0 <= number < len(parts):
             raise self.content.error(f"{what} {number} is not in the file: damaged")
         return parts[number]
 
-    def array(self, number: int) -> Floats:
+    def read_array(self, number: int) -> Floats:
         """Return the values of an accessor (elements, components)."""
-        accessor = self.part(self.tree.accessors, number, "accessor")
+        accessor = self.get_part(self.tree.accessors, number, "accessor")
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:
             raise self.content.error(f"accessor {number} is of a type that glTF does not know")
@@ -201,19 +201,19 @@ class GLTFFile:
             )
             stored = np.zeros(shape, code)
         else:
-            place = accessor.buffer_view, accessor.byte_offset
-            stored = self._stored_array(number, *place, shape, code)
+            location = accessor.buffer_view, accessor.byte_offset
+            stored = self._read_elements(number, *location, shape, code)
         if (sparse := accessor.sparse) is not None:
             # The array is a read-only view of the file's bytes.
             stored = stored.copy()
             kind = COMPONENTS.get(sparse.indices.component_type, "<f4")
             indices, replacements = sparse.indices, sparse.values
-            rows = self._stored_array(
+            rows = self._read_elements(
                 number, indices.buffer_view, indices.byte_offset, (sparse.count, 1), kind
             )[:, 0]
             if rows.dtype.kind != "u" or rows.max() >= accessor.count:
                 raise self.content.error(f"accessor {number} has values outside of it: damaged")
-            stored[rows] = self._stored_array(
+            stored[rows] = self._read_elements(
                 number,
                 replacements.buffer_view,
                 replacements.byte_offset,
@@ -228,14 +228,14 @@ class GLTFFile:
             raise self.content.error(f"accessor {number} has values that are not finite: damaged")
         return values
 
-    def _stored_array(
+    def _read_elements(
         self, number: int, view_number: int, offset: int, shape: tuple[int, int], code: str
     ) -> NDArray[Any]:
         """Return the elements of an accessor in a buffer view, from ``offset`` on."""
-        view = self.part(self.tree.buffer_views, view_number, "buffer view")
+        view = self.get_part(self.tree.buffer_views, view_number, "buffer view")
         if "EXT_meshopt_compression" in view.extensions:
             raise self.content.error("its keys are packed by meshopt: export them unpacked")
-        data = self.buffer(view.buffer)
+        data = self.read_buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
         # Without a stride the elements are contiguous.
         step = view.byte_stride or size * width
@@ -249,14 +249,14 @@ class GLTFFile:
         # A strided view reads interleaved attributes without a copy.
         return np.ndarray(shape, code, data, start, (step, size))
 
-    def buffer(self, number: int) -> bytes:
+    def read_buffer(self, number: int) -> bytes:
         """Return the bytes of a buffer."""
         if number not in self._buffers:
-            place = self.part(self.tree.buffers, number, "buffer").uri
-            self._buffers[number] = self._chunk if place is None else self.stored(place)
+            uri = self.get_part(self.tree.buffers, number, "buffer").uri
+            self._buffers[number] = self._chunk if uri is None else self.read_uri(uri)
         return self._buffers[number]
 
-    def stored(self, uri: str) -> bytes:
+    def read_uri(self, uri: str) -> bytes:
         """Return the bytes of a buffer in the JSON, or in a file next to it."""
         if uri.startswith("data:"):
             try:
@@ -268,7 +268,7 @@ class GLTFFile:
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
         data = load(find_sibling(self.content, name)).data
-        self.beside += len(data)
+        self.external_size += len(data)
         return data
 
 
@@ -283,12 +283,12 @@ def _split_chunks(content: FileContent) -> tuple[bytes, bytes]:
     if length > len(data):
         raise content.error(f"is of {len(data)} bytes instead of {length}: it is truncated")
     chunks: dict[int, bytes] = {}
-    at = HEADER.size
-    while at + CHUNK.size <= length:
-        size, kind = CHUNK.unpack_from(data, at)
-        at += CHUNK.size
-        chunks.setdefault(kind, data[at : at + size])
-        at += size
+    offset = HEADER.size
+    while offset + CHUNK.size <= length:
+        size, kind = CHUNK.unpack_from(data, offset)
+        offset += CHUNK.size
+        chunks.setdefault(kind, data[offset : offset + size])
+        offset += size
     if JSON not in chunks:
         raise content.error("has no JSON in it: damaged")
     return chunks[JSON], chunks.get(BYTES, b"")

@@ -64,7 +64,7 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
 
     A ``.gltf`` gets an embedded buffer.
     """
-    file = _Writer(check_animations(motions, path), path)
+    file = _SceneWriter(check_animations(motions, path), path)
     for name, motion in motions.items():
         file.animate(name, motion)
     save_gltf(file.tree, bytes(file.data), path)
@@ -114,17 +114,17 @@ def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
         draft.write_bytes(_encode_glb(text.encode(), data) if binary else text.encode())
 
 
-def _is_same_skeleton(one: Skeleton, other: Skeleton) -> bool:
-    if one.names != other.names or one.parents != other.parents:
+def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
+    if first.names != second.names or first.parents != second.parents:
         return False
-    if one.rig is None or other.rig is None or not one.rig.numbers:
-        return np.allclose(one.offsets, other.offsets, atol=RIGID)
+    if first.rig is None or second.rig is None or not first.rig.numbers:
+        return np.allclose(first.offsets, second.offsets, atol=RIGID)
     # Offsets of joints with translations depend on the take, so compare the rest poses.
-    rest, others = (
-        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (one.rig, other.rig)
+    first_rest, second_rest = (
+        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (first.rig, second.rig)
     )
-    same = one.rig.numbers == other.rig.numbers
-    return same and np.allclose(rest, others, atol=RIGID)
+    same = first.rig.numbers == second.rig.numbers
+    return same and np.allclose(first_rest, second_rest, atol=RIGID)
 
 
 class Animator:
@@ -151,16 +151,16 @@ class Animator:
         nodes = range(rig.above, len(rig.names))
         sizes = np.array([rig.parent_world(node, *rig.world)[2] for node in nodes])
         limit = RIGID / rig.unit / sizes
-        seconds = self.accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
-        start = self.accessor(np.zeros((1, 1)), _KEYS, bounds=True) if n > 1 else seconds
+        seconds = self.add_accessor(np.arange(n)[:, None] / motion.fps, _KEYS, bounds=True)
+        start = self.add_accessor(np.zeros((1, 1)), _KEYS, bounds=True) if n > 1 else seconds
         channels: list[dict[str, Any]] = []
         samplers: list[dict[str, Any]] = []
 
-        def add(joint: int, what: str, values: Floats) -> None:
-            target = {"node": self.numbers[joint], "path": what}
+        def add(joint: int, path: str, values: Floats) -> None:
+            target = {"node": self.numbers[joint], "path": path}
             channels.append({"sampler": len(samplers), "target": target})
             keys = {"input": start if len(values) == 1 else seconds}
-            samplers.append({**keys, "output": self.accessor(values, _KEYS)})
+            samplers.append({**keys, "output": self.add_accessor(values, _KEYS)})
 
         for j in range(skeleton.n_joints):
             if distances[j] > limit[j] or skeleton.parents[j] < 0:
@@ -171,7 +171,7 @@ class Animator:
                 add(j, "rotation", np.roll(_align_signs(turns[:, j]), -1, axis=1))
         self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
 
-    def accessor(
+    def add_accessor(
         self, values: NDArray[Any], target: int | None, kind: int = _FLOAT, *, bounds: bool = False
     ) -> int:
         """Store an array (elements, components) and return the number of its accessor."""
@@ -195,7 +195,7 @@ class Animator:
         return _store_part(self.tree["accessors"], accessor, self.free_accessors)
 
 
-class _Writer(Animator):
+class _SceneWriter(Animator):
     """Collect the parts of a file."""
 
     def __init__(self, motion: Motion, path: Path) -> None:
@@ -215,14 +215,14 @@ class _Writer(Animator):
         }
         # Ancestors follow the joints, so that the number of a joint is that of its node.
         super().__init__(skeleton, rig, range(skeleton.n_joints), tree)
-        self.tree["nodes"] = self._nodes(path)
+        self.tree["nodes"] = self._make_nodes(path)
         n = len(self.tree["nodes"])
         self.tree["nodes"].append({"name": f"{path.stem}_mesh", "mesh": 0, "skin": 0})
         carried = {child for node in self.tree["nodes"] for child in node.get("children", ())}
         self.tree["scenes"] = [{"nodes": [node for node in range(n + 1) if node not in carried]}]
         self._add_mesh()
 
-    def _nodes(self, path: Path) -> list[dict[str, Any]]:
+    def _make_nodes(self, path: Path) -> list[dict[str, Any]]:
         """Return a node for each joint, followed by their ancestors."""
         rig, skeleton = self.rig, self.skeleton
         order = [*range(rig.above, len(rig.names)), *range(rig.above)]
@@ -244,9 +244,9 @@ class _Writer(Animator):
     def _add_mesh(self) -> None:
         """Add a mesh of bones, bound to the joints in the bind pose."""
         skeleton, rig = self.skeleton, self.rig
-        places, turns, sizes = (part[rig.above :] for part in rig.world)
-        vertices, faces, joints = _build_bone_mesh(skeleton, places)
-        rest = compose(places, turns, sizes)
+        positions, turns, sizes = (part[rig.above :] for part in rig.world)
+        vertices, faces, joints = _build_bone_mesh(skeleton, positions)
+        rest = compose(positions, turns, sizes)
         binds = rest if rig.binds is None else rig.binds
         # Move each vertex from the rest pose to the bind pose of its joint.
         to_bind = (binds @ np.linalg.inv(rest))[joints]
@@ -263,12 +263,12 @@ class _Writer(Animator):
         inverse[:, :, 3] = [0.0, 0.0, 0.0, 1.0]  # required exactly by glTF
         code = _BYTE if kind is np.uint8 else _SHORT
         attributes = {
-            "POSITION": self.accessor(vertices, _VERTICES, bounds=True),
-            "JOINTS_0": self.accessor(joint_indices, _VERTICES, code),
-            "WEIGHTS_0": self.accessor(weights, _VERTICES),
+            "POSITION": self.add_accessor(vertices, _VERTICES, bounds=True),
+            "JOINTS_0": self.add_accessor(joint_indices, _VERTICES, code),
+            "WEIGHTS_0": self.add_accessor(weights, _VERTICES),
         }
-        indices = self.accessor(faces.reshape(-1, 1), _INDICES, _INT)
-        inverses = self.accessor(inverse.reshape(-1, 16), _KEYS)
+        indices = self.add_accessor(faces.reshape(-1, 1), _INDICES, _INT)
+        inverses = self.add_accessor(inverse.reshape(-1, 16), _KEYS)
         self.tree["meshes"] = [
             {"name": "bones", "primitives": [{"attributes": attributes, "indices": indices}]}
         ]
@@ -300,7 +300,9 @@ def describe_transform(rig: Rig, node: int) -> dict[str, Any]:
         "rotation": (np.roll(rig.rotations[node], -1), np.array([0.0, 0.0, 0.0, 1.0])),
         "scale": (rig.scales[node], np.ones(3)),
     }
-    return {what: part.tolist() for what, (part, usual) in parts.items() if (part != usual).any()}
+    return {
+        name: part.tolist() for name, (part, default) in parts.items() if (part != default).any()
+    }
 
 
 def _align_signs(turns: Floats) -> Floats:
@@ -313,30 +315,30 @@ def _align_signs(turns: Floats) -> Floats:
 
 
 def _build_bone_mesh(
-    skeleton: Skeleton, places: Floats
+    skeleton: Skeleton, positions: Floats
 ) -> tuple[Floats, NDArray[np.int64], NDArray[np.int64]]:
     """Return vertices (vertices, 3), faces (faces, 3) and the joint of each vertex."""
     vertices: list[Floats] = []
     faces: list[tuple[int, int, int]] = []
     joints: list[int] = []
     for j in range(skeleton.n_joints):
-        tips = [places[child] for child in skeleton.children[j]]
+        tips = [positions[child] for child in skeleton.children[j]]
         # Draw a short bone for joints without children.
         if not tips and j not in skeleton.end_sites:
-            tips = [places[j] + [0.0, LEAF_LENGTH, 0.0]]
+            tips = [positions[j] + [0.0, LEAF_LENGTH, 0.0]]
         for tip in tips:
-            bone = tip - places[j]
+            bone = tip - positions[j]
             length = float(np.linalg.norm(bone))
             if length < RIGID:
                 continue
             # A vector perpendicular to the bone, from the axis least parallel to it.
             side = np.cross(bone, np.eye(3)[np.abs(bone).argmin()])
             side *= BONE_WIDTH * length / np.linalg.norm(side)
-            other = np.cross(bone, side) / length
+            second_side = np.cross(bone, side) / length
             # The widest part is at a fifth of the length, as in Blender.
-            ring = [places[j] + 0.2 * bone + x * side + y * other for x, y in _RING]
+            ring = [positions[j] + 0.2 * bone + x * side + y * second_side for x, y in _RING]
             start = len(vertices)
-            vertices += [places[j], *ring, tip]
+            vertices += [positions[j], *ring, tip]
             joints += [j] * 6
             # Triangles connect the joint to the ring, and the ring to the tip.
             for k in range(4):
@@ -344,7 +346,7 @@ def _build_bone_mesh(
                 faces += [(start, following, current), (start + 5, current, following)]
     if not vertices:  # all joints have the same position
         vertices, faces, joints = (
-            [places[0] + LEAF_LENGTH * axis for axis in np.eye(3)],
+            [positions[0] + LEAF_LENGTH * axis for axis in np.eye(3)],
             [(0, 1, 2)],
             [0] * 3,
         )

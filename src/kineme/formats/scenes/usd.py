@@ -146,15 +146,16 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
         UsdSkel.Animation(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Animation)
     ]
     candidates = skeleton.find_animations(animations)
-    names = unique(each.GetPrim().GetName() for each in candidates)
+    names = unique(candidate.GetPrim().GetName() for candidate in candidates)
     number, notes = choose_take(content, names, range(len(candidates)), options.take)
     fps, codes, rate_notes = _find_frames(
         content, stage, candidates[number], len(nodes), options, size_of_layers
     )
-    pose = skeleton.pose(candidates[number], codes)
+    pose = skeleton.sample_pose(candidates[number], codes)
     up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
     carrier, carrier_at_rest = (
-        _sample_carrier(UsdGeom.Xformable(skeleton.prim), at) for at in (codes, codes[:1])
+        _sample_carrier(UsdGeom.Xformable(skeleton.prim), time_codes)
+        for time_codes in (codes, codes[:1])
     )
     return assemble(
         content,
@@ -196,8 +197,8 @@ class _Skeleton:
             if is_complete
             else np.tile(np.eye(4), (len(default_names), 1, 1))
         )
-        found = (_to_transform(matrix[None]) for matrix in self.rest)
-        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in found]
+        transforms = (_to_transform(matrix[None]) for matrix in self.rest)
+        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in transforms]
 
     def is_end(self, j: int) -> bool:
         if self.ends is not None:
@@ -211,7 +212,7 @@ class _Skeleton:
         # False sorts before True: the bound animation comes first.
         return sorted(matching, key=lambda each: each.GetPrim() != self.bound)
 
-    def pose(self, animation: Any, codes: Floats) -> list[Transform]:
+    def sample_pose(self, animation: Any, codes: Floats) -> list[Transform]:
         """Return the transform of each joint at these time codes."""
         animated = list(map(str, _list_joints(animation)))
         columns = {joint: number for number, joint in enumerate(animated)}
@@ -253,7 +254,12 @@ def _list_nodes(
 
 
 def _find_frames(
-    content: FileContent, stage: Any, animation: Any, joints: int, options: ReadOptions, beside: int
+    content: FileContent,
+    stage: Any,
+    animation: Any,
+    joints: int,
+    options: ReadOptions,
+    external_size: int,
 ) -> tuple[float, Floats, list[str]]:
     """Return frames per second, the time code of each frame, and notes."""
     attributes = (
@@ -279,7 +285,7 @@ def _find_frames(
         raise content.error("tells no time that could be: give fps= (--fps)")
     step = codes_per_second / fps
     count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MAX_FRAMES)
-    require_frame_memory(content, joints, int(count), beside=beside)
+    require_frame_memory(content, joints, int(count), external_size=external_size)
     return fps, times[0] + step * np.arange(int(count)), notes
 
 
@@ -306,8 +312,8 @@ def _sample_carrier(xformable: Any, codes: Floats) -> Transform:
     """Return the world transform of a skeleton's prim."""
     matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
     is_constant = np.abs(matrices - matrices[0]).max() == 0
-    found = _to_transform(matrices[:1] if is_constant else matrices)
-    shift, turn, scale = (part[0] if is_constant else part for part in found[:3])
+    transform = _to_transform(matrices[:1] if is_constant else matrices)
+    shift, turn, scale = (part[0] if is_constant else part for part in transform[:3])
     return Transform(shift, turn, scale)
 
 

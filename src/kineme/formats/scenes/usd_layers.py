@@ -78,8 +78,10 @@ def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
     for layer in layers:
         stack = [layer]
         # The list grows during the loop.
-        for each in stack:
-            stack += [Sdf.Layer.FindRelativeToLayer(each, name) for name in each.subLayerPaths]
+        for sublayer in stack:
+            stack += [
+                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
+            ]
             if len(stack) > MAX_SUBLAYERS:
                 raise content.error(f"its sublayers multiply to more than {MAX_SUBLAYERS}")
 
@@ -116,6 +118,6 @@ def _limit_process(size: int) -> None:
     import resource
 
     memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
-    for what, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
+    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
         with suppress(OSError, ValueError):  # the limit is lower already
-            resource.setrlimit(what, (most, resource.getrlimit(what)[1]))
+            resource.setrlimit(limit, (most, resource.getrlimit(limit)[1]))

@@ -68,10 +68,10 @@ def write_usd(motion: Motion, path: Path) -> None:
     animation.CreateScalesAttr(Vt.Vec3hArray(sizes))
     shifts, turns = pose_rig(motion, rig)
     shifts, turns = shifts.astype("f4"), np.roll(turns, -1, axis=-1).astype("f4")  # w last
-    moved, turned = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
+    translations, rotations = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
     for frame in range(motion.n_frames):
-        moved.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
-        turned.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
+        translations.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
+        rotations.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
     binding = UsdSkel.BindingAPI.Apply(bound.GetPrim())
     binding.CreateAnimationSourceRel().SetTargets([animation.GetPath()])
     with atomic_write(path) as draft:

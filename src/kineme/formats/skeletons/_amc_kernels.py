@@ -15,38 +15,38 @@ NOT_HERE = -1
 
 
 @njit("int64(uint8[::1], int64)", **OPTIONS)
-def find_word(text, at):
+def find_word(text, offset):
     """Return the start of the next word or the end of the text; `NOT_HERE` if no space precedes."""
-    before = at
-    while at < len(text) and (text[at] == SPACE or 9 <= text[at] <= 13):
-        at += 1
-    return at if at > before else NOT_HERE
+    before = offset
+    while offset < len(text) and (text[offset] == SPACE or 9 <= text[offset] <= 13):
+        offset += 1
+    return offset if offset > before else NOT_HERE
 
 
 @njit("int64(uint8[::1], int64, uint8[::1])", **OPTIONS)
-def skip_name(text, at, name):
+def skip_name(text, offset, name):
     """Return the end of a name that starts here; `NOT_HERE` if another word does."""
-    if at + len(name) > len(text):
+    if offset + len(name) > len(text):
         return NOT_HERE
     for i in range(len(name)):
-        if text[at + i] != name[i]:
+        if text[offset + i] != name[i]:
             return NOT_HERE
-    return at + len(name)
+    return offset + len(name)
 
 
 @njit("int64(uint8[::1], int64, float64[::1])", **OPTIONS)
-def parse_number(text, at, value):
+def parse_number(text, offset, value):
     """Return the end of a number that starts here, and store its value.
 
     Return `NOT_HERE` if there is none, or if dividing an integer by a power of ten may round
     differently from ``float``.
     """
-    negative = at < len(text) and text[at] == MINUS
-    if negative or (at < len(text) and text[at] == PLUS):
-        at += 1
+    negative = offset < len(text) and text[offset] == MINUS
+    if negative or (offset < len(text) and text[offset] == PLUS):
+        offset += 1
     mantissa, digits, decimals, point = 0, 0, 0, False
-    while at < len(text):
-        sign = text[at]
+    while offset < len(text):
+        sign = text[offset]
         if ZERO <= sign <= NINE:
             mantissa = 10 * mantissa + (sign - ZERO)
             digits += 1
@@ -58,11 +58,11 @@ def parse_number(text, at, value):
             point = True
         else:
             break
-        at += 1
+        offset += 1
     value[0] = mantissa / TENS[decimals]
     if negative:
         value[0] = -value[0]
-    return at if digits else NOT_HERE
+    return offset if digits else NOT_HERE
 
 
 @njit("int64(uint8[::1], uint8[::1], int64[::1], int64[::1], float64[:, ::1])", **OPTIONS)
@@ -73,30 +73,30 @@ def read_rows(text, names, ends, counts, rows):
     text must start and end with a space, and ``rows`` be large enough. Return the number of frames,
     or `NOT_HERE` if the text has another layout.
     """
-    at, row, value = 0, 0, np.zeros(1)
+    offset, row, value = 0, 0, np.zeros(1)
     while True:
-        at = find_word(text, at)
-        if at == len(text):
+        offset = find_word(text, offset)
+        if offset == len(text):
             return row
-        if at != NOT_HERE:
-            at = parse_number(text, at, value)
-        if at == NOT_HERE:
+        if offset != NOT_HERE:
+            offset = parse_number(text, offset, value)
+        if offset == NOT_HERE:
             return NOT_HERE
         rows[row, 0] = value[0]
         column, first = 1, 0
         for bone in range(len(counts)):
-            at = find_word(text, at)
-            if at != NOT_HERE:
-                at = skip_name(text, at, names[first : ends[bone]])
+            offset = find_word(text, offset)
+            if offset != NOT_HERE:
+                offset = skip_name(text, offset, names[first : ends[bone]])
             first = ends[bone]
             for _ in range(counts[bone]):
                 # After a mismatch, skip the rest of the bone.
-                if at != NOT_HERE:
-                    at = find_word(text, at)
-                if at != NOT_HERE:
-                    at = parse_number(text, at, value)
+                if offset != NOT_HERE:
+                    offset = find_word(text, offset)
+                if offset != NOT_HERE:
+                    offset = parse_number(text, offset, value)
                 rows[row, column] = value[0]
                 column += 1
-            if at == NOT_HERE:
+            if offset == NOT_HERE:
                 return NOT_HERE
         row += 1

@@ -123,14 +123,16 @@ def find_skeleton(path: Path) -> Path:
     stems = ["_".join(parts[:n]).lower() for n in range(len(parts), 0, -1)]
     candidates: list[Path] = []
     for folder in (path.parent, path.parent / "asf", path.parent.parent / "asf"):
-        found = sorted(p for p in folder.glob("*") if p.suffix.lower() == ".asf" and p.is_file())
-        by_stem = {p.stem.lower(): p for p in found}
+        asf_files = sorted(
+            p for p in folder.glob("*") if p.suffix.lower() == ".asf" and p.is_file()
+        )
+        by_stem = {p.stem.lower(): p for p in asf_files}
         for stem in stems:
             if stem in by_stem:
                 return by_stem[stem]
-        if len(found) == 1:
-            return found[0]
-        candidates += found
+        if len(asf_files) == 1:
+            return asf_files[0]
+        candidates += asf_files
     if not candidates:
         raise ReadError(
             path, "no ASF skeleton found beside it: name one with skeleton= (--skeleton)"
@@ -245,13 +247,13 @@ def _find_layout(text: bytes, figure: Figure) -> Layout | None:
         return None
     words = text[first.end() : None if second is None else second.start()].split()
     counts: dict[str, int] = {}
-    at = 0
-    while at < len(words):
-        name = words[at].decode("utf-8", "replace")
+    index = 0
+    while index < len(words):
+        name = words[index].decode("utf-8", "replace")
         if name not in figure.bones or name in counts:
             return None
         counts[name] = len(figure.bones[name].dof)
-        at += 1 + counts[name]
+        index += 1 + counts[name]
     complete = all(name in counts or not bone.dof for name, bone in figure.bones.items())
     return counts if complete else None
 
@@ -273,14 +275,14 @@ def _parse_rows(text: bytes, layout: Layout) -> Floats | None:
     rows = np.empty((len(words) // n_words, 1 + sum(layout.values())))
     try:
         rows[:, 0] = list(map(int, words[::n_words]))
-        at, column = 1, 1
+        word, column = 1, 1
         for name, count in layout.items():
             # The bone's name must be at the same position in every frame.
-            if words[at::n_words].count(name.encode()) != len(rows):
+            if words[word::n_words].count(name.encode()) != len(rows):
                 return None
             for i in range(count):
-                rows[:, column + i] = list(map(float, words[at + 1 + i :: n_words]))
-            at, column = at + 1 + count, column + count
+                rows[:, column + i] = list(map(float, words[word + 1 + i :: n_words]))
+            word, column = word + 1 + count, column + count
     except (ValueError, OverflowError):
         return None
     return rows if np.isfinite(rows).all() else None

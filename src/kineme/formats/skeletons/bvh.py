@@ -97,7 +97,7 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
-    joints = _Hierarchy(content, split.start()).joints
+    joints = _HierarchyParser(content, split.start()).joints
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
     if header is None:
@@ -187,7 +187,7 @@ class Joint:
     channels: list[tuple[str, str]] = field(default_factory=list)
 
 
-class _Hierarchy:
+class _HierarchyParser:
     """Joints of the HIERARCHY section, which ends at byte ``stop``; parents first."""
 
     def __init__(self, content: FileContent, stop: int):
@@ -195,14 +195,14 @@ class _Hierarchy:
         text = content.data[:stop].decode("utf-8", "replace").removeprefix("\ufeff")
         lines = enumerate(text.replace("{", " { ").replace("}", " } ").splitlines(), 1)
         self.words = [(word, number) for number, line in lines for word in line.split()]
-        self.at = 0
+        self.position = 0
         self.joints: list[Joint] = []
         open_joints: list[int] = []
         if not self.words or self.words[0][0].upper() != "HIERARCHY":
             raise content.error("a BVH file begins with the word HIERARCHY", 1)
-        self.at = 1
-        while self.at < len(self.words):
-            word, line = self._next()
+        self.position = 1
+        while self.position < len(self.words):
+            word, line = self._take_word()
             key = word.upper()
             if key in ("ROOT", "JOINT", "END"):
                 parent = open_joints[-1] if open_joints else -1
@@ -211,15 +211,15 @@ class _Hierarchy:
                         f"{word} {'outside' if parent < 0 else 'inside'} a joint", line
                     )
                 open_joints.append(len(self.joints))
-                self.joints.append(Joint(self._name(line), parent, line, key == "END"))
+                self.joints.append(Joint(self._parse_name(line), parent, line, key == "END"))
             elif not open_joints:
                 raise content.error(f"ROOT expected, found {word[:40]!r}", line)
             elif key == "}":
                 open_joints.pop()
             elif key == "OFFSET":
-                self.joints[open_joints[-1]].offset = self._offset(line)
+                self.joints[open_joints[-1]].offset = self._parse_offset(line)
             elif key == "CHANNELS":
-                self.joints[open_joints[-1]].channels = self._channels(line)
+                self.joints[open_joints[-1]].channels = self._parse_channels(line)
             else:
                 raise content.error(
                     f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}", line
@@ -233,16 +233,16 @@ class _Hierarchy:
             )
         self._name_end_sites()
 
-    def _next(self) -> tuple[str, int]:
-        if self.at >= len(self.words):
+    def _take_word(self) -> tuple[str, int]:
+        if self.position >= len(self.words):
             raise self.content.error("the hierarchy breaks off", self.words[-1][1])
-        self.at += 1
-        return self.words[self.at - 1]
+        self.position += 1
+        return self.words[self.position - 1]
 
-    def _name(self, line: int) -> str:
+    def _parse_name(self, line: int) -> str:
         """Return all words up to the brace, which must precede the next keyword."""
         words = []
-        while (word := self._next())[0] != "{":
+        while (word := self._take_word())[0] != "{":
             if word[1] > line and word[0].upper() in ("OFFSET", "CHANNELS", "JOINT", "END"):
                 raise self.content.error("'{' expected after a joint's name", word[1])
             words.append(word[0])
@@ -250,26 +250,26 @@ class _Hierarchy:
             raise self.content.error("a joint without a name", line)
         return " ".join(words)
 
-    def _offset(self, line: int) -> list[float]:
-        words = [self._next()[0] for _ in range(3)]
+    def _parse_offset(self, line: int) -> list[float]:
+        words = [self._take_word()[0] for _ in range(3)]
         try:
             return parse_numbers(words)
         except ValueError as error:
             raise self.content.error(f"OFFSET: {error}", line) from None
 
-    def _channels(self, line: int) -> list[tuple[str, str]]:
-        declared = self._next()[0]
+    def _parse_channels(self, line: int) -> list[tuple[str, str]]:
+        declared = self._take_word()[0]
         if not declared.isdecimal() or len(declared) > 18:
             raise self.content.error(f"CHANNELS needs a number, found {declared[:40]!r}", line)
         channels = []
         for _ in range(int(declared)):
-            word = self._next()[0]
+            word = self._take_word()[0]
             match = _CHANNEL.fullmatch(word)
             if match is None:
                 raise self.content.error(f"unknown channel {word[:40]!r} of {declared}", line)
             channels.append((match.group(1).lower(), match.group(2).lower()))
-        places = [channel for channel in channels if channel[1] == "position"]
-        if len(set(places)) != len(places):
+        positions = [channel for channel in channels if channel[1] == "position"]
+        if len(set(positions)) != len(positions):
             raise self.content.error("a position channel is named twice", line)
         return channels
 
@@ -320,12 +320,12 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
             # Other widths are valid only if all numbers together give the declared frames.
             odd_lines.append((number, len(row)))
     if odd_lines and (fault or len(values) != width * declared):
-        number, found = odd_lines[0]
-        fault = content.error(f"{found} values, but the hierarchy has {width} channels", number)
-        if number < last or found > width:
+        number, count = odd_lines[0]
+        fault = content.error(f"{count} values, but the hierarchy has {width} channels", number)
+        if number < last or count > width:
             raise fault
         # Drop the values of the truncated last line.
-        del values[-found:]
+        del values[-count:]
     if not values:
         raise fault or content.error("the file ends before its first frame: there is no motion")
     if fault is not None:
@@ -360,9 +360,9 @@ def _split_lines(data: bytes, start: int) -> Iterator[bytes]:
 def _find_end(data: bytes, start: int) -> int:
     """Return the offset after which only blanks and empty lines follow."""
     # Search backwards in chunks, since most files end with few blanks.
-    for at in range(len(data), start, -CHUNK):
-        first = max(start, at - CHUNK)
-        if text := data[first:at].rstrip():
+    for stop in range(len(data), start, -CHUNK):
+        first = max(start, stop - CHUNK)
+        if text := data[first:stop].rstrip():
             return first + len(text)
     return start
 

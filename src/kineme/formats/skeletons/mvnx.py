@@ -113,7 +113,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     )
 
 
-class _Subjects(NoEntities):
+class _SubjectParser(NoEntities):
     """Parser target that collects subjects and keeps nothing else."""
 
     def __init__(self, content: FileContent) -> None:
@@ -151,7 +151,7 @@ class _Subjects(NoEntities):
 
 def _parse_subjects(content: FileContent) -> list[Subject]:
     """Return the subjects in a file; raise ReadError if it is truncated."""
-    target = _Subjects(content)
+    target = _SubjectParser(content)
     parser = ET.XMLParser(target=target)  # noqa: S314 (see NoEntities)
     try:
         parser.feed(content.data)
@@ -161,12 +161,12 @@ def _parse_subjects(content: FileContent) -> list[Subject]:
     return target.people
 
 
-def _stack_frames(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
-    frames = subject.values[what]
+def _stack_frames(content: FileContent, subject: Subject, kind: str, width: int) -> Floats:
+    frames = subject.values[kind]
     if not frames:
-        raise content.error(f"no frame has a {what} of segments: export it with them")
+        raise content.error(f"no frame has a {kind} of segments: export it with them")
     if any(len(values) != width for values in frames):
-        raise content.error(f"a frame has another number of values in {what} than {width}")
+        raise content.error(f"a frame has another number of values in {kind} than {width}")
     return np.stack(frames)
 
 

@@ -49,8 +49,8 @@ def build_motion(
     used if the skeleton has no rig.
     """
     means = skeleton.offsets.copy()
-    for joint, places in slides.items():
-        means[joint] = places.mean(axis=0)
+    for joint, translations in slides.items():
+        means[joint] = translations.mean(axis=0)
     if unit is None:
         unit, note = infer_unit(skeleton, means)
         provenance = provenance.noted(note)
@@ -92,8 +92,8 @@ def _compute_positions(
     for span in iterate_blocks(len(rotations)):
         n = span.stop - span.start
         shift = np.repeat(skeleton.offsets[:, :, None], n, axis=2)  # a row per joint and axis
-        for joint, places in slides.items():
-            shift[joint] = scale * places[span].T
+        for joint, translations in slides.items():
+            shift[joint] = scale * translations[span].T
         positions[span] = forward_kinematics(
             skeleton, rotations[span], translations=shift.transpose(2, 0, 1)
         )
