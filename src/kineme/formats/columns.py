@@ -69,7 +69,7 @@ def columns_to_motion(
         content, columns, joints, visibility=use_visibility
     )
     limit = limit if options.confidence is None else options.confidence
-    positions[confidence < limit] = np.nan
+    positions[confidence < limit] = np.nan  # these become gaps
     is_flat = all(len(axes) == 2 for axes in joints.values())
     n_unsure = int((confidence < limit).sum())
     timing = find_table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
@@ -144,6 +144,7 @@ def _find_common_unit(
         if unit == units[0]:
             return unit, [Note(f"{remark} that of the others, {unit}", "warning")]
         stated_joints = [j for j, joint in enumerate(joints) if joint not in unstated]
+        # Convert the other joints to the unit of those without one.
         positions[:, stated_joints] *= to_metres(units[0]) / to_metres(unit)
         return unit, [
             Note(f"{remark} {unit}, as large as they are; others in {units[0]}", "warning")
@@ -214,5 +215,5 @@ def _read_positions(
             positions[:, j, "xyz".index(axis)] = read_column(content, columns, column, rows)
         if joint in confidence_columns:
             confidence[:, j] = read_column(content, columns, confidence_columns[joint], rows)
-    positions[np.isinf(positions)] = np.nan
+    positions[np.isinf(positions)] = np.nan  # infinite values count as missing
     return list(joints), positions, confidence

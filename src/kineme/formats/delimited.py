@@ -126,6 +126,7 @@ class DelimitedText:
             return False
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
         cells = [cell for row in rows for cell in split_cells(row, self.separator)]
+        # A single number with a point shows that commas are no decimal commas.
         return any(map(has_comma, cells)) and not any("." in c for c in cells if is_number(c))
 
     @cached_property
@@ -215,6 +216,7 @@ class DelimitedText:
             for cells in reader:
                 if not any(map(str.strip, cells)):
                     continue
+                # Quoted cells may span lines, so the reader counts them.
                 line = first + reader.line_num - 1
                 if len(cells) < width or any(map(str.strip, cells[width:])):
                     reason = f"{len(cells)} cells, but {width} columns"
@@ -249,6 +251,7 @@ class DelimitedText:
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
         cells = [split_cells(row, self.separator) for row in rows]
         for one, other in pairwise(row for row in cells if len(row) == len(names)):
+            # Two rows of one time with different owners are interleaved.
             differing = [i for i in owners if one[i] != other[i]]
             if differing and all(one[i] == other[i] for i in times):
                 k = differing[0]
@@ -265,6 +268,7 @@ def make_unique_names(names: Iterable[str]) -> list[str]:
 
 def find_separator(line: str) -> str:
     """Return tab, semicolon or comma, whichever is most frequent in the line."""
+    # `max` returns the first of equally frequent ones, so tabs take precedence.
     return max("\t;,", key=line.count)
 
 
@@ -331,6 +335,7 @@ def _parse_cells(content: FileContent, cells: list[str], line: int) -> list[floa
     try:
         return parse_numbers(cells)
     except ValueError:
+        # Only rows with empty cells or errors take this slower path.
         empty = [cell.strip().lower() in EMPTY for cell in cells]
     try:
         rest = iter(

@@ -156,6 +156,7 @@ def find_sibling(content: FileContent, relative: str | PathLike[str]) -> Path:
     """
     folder = content.path.parent
     path = folder / relative
+    # Resolve links on both sides, so that a link cannot lead out of the folder.
     if not Path(realpath(path)).is_relative_to(realpath(folder)):
         raise content.error(
             f"names {str(relative)!r:.90}, which leads out of its folder: put that file in it"
@@ -167,6 +168,7 @@ def find_sibling(content: FileContent, relative: str | PathLike[str]) -> Path:
 def parse_numbers(words: Sequence[str | bytes]) -> list[float]:
     """Return the words as finite numbers; raise ValueError that names the first other word."""
     try:
+        # Convert all words at once; search for a wrong one only after an error.
         values = list(map(float, words))
     except ValueError:
         wrong = next(word for word in words if not _is_number(word))

@@ -47,6 +47,7 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
     for point in np.flatnonzero(missing.any(axis=0)).tolist():
         spans = find_spans(missing[:, point])
         lengths = spans[:, 1] - spans[:, 0]
+        # A point never seen has no neighbours to interpolate, however short the recording is.
         long = np.asarray((lengths > longest) | (lengths == len(points)))
         missing_frames = np.concatenate(
             [np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)]
@@ -122,5 +123,6 @@ def _interpolate_cubic(
         return np.repeat(values, len(frames), axis=0)
     from scipy.interpolate import PchipInterpolator
 
+    # Clipping holds the nearest position at both ends.
     inside = np.clip(frames, visible[0], visible[-1])
     return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)

@@ -84,6 +84,7 @@ def check_rigid_points(
         return []
     for first, second in combinations(bone_points, 2):
         lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
+        # Percentiles ignore single outliers.
         low, middle, high = np.percentile(lengths, (2, 50, 98))
         if high - low > MAX_DISTANCE_CHANGE * middle:
             changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
@@ -141,6 +142,7 @@ def _find_jumps(
             back = next((other for other in steps if other - away <= longest), None)
             if back is not None:
                 distance = np.linalg.norm(points[back + 1, point] - points[away, point])
+            # A point that does not come back, or comes back elsewhere, did not just jump.
             if back is None or distance > step * (back + 1 - away):
                 others.append((point, away + 1))
                 continue

@@ -89,10 +89,12 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         subject = _describe_subject(path, subjects, points.person)
         provenance = provenance.noted(subject).of_person(points.person or subjects[0], subjects)
     positions = np.array(points.positions, np.float64)
+    # Implausible positions must become NaN before gaps are filled.
     doubts = drop_implausible(positions, names, points.fps)
     gaps = fill_gaps(positions, points.fps)
     body = _choose_body(names, gaps, len(positions))
     body_points = _list_body_points(body)
+    # Points with open gaps are kept only if the body needs them.
     kept_points = [i for i in range(len(names)) if i not in gaps.open or i in body_points]
     missing = bridge_gaps(positions, gaps, body_points, points.fps)
     is_visible = ~mark_spans(missing, len(positions))
@@ -112,6 +114,7 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     notes = [*doubts, *_describe_gaps(names, gaps, kept_points, len(positions))]
     notes += _describe_splits(names, gaps, body_points, missing, points.fps)
     visible = positions if is_visible.all() else positions[is_visible]
+    # Avoid copies: a recording may be a large part of the memory.
     seen = visible if len(kept_points) == len(names) else visible[:, kept_points]
     is_body = {"pelvis", "head", "left_ankle"} <= body.keys()
     scale, note = infer_scale(points.unit, seen, stated=points.stated_unit, is_body=is_body)
@@ -146,6 +149,7 @@ def split_subjects(names: Sequence[str], person: str | None = None) -> tuple[lis
     subjects = [
         subject for subject, members in points.items() if "pelvis" in find_body(short, members)
     ]
+    # Without a body, a prefix common to all names is still removed.
     chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
     if subjects:
         chosen = person if person in subjects else subjects[0]
@@ -178,6 +182,7 @@ def _choose_body(names: list[str], gaps: Gaps, n_frames: int) -> Body:
     usable = {i for i in range(len(names)) if i not in masks or not masks[i].all()}
     body = find_body(names, usable)
     if "pelvis" not in body:
+        # No motion can be built on points with gaps: use complete points only.
         return find_body(names, usable - masks.keys())
     # Try to do without each point, the one with most missing frames first.
     tried: set[int] = set()
@@ -272,10 +277,12 @@ def _build_skeleton(
     joints = [joint for joint, parent in PARENTS.items() if joint in body]
     joints = [joint for joint in joints if PARENTS[joint] in (None, *joints)]
     rest = [i for i in kept_points if names[i] not in joints]
+    # A joint is the mean of its points.
     middles = [positions[:, list(body[joint])].mean(axis=1) for joint in joints]
     joint_positions = np.concatenate([np.stack(middles, axis=1), positions[:, rest]], axis=1)
     parents = [joints.index(PARENTS[joint] or "") if PARENTS[joint] else -1 for joint in joints]
     parents += [0] * len(rest)
+    # The frame with the largest height, among those in which the body was seen.
     upright_pose = joint_positions[(np.ptp(joint_positions[:, :, 1], axis=1) * is_visible).argmax()]
     offsets = upright_pose - upright_pose[parents]
     offsets[0] = 0

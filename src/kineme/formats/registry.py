@@ -210,6 +210,7 @@ def recognise(content: FileContent) -> Format:
     by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in ADVICE and not by_suffix:
         raise ReadError(content.path, f"{suffix} is not read: {ADVICE[suffix]}")
+    # Prefer a format that matches both, then the content, then the suffix.
     for candidate in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
         return candidate
     suffixes = sorted({s for candidate in formats for s in candidate.suffixes})

@@ -78,6 +78,7 @@ def sniff(content: FileContent) -> DelimitedText:
     ]  # header, words and rows
     if not content_lines:
         raise content.error("has no lines of numbers")
+    # A declaration such as ``sep=;`` overrides the most frequent separator.
     declared = next(filter(None, map(SEPARATOR.fullmatch, lines[: content_lines[0]])), None)
     separator = declared[1] if declared else None
     candidates = range(min(MAX_HEADER_LINES, len(content_lines)))
@@ -189,6 +190,7 @@ def _count_word_lines(lines: Sequence[str], content_lines: Sequence[int], separa
     if len(names) == 1 or any(map(is_number, names)) or not _fits(row, len(names)):
         return 0
     positions = [[i for i, cell in enumerate(line) if cell.lower() not in EMPTY] for line in words]
+    # Words count only if rows below have a value in each of their columns.
     fits = all(_fits(line, len(names)) for line in words)
     has_values_below = all(positions) and all(
         i < len(names) and _has_value(row[i]) for i in chain(*positions)
@@ -224,5 +226,6 @@ def _find_rate(lines: Sequence[str]) -> float | None:
         if not _NO_FRAME_RATE.search(line)
         for match in _RATE.finditer(line)
     }
+    # Several different rates are ambiguous.
     rates = values - {0.0}
     return rates.pop() if len(rates) == 1 else None

@@ -93,6 +93,7 @@ def write_csv(motion: Motion, path: Path) -> None:
     head = ",".join(f'"{name}"' if "," in name else name for name in map(as_text, names)) + "\n"
     first = "".join(f"{motion.fps!r}," for _ in rate)
     cells = 3 * len(joints)
+    # Format strings are much faster than formatting each number.
     row = f"{first}%.9f{',%.9f' * cells}\n"
     empty = f"{first}%.9f{',' * cells}\n"
     values = motion.positions.reshape(motion.n_frames, -1).tolist()

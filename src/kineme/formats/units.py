@@ -112,6 +112,7 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
         unit = next(name for name, fit in fits.items() if fit)
         metres = height * UNITS[unit]
         return unit, Note(f"unit {unit} inferred: the skeleton is then about {metres:.2f} m tall")
+    # Compare ratios to 1.7 m on a logarithmic scale.
     errors = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
     unit = list(UNITS)[int(np.abs(errors).argmin())]
     remark = (
@@ -146,6 +147,7 @@ def infer_rate(word: str) -> tuple[float, str | None]:
     """
     period = Decimal(word)
     exponent = period.as_tuple().exponent
+    # Half a unit of the last written digit is the largest rounding error.
     half = Decimal(5).scaleb(int(exponent) - 1)
     if half >= period:
         return float(1 / period), None
@@ -164,7 +166,7 @@ def _measure_longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     body = set(skeleton.body) - {skeleton.carrier}
     reach = [0.0] * skeleton.n_joints
     longest = 0.0
-    # Children before parents: `reach` is the longest path down from each joint.
+    # Process children before parents: `reach` is the longest path down from each joint.
     for joint in range(skeleton.n_joints - 1, -1, -1):
         parent = skeleton.parents[joint]
         if parent >= 0 and joint in body:
@@ -188,6 +190,7 @@ def infer_scale(
     """
     if unit is not None and unit != "pixel":
         return to_metres(unit), []
+    # Median over frames of the largest extent along an axis.
     spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
     if unit == "pixel":
         return _HEIGHT / (spread or 1.0), [
@@ -199,6 +202,7 @@ def infer_scale(
     if unit is not None:
         note = f"unit {unit} inferred: the points then spread over {spread * UNITS[unit]:.2f} m"
         return UNITS[unit], [note]
+    # No unit fits: small numbers are more likely metres, large ones millimetres.
     name = "m" if spread < 1 else "mm"
     remark = (
         f"markers {spread:.3g} units apart are in no unit those of a person: "
@@ -273,6 +277,7 @@ def _find_body_axis(
     """
     vectors = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    # The median is robust to frames in which the body bends or lies.
     direction = np.median(vectors / np.where(length > 0, length, 1), axis=0)
     axis = int(np.abs(direction).argmax())
     if abs(direction[axis]) < least:

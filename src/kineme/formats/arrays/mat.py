@@ -56,6 +56,7 @@ def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 def read_variables(content: FileContent) -> dict[str, Any]:
     """Return the variables of a MAT file of any version, by name."""
+    # Version 7.3 puts a header of 512 bytes before the HDF5 signature.
     is_hdf5 = content.data.startswith(SIGNATURE) or content.data[512:520] == SIGNATURE
     variables = parse_hdf5(content) if is_hdf5 else parse_mat(content)
     if not variables:

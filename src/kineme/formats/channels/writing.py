@@ -39,6 +39,7 @@ SEPARATORS = {".csv": ",", ".tsv": "\t"}
 TEXT = ("table", "MOT/STO")
 PARQUET = "Parquet table"
 
+# Number of rows in the header of MOT and STO files, which changes if rows are cut.
 _ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
 
 
@@ -71,6 +72,7 @@ def make_rows(signals: Signals, *, shortest: int | None = None) -> Rows:
 
     ``shortest`` is the smallest number of rows written to one file; all by default.
     """
+    # A single row has no step between times, so it needs a column of the rate.
     may_be_single = min(signals.n_frames, shortest or signals.n_frames) < 2
     path = signals.provenance.path
     if path is not None and Path(path).is_file():
@@ -110,10 +112,11 @@ class _TextRows:
         text = (
             content.text
             if content.is_utf16
-            else content.data.decode("utf-8", errors="surrogateescape")
+            else content.data.decode("utf-8", errors="surrogateescape")  # keeps all bytes
         )
         lines = text.splitlines(keepends=True)
         head, below = lines[: table.first_row], lines[table.first_row :]
+        # A quoted cell may span several lines, which belong to one row.
         reader = csv.reader(table.rows, delimiter=table.separator)
         rows: list[str] = []
         start = 0
@@ -217,6 +220,7 @@ def _find_source_table(content: FileContent, signals: Signals) -> ChannelTable |
     values = table.values
     if values.shape != signals.values.shape:
         return None
+    # Gaps were filled on reading, so values that are missing in the file may differ.
     is_equal = ((values == signals.values) | ~np.isfinite(values)).all()
     return table if is_equal else None
 

@@ -238,6 +238,7 @@ def find_cuts(rows: Rows, head: Head) -> list[float]:
     steps = np.diff(rows["time"])
     # Median over keypoints, in body heights: half of them moved at least this far.
     jumps = np.median(np.linalg.norm(np.diff(image, axis=0), axis=2), axis=1) / height
+    # Above 30 Hz the limit per frame stays that of 30 Hz.
     limits = np.maximum(LEAP * steps, LEAP / 30)
     changed = np.isin(rows["time"][1:], head.get("changes", []))
     is_next = steps < 2 / float(head["fps"])  # otherwise there is a gap already
@@ -250,6 +251,7 @@ def _steady_points(points: Floats, confidence: Floats, fps: float) -> Floats:
     """Return a person's points (rows, keypoints, axes), averaged over time if uncertain."""
     from scipy.ndimage import gaussian_filter1d
 
+    # Weights fall linearly below the sure confidence and never reach 0.
     weights = np.clip(confidence / SURE, 1e-3, 1.0).astype(np.float64)[..., None]
     if weights.min() == 1.0:
         return points
@@ -276,6 +278,7 @@ def _smooth(motion: Motion) -> Motion:
         return motion.noted(f"not smoothed: {motion.fps:g} Hz are too few for {CUTOFF:g} Hz")
     positions = motion.positions.copy()
     for start, stop in find_spans(~np.array(mark_gaps(motion))).tolist():
+        # The filter needs fewer padding frames than the span has.
         padding = min(round(motion.fps), stop - start - 2)
         if padding > 0:
             flat = positions[start:stop].reshape(stop - start, -1)

@@ -104,6 +104,7 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
 def _find_markers(file: C3D) -> tuple[list[int], int]:
     """Return the indices of the points that are markers, and the number of other points."""
     parameters = file.parameters
+    # Each group lists its labels in a parameter of the same name.
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}
     modelled = {label for group in groups for label in parameters.strings("POINT", group)}
     markers = [
@@ -148,6 +149,7 @@ def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
     names = unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
     descriptions = file.parameters.strings("ANALOG", "DESCRIPTIONS")
+    # Descriptions may be missing or fewer than the channels.
     descriptions = [*descriptions, *[""] * len(names)]
     # Force plates refer to channels by numbers from 1.
     muscles = [
@@ -187,6 +189,7 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
 
 def _split_words(text: str) -> list[str]:
     """Return the words of a name: ``RTibialisAnt.EMG1`` has four."""
+    # Split at changes of case (`RTib` -> `R Tib`) and at other characters.
     return re.findall(
         r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)
     )

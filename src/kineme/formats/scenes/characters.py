@@ -82,9 +82,9 @@ def find_character(
     largest = max(map(len, skeletons))
     bodies = [joints for joints in skeletons if len(joints) >= MIN_SIZE_RATIO * largest]
     moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
-    bodies = moving or bodies
+    bodies = moving or bodies  # if nothing moves, all skeletons are candidates
     people = dict(zip(_name_bodies(nodes, bodies), bodies, strict=True))
-    # A person may also be named by number.
+    # A person may also be selected by number.
     numbers = {str(number): name for number, name in enumerate(people)}
     name = person if person in people else numbers.get(person or "", person)
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]

@@ -59,6 +59,7 @@ def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
     _warn_of_textures(scene, source, path)
     data = content.data
     stop = root.children[-1].stop + get_head_struct(version).size
+    # Keep the source's footer, which depends on its time of creation.
     footer = data[stop : stop + len(FOOTER)].ljust(len(FOOTER), b"\0")
     with atomic_write(path) as draft:
         draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
@@ -84,6 +85,7 @@ class _CopyWriter(TakeWriter):
         if parts is None:
             raise make_uneven_error(source, path)
         rig = replace(rig, translations=parts[0], rotations=parts[1], scales=parts[2])
+        # New objects get numbers that the source does not use.
         numbers = (number for number in count(1_000_000) if number not in scene.objects)
         super().__init__(rig, motion.fps, numbers)
         self.scene, self.moved = scene, set[int]()
@@ -142,6 +144,7 @@ class _CopyWriter(TakeWriter):
 
     def _is_kept(self, link: FBXNode, dropped: set[int], above: set[int]) -> bool:
         part, parent = link.number(1, -1), link.number(2, -1)
+        # Connections of removed animation objects are removed as well.
         if part in dropped or parent in dropped:
             return False
         # Children of the new root lose their other parents.

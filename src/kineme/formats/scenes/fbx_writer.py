@@ -148,6 +148,7 @@ class TakeWriter:
         for joint in range(skeleton.n_joints):
             node = rig.above + joint
             translations, angles, rest = self.find_values(node, shifts[:, joint], turns[:, joint])
+            # Metres per unit of the node's translation.
             size = rig.parent_world(node, *rig.world)[2] * rig.unit
             distance = size * np.abs(translations - rest).max()
             if distance > RIGID or skeleton.parents[joint] < 0:
@@ -317,6 +318,7 @@ def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: byt
     """Append a node to the file; its head states the end, so it is filled in last."""
     at, name = len(data), node.name.encode()
     if node.stop:
+        # Copied nodes keep their bytes, but the ends in their heads move.
         shift = at - node.start
         data += source[node.start : node.stop]
         # The next head follows the values of this one, whether of a child or a sibling.

@@ -67,6 +67,7 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
     tree.setdefault("accessors", [])
     samplers = [each for animation in tree.get("animations", ()) for each in animation["samplers"]]
     keys = {each[end] for each in samplers for end in ("input", "output")}
+    # Accessors shared with skins or meshes must stay.
     keys -= {skin.get("inverseBindMatrices") for skin in tree.get("skins", ())}
     for mesh in tree.get("meshes", ()):
         for part in mesh["primitives"]:
@@ -80,6 +81,7 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
             each["bufferView"] for each in views if isinstance(each, dict) and "bufferView" in each
         }
         (dropped if number in keys else needed).update(views_of_accessor)
+    # Views used only by the dropped accessors are free, too.
     copy.free_accessors, copy.free_views = sorted(keys), sorted(dropped - needed)
     for number, view in enumerate(tree["bufferViews"]):
         if number in copy.free_views:
@@ -89,6 +91,7 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
         if len(stored) < view["byteLength"]:
             raise ReadError(file.content.path, f"buffer view {number} is longer than its buffer")
         view |= {"buffer": 0, "byteOffset": len(copy.data)}
+        # Views must start at multiples of four bytes.
         copy.data += stored + bytes(-len(stored) % 4)
     tree["animations"] = []
 
@@ -102,6 +105,7 @@ def _close_number_gaps(copy: Animator) -> None:
         ("bufferViews", copy.free_views, view),
     ):
         parts = copy.tree[name]
+        # Numbers at the end can be dropped without changing others.
         while free and free[-1] == len(parts) - 1:
             parts.pop()
             free.pop()
@@ -124,7 +128,7 @@ def _add_root(copy: Animator, file: GLTFFile, rig: Rig) -> int:
         {"name": rig.names[root], **describe_transform(rig, root), "children": children}
     )
     bind = np.linalg.inv(compose(*(part[root : root + 1] for part in rig.world)))[0]
-    bind[3] = [0.0, 0.0, 0.0, 1.0]
+    bind[3] = [0.0, 0.0, 0.0, 1.0]  # required exactly by glTF
     for skin in tree.get("skins", ()):
         if not {*skin["joints"]} & {*children}:
             continue

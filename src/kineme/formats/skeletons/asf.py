@@ -58,7 +58,7 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     angle = "".join(units.get("angle", (0, ["deg"]))[1][:1]).lower()
     angle_unit = 1.0 if angle.startswith("rad") else radians(1)
     if scale is None:
-        scale = INCH
+        scale = INCH  # `length` divides it
         if "length" in units:
             line, words = units["length"]
             scale /= read_values(content, line, words, 1, positive=True)[0]
@@ -107,6 +107,7 @@ def _split_sections(content: FileContent) -> dict[str, list[Line]]:
     sections: dict[str, list[Line]] = {}
     current: list[Line] = []
     for number, line in enumerate(content.text.splitlines(), 1):
+        # Parentheses and commas of `limits` count as blanks.
         words = line.split("#")[0].translate(_BLANKS).split()
         if not words:
             continue
@@ -169,6 +170,7 @@ def _order_bones(
         # Reversed, since the stack pops the last one first.
         waiting.extend(reversed(children[order[-1]]))
     reached = set(order)
+    # Bones in a cycle are never reached from the root.
     lost = [name for name in bones if name not in reached]
     if lost:
         raise content.error(

@@ -92,7 +92,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     lengths = np.linalg.norm(world, axis=2, keepdims=True)
     if not (np.isfinite(lengths).all() and (lengths > 0).all()):
         raise content.error("orientations are not all numbers")
-    world = world / lengths
+    world = world / lengths  # unit quaternions
     local, offsets = world.copy(), np.zeros((len(names), 3))
     # Convert world rotations to rotations relative to the parent.
     for joint, parent in enumerate(parents):
