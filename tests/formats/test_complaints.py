@@ -1,4 +1,4 @@
-"""What users of other readers complained about: one test for each that no other test holds."""
+"""Issues reported for other readers that no other test covers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One look at delimited text, whoever reads it: joints, channels, programs with a dialect."""
+"""Delimited text is parsed in the same way for joints, channels and dialects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""glTF: what is written is read again, and other programs' ways of saying it are understood."""
+"""glTF: written files read back, and variants of other programs are understood."""
 
 from __future__ import annotations
 
