@@ -1,4 +1,4 @@
-"""Small FBX scenes: a chain of bones, and what is read of it."""
+"""Build small FBX scenes with a chain of bones, and read them."""
 
 from __future__ import annotations
 

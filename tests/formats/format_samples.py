@@ -1,4 +1,4 @@
-"""Random skeletons and motions, and one small file of each format to spoil."""
+"""Random skeletons and motions, and a small valid file of each format."""
 
 from __future__ import annotations
 

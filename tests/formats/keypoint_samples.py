@@ -1,4 +1,4 @@
-"""A person before a camera, as each pose estimator would leave it."""
+"""Output of each pose estimator for a person in front of a camera."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A walking set of markers, and C3D files of it byte by byte."""
+"""A walking set of markers, and C3D files of it written byte by byte."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every real file at hand loads, or is refused for a reason that a person can act on."""
+"""Every real sample file loads, or is refused with a message that says what to do."""
 
 from __future__ import annotations
 

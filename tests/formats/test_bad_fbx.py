@@ -1,4 +1,4 @@
-"""FBX files that cannot be read: one sentence says why, whatever is wrong with them."""
+"""FBX files that cannot be read raise an error with a single-sentence reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What cannot be understood is one error that names file, line and reason."""
+"""Invalid files raise an error with file, line and reason."""
 
 from __future__ import annotations
 

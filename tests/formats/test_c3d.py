@@ -1,4 +1,4 @@
-"""C3D files: every encoding, the corner cases of the field, and real recordings."""
+"""C3D files: every encoding, corner cases, and real recordings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""C3D files whose header and parameters count differently: the length of the file decides."""
+"""C3D files whose header and parameters disagree: the length of the file decides."""
 
 from __future__ import annotations
 

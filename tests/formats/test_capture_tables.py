@@ -1,4 +1,4 @@
-"""Tables of Vicon's Nexus and OptiTrack's Motive: what they hold, and what is wrong with some."""
+"""Tables of Vicon's Nexus and OptiTrack's Motive, valid and invalid."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Signals from files: the tables people have, OpenSim's, analog channels, and bad ones."""
+"""Signals from users' tables, OpenSim's files and analog channels, and from invalid files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What users of other readers complained about: one test for each that no other test holds."""
+"""Issues reported for other readers that no other test covers."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_analog_channels_without_a_rate_of_their_own() -> None:
     analog = np.zeros((60, 4, 2))
     data = c3d_bytes(z_up_millimetres(walking()), PLUG_IN_GAIT, analog=analog)
     file = parse_c3d(FileContent(Path("a.c3d"), data))
-    assert file.parameters.number("ANALOG", "RATE", usual=-1.0) == -1.0
+    assert file.parameters.number("ANALOG", "RATE", default=-1.0) == -1.0
     assert file.analog_rate == 400
 
 

@@ -1,4 +1,4 @@
-"""Damaged files of every format: each is read, or refused in one sentence of the package."""
+"""Damaged files of every format are read, or refused with an error of the package."""
 
 from __future__ import annotations
 

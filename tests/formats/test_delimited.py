@@ -1,4 +1,4 @@
-"""One look at delimited text, whoever reads it: joints, channels, programs with a dialect."""
+"""Delimited text is parsed in the same way for joints, channels and dialects."""
 
 from __future__ import annotations
 
@@ -88,13 +88,13 @@ def test_what_was_sniffed_is_there_to_look_at() -> None:
     content = FileContent(Path("a.csv"), text("Logger", "t;a;b;c", separator=";").encode())
     table = sniff(content)
     assert table.names == ["t", "a", "b", "c"]
-    assert (table.head, table.below, table.separator) == (1, 2, ";")
-    assert table.numeric() == table.names
+    assert (table.head, table.first_row, table.separator) == (1, 2, ";")
+    assert table.find_numeric_columns() == table.names
     assert table.remarks == ("1 line above the names passed over",)
     bare = sniff(FileContent(Path("a.csv"), text().encode()))
-    assert bare.headless
-    assert bare.numbered().names == ["1", "2", "3", "4"]
-    np.testing.assert_array_equal(bare.numbered().numbers(), ROWS)
+    assert bare.is_headless
+    assert bare.number_columns().names == ["1", "2", "3", "4"]
+    np.testing.assert_array_equal(bare.number_columns().numbers(), ROWS)
 
 
 def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) -> None:

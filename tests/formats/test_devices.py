@@ -1,4 +1,4 @@
-"""Files as devices write them: lines on the device, clocks under names of their own, dates."""
+"""Device exports: header lines, clocks with their own names, dates."""
 
 from __future__ import annotations
 

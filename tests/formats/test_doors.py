@@ -1,4 +1,4 @@
-"""Whatever goes wrong inside a reader is one ReadError that names the file and keeps the cause."""
+"""Any exception in a reader becomes a ReadError that names the file and keeps the cause."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""FBX: joints where the file's own transforms put them, whichever way it is written."""
+"""FBX: joints are where the file's transforms place them, in binary and text files."""
 
 from __future__ import annotations
 

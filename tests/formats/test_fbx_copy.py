@@ -1,4 +1,4 @@
-"""Takes in a copy of the FBX file that they came from: the rest is untouched, joints are right."""
+"""Takes in a copy of their FBX file: joints are correct, everything else is unchanged."""
 
 from __future__ import annotations
 

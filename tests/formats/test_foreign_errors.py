@@ -1,4 +1,4 @@
-"""What other packages raise of damaged files: one sentence of ours for every kind that was seen."""
+"""Errors of other packages on damaged files become errors of this package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""glTF: what is written is read again, and other programs' ways of saying it are understood."""
+"""glTF: written files read back, and variants of other programs are understood."""
 
 from __future__ import annotations
 
@@ -153,8 +153,8 @@ def test_other_programs_see_a_mesh_on_a_skeleton(tmp_path: Path) -> None:
     data = (tmp_path / "a.glb").read_bytes()
     text = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
     (primitive,) = text["meshes"][0]["primitives"]
-    places, bound = (file.array(primitive["attributes"][n]) for n in ("POSITION", "JOINTS_0"))
-    inverse = file.array(text["skins"][0]["inverseBindMatrices"]).reshape(-1, 4, 4)
+    places, bound = (file.read_array(primitive["attributes"][n]) for n in ("POSITION", "JOINTS_0"))
+    inverse = file.read_array(text["skins"][0]["inverseBindMatrices"]).reshape(-1, 4, 4)
     for place, joint in zip(places, bound[:, 0].astype(int)):
         at = np.append(place, 1) @ inverse[joint]  # in the joint's frame: within its bone
         assert np.linalg.norm(at[:3]) < 0.6

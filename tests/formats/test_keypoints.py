@@ -1,4 +1,4 @@
-"""Keypoints of pose estimators: every layout, whom to take, what is not sure, what is refused."""
+"""Keypoints of pose estimators: layouts, choice of person, low confidences, invalid files."""
 
 from __future__ import annotations
 

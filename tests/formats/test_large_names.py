@@ -1,4 +1,4 @@
-"""Files of very many names are read in a time that grows with them, not with their square."""
+"""Reading time grows linearly with the number of names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files laid out as programs write them, made from arrays."""
+"""Array files in the layouts that programs write."""
 
 import json
 from pathlib import Path

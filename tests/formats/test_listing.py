@@ -1,4 +1,4 @@
-"""What counts as a recording in a folder, whatever else lies there."""
+"""Recognition of recordings among other files in a folder."""
 
 from __future__ import annotations
 

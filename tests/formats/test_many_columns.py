@@ -1,4 +1,4 @@
-"""Files with very many columns or branches: work that grows with them, not with their square."""
+"""Reading time grows linearly with the number of columns or branches."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""MAT files: what scipy and h5py write, what scipy reads in them, and damage."""
+"""MAT files: written by scipy and h5py, compared with scipy, and damaged."""
 
 from __future__ import annotations
 

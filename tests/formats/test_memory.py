@@ -1,4 +1,4 @@
-"""Small files that claim much: refused in a sentence, before the memory is taken."""
+"""Small files that claim to be large are refused before memory is allocated."""
 
 from __future__ import annotations
 

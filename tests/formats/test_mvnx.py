@@ -1,4 +1,4 @@
-"""MVNX of Xsens' suits: a walk of a random body comes back, and wrong files say why."""
+"""MVNX of Xsens' suits: a random walking body is read back, and invalid files give a reason."""
 
 from __future__ import annotations
 

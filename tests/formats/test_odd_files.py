@@ -1,4 +1,4 @@
-"""Odd files that are sound: pipes, leap seconds, labels between semicolons, kineme's own arrays."""
+"""Unusual but valid files: pipes, leap seconds, labels between semicolons, kineme's own arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names that formats use for themselves: read as they were written, or said or refused."""
+"""Names with a special meaning in a format are kept, changed with a warning, or refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Markers that jump or vanish, bodies of a wrong size, and bodies that lie."""
+"""Markers that jump or vanish, bodies of wrong size, and bodies that lie."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of poses: what is in them, and the motion that they become."""
+"""Tables of poses, and the motions read from them."""
 
 from __future__ import annotations
 

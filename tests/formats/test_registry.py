@@ -1,4 +1,4 @@
-"""One door: what is read, what is said of it, and formats from other packages."""
+"""Reading through the registry, notes on what was inferred, and formats of other packages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rig of a file comes back from the file that is written of it: nodes, rest pose, places."""
+"""The rig of a file survives writing: nodes, rest pose, positions."""
 
 from __future__ import annotations
 

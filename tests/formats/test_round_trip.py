@@ -1,4 +1,4 @@
-"""Reading what was written gives the same motion."""
+"""Written motions read back unchanged."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""TRC, tables, arrays, poses and keypoints: what they hold, what is inferred, and round trips."""
+"""TRC, tables, arrays, poses and keypoints: content, inference and round trips."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""USD: what is written is read again, as are other stages."""
+"""USD: written files read back, and other stages are read."""
 
 from __future__ import annotations
 

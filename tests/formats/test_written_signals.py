@@ -1,4 +1,4 @@
-"""Signals that were written are read again as they were: rate, names, values; or are refused."""
+"""Written signals read back with the same rate, names and values, or are refused."""
 
 from __future__ import annotations
 

@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import KinemeWarning, MissingDependencyError, MotionError, ParameterError
 
-MOST_FRAMES_MORE = 1000
-"""Largest ratio of a new to an old frame rate; above it the old rate is probably wrong."""
+MAX_FRAMES_RATIO = 1000
+"""Frames at a new rate for above it the old, at most; beyond that the old above is wrong."""
 
 
 @contextmanager
@@ -33,8 +33,8 @@ def require_extra(package: str, extra: str) -> Iterator[None]:
 
 
 def check_rates(old: float, new: float) -> None:
-    """Raise ParameterError if resampling to a new rate would create too many frames."""
-    if new > MOST_FRAMES_MORE * old:
+    """ParameterError where the frames at a new rate would create too many frames."""
+    if new > MAX_FRAMES_RATIO * old:
         raise ParameterError(
             f"frames {1 / old:g} s apart are too far for {new:g} a second: is the frame rate right?"
         )

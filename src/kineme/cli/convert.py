@@ -54,8 +54,10 @@ def _is_channel_table(path: Path) -> bool:
         return False
     if dialect:
         return True
-    table = table.numbered()
-    return hold_channels(table.names) and table.names[0] != "1" and bool(table.numeric())
+    table = table.number_columns()
+    return (
+        hold_channels(table.names) and table.names[0] != "1" and bool(table.find_numeric_columns())
+    )
 
 
 @add_options(READING)

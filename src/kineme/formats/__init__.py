@@ -1,9 +1,8 @@
-"""Reading and writing recordings.
+"""Read and write recordings.
 
-`read` picks a reader by what the file holds and by its suffix; `write` picks a
-writer by suffix. Every reader gives a `Motion` in metres, y up, or `Signals`,
-and says in the provenance what the file did not tell and had to be inferred.
-One module per format; `register` adds more.
+`read` chooses a reader by the file's content and suffix; `write` chooses a writer by suffix. A
+reader returns a `Motion` in metres with y up, or `Signals`. The provenance records everything that
+the file did not state and the reader had to infer. Each format is one module; `register` adds more.
 """
 
 from kineme.formats.files import FileContent

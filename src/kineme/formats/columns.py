@@ -1,19 +1,19 @@
-"""Tables whose columns are coordinates of joints: from named columns to a motion.
+"""Convert tables with columns of joint coordinates to motions.
 
-A joint is two or three columns that differ in their last letter: ``hip_x hip_y
-hip_z``, ``hip.x``, ``hip x`` or ``hipX``, in any order; ``hip_pos_x`` where all are called so,
-and ``hip_x [mm]`` or ``hip_x_mm``, which tells the unit; columns in several units are each taken in
-their own. Velocities, rotations and the like of joints are passed over. Besides these there may be
+A joint has two or three columns whose names differ in the last letter: ``hip_x hip_y hip_z``,
+``hip.x``, ``hip x`` or ``hipX``, in any order, or ``hip_pos_x`` if all names have this form. A name
+may state the unit, as in ``hip_x [mm]`` or ``hip_x_mm``; columns may have different units.
+Velocities, rotations and similar columns of joints are ignored. Other columns that are read:
 
-- the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``,
-  with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``: numbers or dates, see
+- the time: ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or ``seconds``, with or
+  without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``. Values are numbers or dates, see
   `kineme.recordings.times`;
-- a rate in every row: ``fps`` or ``rate``;
-- how sure a pose estimator is: ``hip_confidence``, ``_likelihood``, ``_score``,
-  ``_visibility``, ``_presence`` or ``_c``. Below 0.5 the joint counts as not seen.
+- the frame rate, repeated in every row: ``fps`` or ``rate``;
+- a pose estimator's confidence: ``hip_confidence``, ``_likelihood``, ``_score``, ``_visibility``,
+  ``_presence`` or ``_c``. Below 0.5 the joint counts as not seen.
 
-Two-dimensional joints get z = 0. They are positions in an image, whose rows
-count downwards; the body's larger side is taken as a person's height.
+Two-dimensional joints get z = 0. They are positions in an image with y down; the larger side of
+the body is scaled to a person's height.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ from kineme.recordings.coordinates import COORDINATE, group_axes, is_body, list_
 from kineme.recordings.times import is_timing
 
 Joints = Mapping[str, Mapping[str, str]]
-"""For each joint the columns of its axes."""
+"""Columns of each joint, by axis."""
 
 LIMIT = 0.5
-"""Confidence from which a keypoint counts as seen."""
+"""Confidence at and above which a keypoint counts as seen."""
 
 _CONFIDENCE = re.compile(
     r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
@@ -58,51 +58,53 @@ def columns_to_motion(
     *,
     limit: float = LIMIT,
 ) -> Motion:
-    """Return the motion of the joints in a table's columns, one number per row each.
+    """Return the motion of the joints in a table's columns, which hold one number per row.
 
-    ``name`` is that of the format, ``limit`` the confidence from which a keypoint counts as seen.
-    ReadError where no joints are found, columns differ in length, or nothing tells the rate.
+    ``name`` is the name of the format, ``limit`` the confidence at which a keypoint counts as seen.
+    Raise ReadError if there are no joints, columns differ in length, or the rate is unknown.
     """
     joints = _find_joints(content, columns)
-    is_asked = options.confidence is not None
-    names, positions, confidence = _read_positions(content, columns, joints, visibility=is_asked)
+    use_visibility = options.confidence is not None
+    names, positions, confidence = _read_positions(
+        content, columns, joints, visibility=use_visibility
+    )
     limit = limit if options.confidence is None else options.confidence
-    positions[confidence < limit] = np.nan
-    flat = all(len(axes) == 2 for axes in joints.values())
-    unsure = int((confidence < limit).sum())
+    positions[confidence < limit] = np.nan  # these become gaps
+    is_flat = all(len(axes) == 2 for axes in joints.values())
+    n_unsure = int((confidence < limit).sum())
     timing = find_table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
     positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)
-    if unsure:
-        notes.append(f"{format_count(unsure, 'position')} less sure than {limit:g} not used")
-    unit, stated, up = options.unit, None, options.up
+    if n_unsure:
+        notes.append(f"{format_count(n_unsure, 'position')} less sure than {limit:g} not used")
+    unit, stated_unit, up = options.unit, None, options.up
     if unit is None:
-        stated, remarks = _find_common_unit(content, joints, positions)
-        notes += remarks
-    if flat:
+        stated_unit, unit_notes = _find_common_unit(content, joints, positions)
+        notes += unit_notes
+    if is_flat:
         notes.append("two-dimensional: z is 0, and image rows count downwards")
-        unit, up = unit or stated or "pixel", up or "-y"
+        unit, up = unit or stated_unit or "pixel", up or "-y"
     points = Points(
-        names, positions, timing.fps, unit, up, stated_unit=stated, person=options.person
+        names, positions, timing.fps, unit, up, stated_unit=stated_unit, person=options.person
     )
     provenance = content.provenance(name, notes).timed(timing.clock, timing.row_seconds)
     return split_at(to_motion(points, provenance), gaps)
 
 
 def is_used(column: str) -> bool:
-    """Return whether a column of this name tells a position, a time, a rate or a confidence."""
+    """Return whether a column of this name holds positions, times, a rate or confidences."""
     return is_timing(column) or any(
         pattern.fullmatch(column.strip()) for pattern in (COORDINATE, _CONFIDENCE)
     )
 
 
 def list_joints(columns: Iterable[str]) -> list[str]:
-    """Return the joints that columns of these names are the coordinates of, in order."""
+    """Return the joints whose coordinates are in columns of these names, in order."""
     return list(group_axes(columns))
 
 
 def _find_joints(content: FileContent, columns: Iterable[str]) -> Joints:
-    """For each joint the columns of its axes; without those of its velocity, rotation and such."""
+    """Return the coordinate columns of each joint, without those of velocities or rotations."""
     points = group_axes(columns)
     if not points:
         shown = ", ".join(list(columns)[:8])
@@ -110,14 +112,16 @@ def _find_joints(content: FileContent, columns: Iterable[str]) -> Joints:
             "no columns JOINT_x, JOINT_y and JOINT_z found, so there are no positions "
             f"(columns: {shown or 'none'}); channels are named with columns= (--columns)"
         )
-    called = {name: _POSITION.fullmatch(name) for name in points if is_body(name)}
-    plain = {name: match[1] if match else name for name, match in called.items()}
-    plain_names, all_positions = set(plain.values()), all(called.values())
+    position_matches = {name: _POSITION.fullmatch(name) for name in points if is_body(name)}
+    joint_names = {name: match[1] if match else name for name, match in position_matches.items()}
+    known_names, has_only_positions = set(joint_names.values()), all(position_matches.values())
     joints: dict[str, Mapping[str, str]] = {}
     for name, axes in points.items():
-        if name in plain:
-            joints[plain[name] if all_positions else name] = axes
-        elif plain_names.isdisjoint(list_beginnings(name)):
+        # Without "pos" in all names, "hip_pos" and "hip" are two joints.
+        if name in joint_names:
+            joints[joint_names[name] if has_only_positions else name] = axes
+        # "hip_velocity" begins with the name of a joint: it is not a joint itself.
+        elif known_names.isdisjoint(list_beginnings(name)):
             joints[name] = axes
     return joints
 
@@ -125,30 +129,31 @@ def _find_joints(content: FileContent, columns: Iterable[str]) -> Joints:
 def _find_common_unit(
     content: FileContent, joints: Joints, positions: Floats
 ) -> tuple[str | None, list[str | Note]]:
-    """Return the unit that the columns' names tell, and notes; None where none does.
+    """Return the unit stated in the columns' names, or None, and notes.
 
-    Where they tell several, ``positions`` are brought to metres in place, and the unit is that.
+    If names state several units, ``positions`` are converted to metres in place.
     """
     by_joint = {joint: _parse_units(axes) for joint, axes in joints.items()}
     units = sorted({unit for axes in by_joint.values() for unit in axes.values() if unit})
-    silent = [joint for joint, axes in by_joint.items() if None in axes.values()]
+    unstated = [joint for joint, axes in by_joint.items() if None in axes.values()]
     if len(units) < 2:
-        if not (units and silent):
+        if not (units and unstated):
             return (units[0] if units else None), []
-        unit = _match_unit(positions, [joint in silent for joint in joints], units[0])
-        remark = f"columns of {format_count(len(silent), 'point')} tell no unit, and are taken in"
+        unit = _match_unit(positions, [joint in unstated for joint in joints], units[0])
+        remark = f"columns of {format_count(len(unstated), 'point')} tell no unit, and are taken in"
         if unit == units[0]:
             return unit, [Note(f"{remark} that of the others, {unit}", "warning")]
-        told = [j for j, joint in enumerate(joints) if joint not in silent]
-        positions[:, told] *= to_metres(units[0]) / to_metres(unit)
+        stated_joints = [j for j, joint in enumerate(joints) if joint not in unstated]
+        # Convert the other joints to the unit of those without one.
+        positions[:, stated_joints] *= to_metres(units[0]) / to_metres(unit)
         return unit, [
             Note(f"{remark} {unit}, as large as they are; others in {units[0]}", "warning")
         ]
     listed = " and ".join(units)
     if "pixel" in units:
         raise content.error(f"columns are in {listed}, which no scale relates: keep those of one")
-    if silent:
-        column = next(iter(joints[silent[0]].values()))
+    if unstated:
+        column = next(iter(joints[unstated[0]].values()))
         raise content.error(
             f"columns are in {listed}, and {column!r} tells no unit: add it to the name, as in "
             f"'{column} [{units[0]}]', or give unit= (--unit) for all of them"
@@ -159,27 +164,27 @@ def _find_common_unit(
     return "m", [f"columns are in {listed}, each taken in its own"]
 
 
-def _match_unit(positions: Floats, is_silent: list[bool], told: str) -> str:
-    """Return the unit that makes silent points about as far from the origin as the others."""
-    if told not in METRIC:
-        return told
+def _match_unit(positions: Floats, is_unstated: list[bool], stated: str) -> str:
+    """Return the unit in which joints without one are as far from the origin as the others."""
+    if stated not in METRIC:
+        return stated
     distance = np.linalg.norm(positions, axis=2)
-    silent = np.array(is_silent)
-    known, unknown = (np.nanmedian(distance[:, part]) for part in (~silent, silent))
+    unstated = np.array(is_unstated)
+    known, unknown = (np.nanmedian(distance[:, part]) for part in (~unstated, unstated))
     if not (known > 0 and unknown > 0):
-        return told
-    # a step from one metric unit to the next is a factor of 10 at least
-    off = {
-        unit: abs(np.log10(unknown * to_metres(unit) / (known * to_metres(told))))
+        return stated
+    # Metric units differ by a factor of 10 or more; 0.7 in log10 is a factor of 5.
+    errors = {
+        unit: abs(np.log10(unknown * to_metres(unit) / (known * to_metres(stated))))
         for unit in METRIC
     }
-    return told if off[told] < 0.7 else min(off, key=lambda unit: off[unit])
+    return stated if errors[stated] < 0.7 else min(errors, key=lambda unit: errors[unit])
 
 
 def _parse_units(axes: Mapping[str, str]) -> dict[str, str | None]:
     """Return the unit of each axis of a point.
 
-    Where one tells none, that of the others if it is one.
+    An axis without a unit gets that of the other axes if they agree.
     """
     matches = {axis: COORDINATE.fullmatch(column.strip()) for axis, column in axes.items()}
     by_axis = {axis: match[5] if match else None for axis, match in matches.items()}
@@ -194,7 +199,7 @@ def _read_positions(
 ) -> tuple[list[str], Floats, Floats]:
     """Return names, positions (rows, joints, 3) and confidences (rows, joints).
 
-    ``visibility`` says that it counts as a confidence: it tells only that something is in front.
+    ``visibility`` counts as a confidence only if requested: it states whether a point is occluded.
     """
     matches = {column: _CONFIDENCE.fullmatch(column.strip()) for column in columns}
     confidence_columns = {
@@ -210,5 +215,5 @@ def _read_positions(
             positions[:, j, "xyz".index(axis)] = read_column(content, columns, column, rows)
         if joint in confidence_columns:
             confidence[:, j] = read_column(content, columns, confidence_columns[joint], rows)
-    positions[np.isinf(positions)] = np.nan
+    positions[np.isinf(positions)] = np.nan  # infinite values count as missing
     return list(joints), positions, confidence

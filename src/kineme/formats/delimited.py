@@ -1,9 +1,8 @@
-"""Delimited text: a table in a file, its columns, and how numbers and times are written in it.
+"""Represent tables in delimited text, and parse their numbers and dates.
 
-Every reader of CSV, TSV, MOT, STO, TRC and of the tables of capture programs looks at a file
-through a `DelimitedText`, which `kineme.formats.sniffing` finds. Between semicolons or tabs numbers
-may have a decimal comma; an empty cell is not a number; columns of times may hold dates, see
-`kineme.formats.timing`.
+Readers of CSV, TSV, MOT, STO, TRC and exports of capture programs use a `DelimitedText`, which
+`kineme.formats.sniffing` creates. Tables separated by semicolons or tabs may have decimal commas.
+Empty cells become NaN. Columns of times may hold dates, see `kineme.formats.timing`.
 """
 
 from __future__ import annotations
@@ -36,72 +35,71 @@ from kineme.recordings.times import (
 EMPTY = frozenset(
     {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
 )
-"""What stands in a cell without a number, in lower case; the last are those of spreadsheets."""
+"""Contents of a cell without a number, in lower case; the last ones are errors of spreadsheets."""
 
 OWNERS = frozenset(
     {"person", "person_id", "subject", "participant", "individual", "track", "track_id"}
     | {"device", "device_id", "sensor", "sensor_id", "joint", "bodypart"}
 )
-"""Names of columns that tell whose a row is, in lower case."""
+"""Names of columns that identify the person or device of a row, in lower case."""
 
 NAMELESS = "(no name)"
-"""What a column is called whose name is empty."""
+"""Name given to columns without one."""
 
 COMMAS = "numbers have a decimal comma"
-"""Note on it."""
+"""Note added if numbers have a decimal comma."""
 
-_ROWS_SNIFFED = 50  # in which a decimal comma and rows of several people are looked for
+_ROWS_SNIFFED = 50  # rows searched for decimal commas and rows of several people
 _FRAME = frozenset({"frame", "frame_id", "frame_idx"})
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _FORMULA = re.compile(r"'*[=+\-@]")
-"""A text that spreadsheets would run as a formula, or one that was kept from it."""
+"""Start of a text that spreadsheets would run as a formula, or that is escaped with ``'``."""
 
 
 @dataclass(frozen=True)
 class DelimitedText:
-    """A table in a file of text.
+    """A table in a text file.
 
     Parameters
     ----------
     content : FileContent
     lines : sequence of str
-        Of the file, up to the end of the table.
+        Lines of the file, up to the end of the table.
     names : sequence of str
-        Of the columns, each once.
+        Unique names of the columns.
     head : int
-        The line of the names, or the first row where there are none, counted from 0.
-    below : int
-        The line after it that is the first row of the table.
+        Index of the line of names, or of the first row if there are no names.
+    first_row : int
+        Index of the line of the first row.
     separator : str
-        Between cells.
-    headless : bool
-        Whether the line of names holds numbers and names no time, so that it is a row for
-        those who need no names.
-    blanks : bool
-        Whether cells are parted by blanks; ``rows`` then have tabs in place of these.
+        Separator of cells.
+    is_headless : bool
+        Whether the line at ``head`` is a row of numbers rather than names.
+    is_blank_separated : bool
+        Whether blanks separate cells; ``rows`` then contain tabs instead.
     units : sequence of str
-        Of the columns, where a line below their names tells them.
+        Units of the columns, if a line below the names states them.
     rate : float, optional
-        Frames per second, where a line above the names tells it.
+        Frames per second, if a line above the names states it.
     notes : tuple of str
-        On lines that were passed over.
+        Notes on skipped lines.
     hidden : frozenset of str
-        Columns that are channels only where they are asked for, as a device's counters are.
+        Columns that are channels only if requested by name, such as a device's counters.
     clocks : mapping of str to str, optional
-        The columns of times and their units, "" for dates, where a device tells them.
+        Columns of times and their units ("" for dates), if the device is known.
     day_before_month : bool, optional
-        How a header says that dates are written.
+        Order of day and month in dates, if a header states it.
     """
 
     content: FileContent
     lines: Sequence[str]
     names: Sequence[str]
     head: int
-    below: int
+    first_row: int
     separator: str
-    headless: bool = False
-    blanks: bool = False
+    is_headless: bool = False
+    is_blank_separated: bool = False
     units: Sequence[str] = ()
     rate: float | None = None
     notes: tuple[str, ...] = ()
@@ -111,28 +109,29 @@ class DelimitedText:
 
     @cached_property
     def rows(self) -> Sequence[str]:
-        """Return the lines of the table below its names."""
-        rows = self.lines[self.below :]
-        return ["\t".join(row.split()) for row in rows] if self.blanks else rows
+        """Lines of the table below its names."""
+        rows = self.lines[self.first_row :]
+        return ["\t".join(row.split()) for row in rows] if self.is_blank_separated else rows
 
     @cached_property
     def first_cells(self) -> list[str]:
-        """Return the cells of the first row that is not blank."""
+        """Cells of the first row that is not blank."""
         row = next(filter(str.strip, self.rows), "")
         return split_cells(row, self.separator) if row else []
 
     @cached_property
-    def comma(self) -> bool:
-        """Return whether its numbers have a decimal comma."""
+    def has_decimal_comma(self) -> bool:
+        """Whether numbers have a decimal comma."""
         if self.separator == ",":
             return False
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
         cells = [cell for row in rows for cell in split_cells(row, self.separator)]
+        # A single number with a point shows that commas are no decimal commas.
         return any(map(has_comma, cells)) and not any("." in c for c in cells if is_number(c))
 
     @cached_property
     def dates(self) -> list[int]:
-        """Return the columns that tell the time by dates."""
+        """Indices of the columns that hold dates."""
         if self.clocks is None:
             return find_date_columns(self.names, self.first_cells)
         cells = zip(self.names, self.first_cells, strict=False)
@@ -140,23 +139,23 @@ class DelimitedText:
 
     @cached_property
     def times(self) -> dict[str, str]:
-        """Columns that tell times or a rate, and their names as `find_table_timing` knows them."""
+        """Columns of times or rates, and the names under which `find_table_timing` knows them."""
         if self.clocks is not None:
-            told = {
+            times = {
                 name: f"time ({unit})" if unit else "time" for name, unit in self.clocks.items()
             }
         else:
             units = dict(zip(self.names, self.units, strict=False))
-            told = {
+            times = {
                 name: append_unit(name, units.get(name, ""))
                 for name in self.names
                 if is_timing(name)
             }
-        return told | {self.names[i]: "time (s)" for i in self.dates}
+        return times | {self.names[i]: "time (s)" for i in self.dates}
 
     @cached_property
     def day_first(self) -> bool | None:
-        """Return whether its dates name the day before the month; None where they do not tell."""
+        """Whether dates have the day before the month; None if the dates do not show it."""
         if self.day_before_month is not None:
             return self.day_before_month
         first = (self.first_cells[i] for i in self.dates)
@@ -166,28 +165,32 @@ class DelimitedText:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Return the notes, and how numbers and dates are written."""
-        notes = (*self.notes, COMMAS) if self.comma else self.notes
+        """Notes on skipped lines and on the form of numbers and dates."""
+        notes = (*self.notes, COMMAS) if self.has_decimal_comma else self.notes
         doubtful = next(filter(is_ambiguous, (self.first_cells[i] for i in self.dates)), None)
         if doubtful is None or self.day_first is not None:
             return notes
         day = datetime.fromtimestamp(parse_date(doubtful), UTC)
         return (*notes, f"{doubtful!r} is taken for {day:%-d %B %Y}")
 
-    def numbered(self) -> DelimitedText:
-        """Return the same table, its columns called by their numbers where it is headless."""
-        if not self.headless:
+    def number_columns(self) -> DelimitedText:
+        """Return the same table, with columns numbered from 1 if it has no names."""
+        if not self.is_headless:
             return self
         names = [str(i) for i in range(1, len(self.names) + 1)]
-        return replace(self, names=names, below=self.head, headless=False)
+        return replace(self, names=names, first_row=self.head, is_headless=False)
 
-    def numeric(self) -> list[str]:
-        """Return names of columns whose first cell is a number or empty, and of those of dates."""
-        first = map(replace_decimal_comma, self.first_cells) if self.comma else self.first_cells
+    def find_numeric_columns(self) -> list[str]:
+        """Return the names of columns that start with a number, an empty cell or a date."""
+        first_cells = (
+            map(replace_decimal_comma, self.first_cells)
+            if self.has_decimal_comma
+            else self.first_cells
+        )
         dates = {self.names[i] for i in self.dates}
         return [
             name
-            for name, cell in zip(self.names, first, strict=False)
+            for name, cell in zip(self.names, first_cells, strict=False)
             if name not in self.hidden
             and (cell.lower() in EMPTY or name in dates or is_finite(cell))
         ]
@@ -199,12 +202,12 @@ class DelimitedText:
         return [row[column].strip() if column < len(row) else "" for row in full]
 
     def numbers(self, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
-        """(rows, columns): cells as numbers, NaN where empty, and dates as seconds since 1970.
+        """Return cells as numbers (rows, columns), NaN if empty, dates as seconds since 1970.
 
-        Of columns that are given these alone; the others may hold anything. A last line that breaks
-        off is left out with a warning.
+        ``columns`` selects columns; the others may hold anything. A truncated last line is dropped
+        with a warning.
         """
-        content, width, first = self.content, len(self.names), self.below + 1
+        content, width, first = self.content, len(self.names), self.first_row + 1
         chosen = range(width) if columns is None else columns
         dates = [i for i in self.dates if i in chosen]
         values = array("d")
@@ -213,9 +216,11 @@ class DelimitedText:
             for cells in reader:
                 if not any(map(str.strip, cells)):
                     continue
+                # Quoted cells may span lines, so the reader counts them.
                 line = first + reader.line_num - 1
                 if len(cells) < width or any(map(str.strip, cells[width:])):
                     reason = f"{len(cells)} cells, but {width} columns"
+                    # Only a short last row is what a truncated file looks like.
                     if reader.line_num < len(self.rows) or len(cells) > width:
                         raise content.error(reason, line)
                     content.warn(f"{reason}: the last row breaks off, left out", line)
@@ -225,7 +230,9 @@ class DelimitedText:
                 row = [cells[i] for i in chosen]
                 values.extend(
                     _parse_cells(
-                        content, [*map(replace_decimal_comma, row)] if self.comma else row, line
+                        content,
+                        [*map(replace_decimal_comma, row)] if self.has_decimal_comma else row,
+                        line,
                     )
                 )
         except csv.Error as error:
@@ -235,7 +242,7 @@ class DelimitedText:
         return np.array(values).reshape(-1, len(chosen))
 
     def refuse_interleaved(self) -> None:
-        """ReadError where rows of one time or frame are of several people, devices or joints."""
+        """Raise ReadError if rows of one time or frame are of several people, devices or joints."""
         names = self.names
         times = [i for i, name in enumerate(names) if is_timing(name) or name.lower() in _FRAME]
         owners = [i for i, name in enumerate(names) if name.lower() in OWNERS]
@@ -244,6 +251,7 @@ class DelimitedText:
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
         cells = [split_cells(row, self.separator) for row in rows]
         for one, other in pairwise(row for row in cells if len(row) == len(names)):
+            # Two rows of one time with different owners are interleaved.
             differing = [i for i in owners if one[i] != other[i]]
             if differing and all(one[i] == other[i] for i in times):
                 k = differing[0]
@@ -254,17 +262,18 @@ class DelimitedText:
 
 
 def make_unique_names(names: Iterable[str]) -> list[str]:
-    """Return the names of columns, each of them once, and none of them empty."""
+    """Return the names of columns, made make_unique; empty ones are replaced."""
     return make_unique(name.strip() or NAMELESS for name in names)
 
 
 def find_separator(line: str) -> str:
-    """Tab, semicolon or comma, whichever cuts the line into most cells."""
+    """Return tab, semicolon or comma, whichever is most frequent in the line."""
+    # `max` returns the first of equally frequent ones, so tabs take precedence.
     return max("\t;,", key=line.count)
 
 
 def split_cells(line: str, separator: str) -> list[str]:
-    """Return the cells of a line, without blanks and quotes around them."""
+    """Return the cells of a line, without surrounding blanks and quotes."""
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 
@@ -279,12 +288,12 @@ def has_comma(cell: str) -> bool:
 
 
 def replace_decimal_comma(cell: str) -> str:
-    """Return a cell with a decimal point in place of a decimal comma; other text as it is."""
+    """Return a number with a point instead of a decimal comma, and other text unchanged."""
     return cell.replace(",", ".") if has_comma(cell) else cell
 
 
 def as_text(text: str) -> str:
-    """A cell that no spreadsheet runs: one that begins like a formula gets a ``'`` before it.
+    """Return a cell that no spreadsheet runs: text that looks like a formula gets a leading ``'``.
 
     Examples
     --------
@@ -295,7 +304,7 @@ def as_text(text: str) -> str:
 
 
 def from_text(cell: str) -> str:
-    """Return the text that `as_text` made a cell of.
+    """Return the text of a cell made by `as_text`.
 
     Examples
     --------
@@ -315,7 +324,7 @@ def is_finite(cell: str) -> bool:
 
 
 def _convert_date(content: FileContent, cell: str, line: int, day_first: bool | None) -> str:
-    """Return a date as a number in text; what is empty stays so."""
+    """Return a date as the text of a number; an empty cell stays unchanged."""
     try:
         return cell if cell.lower() in EMPTY else repr(parse_date(cell, day_first=day_first))
     except ValueError as error:
@@ -326,6 +335,7 @@ def _parse_cells(content: FileContent, cells: list[str], line: int) -> list[floa
     try:
         return parse_numbers(cells)
     except ValueError:
+        # Only rows with empty cells or errors take this slower path.
         empty = [cell.strip().lower() in EMPTY for cell in cells]
     try:
         rest = iter(

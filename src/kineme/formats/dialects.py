@@ -1,9 +1,9 @@
-"""Dialects of delimited text: tables that one program or device writes in its own way.
+"""Recognise and lay out tables that a specific program or device writes in its own way.
 
-A table whose columns are named, with a time among them, needs none. A dialect is recognised by the
-names of the columns or the first lines. It has a ``layout``, which says where the table stands and
-what its columns are, or a reader of its own. It is one module that ends in one `Dialect`. Other
-packages name theirs as entry points of the group ``kineme.table_dialects``.
+A table with named columns, including a time, needs no dialect. A dialect is recognised by the
+column names or the first lines. It has a ``layout``, which locates the table and its columns, or
+its own reader. Each dialect is a module that defines a `Dialect`. Other packages register theirs as
+entry points of the group ``kineme.table_dialects``.
 """
 
 from __future__ import annotations
@@ -26,25 +26,24 @@ from kineme.recordings.coordinates import is_body
 
 @dataclass(frozen=True)
 class Dialect:
-    """How one program or device writes tables.
+    """The way one program or device writes tables.
 
     Parameters
     ----------
     name : str
-        As people call it.
+        Name shown to users.
     recognises : callable
-        From the names of the columns and the lines of the file to whether a table is of this
-        dialect. The names are those that `sniff` finds. There are no lines where a table is no
-        text.
+        Takes the column names (as `sniff` finds them) and the lines of the file, and returns
+        whether a table has this dialect. Tables that are not text have no lines.
     read : callable, optional
-        From the table and `ReadOptions` to the recording in it. By default the columns are read
-        as those of any table. ``columns`` are chosen from the signals that it returns.
+        Takes the table and `ReadOptions`, and returns the recording. By default the columns are
+        read like those of any table. ``columns`` are then selected from the returned signals.
     channels : bool
-        Whether channels can be asked for.
+        Whether channels can be requested.
     motion : bool
-        Whether ``read`` always returns a motion. Channels are then the columns of the table.
+        Whether ``read`` always returns a motion. Requested channels are then columns of the table.
     layout : callable, optional
-        From the table as `sniff` finds it to the table as this program means it, such as
+        Takes the table found by `sniff` and returns it with the columns of this program, like
         `kineme.formats.devices.Layout`.
     """
 
@@ -62,7 +61,7 @@ DIALECTS: Registry[Dialect] = Registry(
     "kineme.table_dialects",
     home="kineme.formats",
     builtins=(
-        # of each module in the folder
+        # one of each module in the folder
         *(f"devices.{module.name}:DIALECT" for module in iter_modules(devices.__path__)),
         "markers.capture_tables:NEXUS",
         "markers.capture_tables:MOTIVE",
@@ -74,11 +73,11 @@ DIALECTS: Registry[Dialect] = Registry(
     ),
     newest_first=True,
 )
-"""In the order in which they are tried: those of others ahead of the package's own."""
+"""Dialects in the order in which they are tried: those of other packages come first."""
 
 
 def recognise_table(content: FileContent) -> tuple[DelimitedText, Dialect | None]:
-    """Return the table in a file of text, laid out as its dialect says, and the dialect if any."""
+    """Return the table in a text file, laid out by its dialect, and the dialect or None."""
     table = sniff(content)
     dialect = find_dialect(table.names, table.lines)
     if dialect and dialect.layout:
@@ -88,12 +87,12 @@ def recognise_table(content: FileContent) -> tuple[DelimitedText, Dialect | None
 
 
 def find_table(content: FileContent) -> DelimitedText:
-    """Return the table in a file of text, laid out as its dialect says."""
+    """Return the table in a text file, laid out by its dialect."""
     return recognise_table(content)[0]
 
 
 def find_dialect(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | None:
-    """Return the dialect of a table, by its columns and its lines if it is text; or None."""
+    """Return the dialect of a table, given its column names and its lines, or None."""
     dialects = DIALECTS.values()
     return next(
         (d for d in dialects if recognises_safely(d.name, d.recognises, names, lines)), None
@@ -101,10 +100,10 @@ def find_dialect(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | N
 
 
 def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
-    """Return whether none of a table's columns is a coordinate of a joint or keypoint.
+    """Return whether no column of a table is a coordinate of a joint or keypoint.
 
-    A table whose columns are coordinates of joints is a motion. Sensors have coordinates, too:
-    ``acc_x``, ``gyro.y`` or ``ForceZ`` are told by their names.
+    A table of joint coordinates is a motion. Sensors have coordinates, too: ``acc_x``, ``gyro.y``
+    or ``ForceZ`` are recognised by name.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Bytes in and out: loading with a digest, numbers with their line, atomic writing."""
+"""Load files with a digest, parse numbers with error messages, and write files atomically."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ from kineme.errors import ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
 
 MAX_EXPANSION = 100
-"""Times its own size that a file may take in memory; honest ones take one to forty times it."""
+"""Maximum memory use of a file as a multiple of its size; intact files need 1 to 40 times."""
 
 MIN_MEMORY = 1 << 20
-"""Bytes that any file may take in memory, however small it is."""
+"""Bytes of memory that any file may use, however small it is."""
 
 
 @dataclass(frozen=True)
 class FileContent:
-    r"""A file's path and all of its bytes, and what its reader remarks on the way.
+    r"""A file's path, all of its bytes, and the remarks of its reader.
 
     Parameters
     ----------
     path : Path
     data : bytes
     remarks : list of Note
-        Filled by `warn`; part of every `provenance` made from then on.
+        Filled by `warn`; included in every `provenance` created afterwards.
 
     Examples
     --------
@@ -58,9 +58,9 @@ class FileContent:
 
     @property
     def text(self) -> str:
-        """Return the bytes as text: UTF-8 or UTF-16, else as Windows writes them in Western Europe.
+        """The bytes as text: UTF-8 or UTF-16, else Windows-1252.
 
-        Where it is none of these, stray bytes are only ever in comments and names.
+        Bytes that fit none of these are replaced; they occur in comments and names only.
         """
         if self.is_utf16:
             return self.data.decode("utf-16", errors="replace")
@@ -71,31 +71,31 @@ class FileContent:
 
     @property
     def is_utf16(self) -> bool:
-        """Return whether it begins as text of two bytes a letter does."""
+        """Whether the bytes start with a byte order mark of UTF-16."""
         return self.data.startswith((BOM_UTF16_LE, BOM_UTF16_BE))
 
     def warn(self, reason: str, line: int | None = None) -> None:
-        """Remark on what is unusual but was understood: a note of severity "warning"."""
+        """Add a remark of severity "warning" on something unusual that could be read."""
         where = "" if line is None else f"line {line}: "
         self.remarks.append(Note(f"{where}{reason}", "warning"))
 
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
-        """Where a recording in this file comes from, with the remarks so far and these notes."""
+        """Return the provenance of a recording in this file, with all remarks and these notes."""
         return Provenance(str(self.path), name, self.digest).noted(*self.remarks, *notes)
 
     def release(self) -> None:
-        """Give up the bytes, for readers that have all and now make as much again of it."""
+        """Release the bytes, once a reader has parsed them and needs memory for the result."""
         object.__setattr__(self, "data", b"")
 
     @property
     def memory_limit(self) -> int:
-        """Bytes of memory that what a file of this size holds can honestly take."""
+        """Bytes of memory that the content of a file of this size may use."""
         return max(MIN_MEMORY, MAX_EXPANSION * len(self.data))
 
     def require_memory(self, size: int, what: str) -> None:
         """Raise ReadError if ``what`` the file describes needs more bytes than `memory_limit`.
 
-        Every reader calls this before it allocates more than a few times the bytes it has seen.
+        Every reader calls this before it allocates more than a few times the bytes it has parsed.
         """
         if size > self.memory_limit:
             raise self.error(
@@ -104,7 +104,7 @@ class FileContent:
             )
 
     def line_at(self, offset: int) -> int:
-        """Return the line, counted from 1, that a byte stands in."""
+        """Return the number of the line, counted from 1, that contains a byte."""
         return self.data.count(b"\n", 0, offset) + 1
 
     def error(self, reason: str, line: int | None = None) -> ReadError:
@@ -113,7 +113,7 @@ class FileContent:
 
 @dataclass(frozen=True)
 class FileHead(FileContent):
-    """First bytes of a file that is too large to be loaded: its reader opens the path."""
+    """The first bytes of a file too large to load; its reader opens the path."""
 
     @cached_property
     def digest(self) -> str:
@@ -126,46 +126,49 @@ class FileHead(FileContent):
 
 
 def load_head(path: str | PathLike[str]) -> FileHead:
-    """Return the first bytes of a file; ReadError as `load`."""
+    """Return the first bytes of a file; raise ReadError like `load`."""
     with _translate_open_errors(path):
         return FileHead(Path(path), read_head(Path(path)))
 
 
 def load(path: str | PathLike[str]) -> FileContent:
-    """Return the file as it is on disk; ReadError if there is none or it may not be read."""
+    """Return the content of a file; raise ReadError if it is missing or cannot be read."""
     with _translate_open_errors(path):
         return FileContent(Path(path), Path(path).read_bytes())
 
 
 @contextmanager
 def _translate_open_errors(path: str | PathLike[str]) -> Iterator[None]:
+    """Turn errors of opening a file into ReadError."""
     try:
         refuse_pipe(path)
         yield
     except OSError as error:
         raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
-    except ValueError as error:  # a null byte in the name
+    except ValueError as error:  # the name contains a null byte
         raise ReadError(path, f"cannot be opened: {error}") from error
 
 
-def find_sibling(content: FileContent, place: str | PathLike[str]) -> Path:
-    """Return the path of a file that ``content`` names; ReadError where others chose the place.
+def find_sibling(content: FileContent, relative: str | PathLike[str]) -> Path:
+    """Return the path of a file to which ``content`` refers by a relative path.
 
-    It lies in the folder of ``content``, also once links are followed, and is no pipe.
+    Raise ReadError if it is not in the folder of ``content``, links included, or is a pipe.
     """
     folder = content.path.parent
-    path = folder / place
+    path = folder / relative
+    # Resolve links on both sides, so that a link cannot lead out of the folder.
     if not Path(realpath(path)).is_relative_to(realpath(folder)):
         raise content.error(
-            f"names {str(place)!r:.90}, which leads out of its folder: put that file in it"
+            f"names {str(relative)!r:.90}, which leads out of its folder: put that file in it"
         )
     refuse_pipe(path)
     return path
 
 
 def parse_numbers(words: Sequence[str | bytes]) -> list[float]:
-    """Return the words as finite numbers; ValueError names the first that is not one."""
+    """Return the words as finite numbers; raise ValueError that names the first other word."""
     try:
+        # Convert all words at once; search for a wrong one only after an error.
         values = list(map(float, words))
     except ValueError:
         wrong = next(word for word in words if not _is_number(word))
@@ -177,36 +180,36 @@ def parse_numbers(words: Sequence[str | bytes]) -> list[float]:
 
 
 def save(path: Path, text: Iterable[str]) -> None:
-    """Write ``text`` to ``path`` whole or not at all."""
+    """Write ``text`` to ``path`` atomically."""
     with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as file:
         file.writelines(text)
 
 
 def format_table(values: NDArray[np.float64]) -> list[str]:
-    """One line per row: nine decimals, below a nanometre in any of the units."""
+    """Return one line per row, with nine decimals: below a nanometre in any of the units."""
     row = " ".join(["%.9f"] * values.shape[1]) + "\n"
     return [row % tuple(line) for line in values.tolist()]
 
 
-def clean_names(path: Path, names: Sequence[str], spelling: Callable[[str], str]) -> list[str]:
-    """Return the names as a format can hold them, each once; a warning says what that changes.
+def clean_names(path: Path, names: Sequence[str], clean: Callable[[str], str]) -> list[str]:
+    """Return the names as a format can store them, made unique; warn if that changes some.
 
-    WriteError for a name that is no text: half of a pair of UTF-16.
+    Raise WriteError for a name that is not valid text (half of a UTF-16 surrogate pair).
     """
     for name in names:
         if not is_text(name):
             raise WriteError(path, f"the name {name!r:.60} cannot be written: it is not text")
-    spellings = make_unique(map(spelling, names))
-    changed = [pair for pair in zip(names, spellings, strict=True) if pair[0] != pair[1]]
+    cleaned = make_unique(map(clean, names))
+    changed = [pair for pair in zip(names, cleaned, strict=True) if pair[0] != pair[1]]
     if changed:
         name, new = changed[0]
         more = f", and {len(changed) - 1} more" if len(changed) > 1 else ""
         warn(f"{path.name}: the name {name!r:.60} is written as {new!r:.60}{more}")
-    return spellings
+    return cleaned
 
 
 def require_rotations(motion: Motion, path: Path, what: str) -> NDArray[np.float64]:
-    """Return the rotations of a motion that is to be written; WriteError where it has none."""
+    """Return the rotations of a motion to be written; raise WriteError if it has none."""
     if motion.rotations is None:
         raise WriteError(
             path,
@@ -216,7 +219,7 @@ def require_rotations(motion: Motion, path: Path, what: str) -> NDArray[np.float
 
 
 def format_point_name(name: str) -> str:
-    """Return a point's name as tables hold it: one line, without a colon at its ends."""
+    """Return a point's name as tables can store it: one line, without colons at its ends."""
     return " ".join(name.split()).strip(": ")
 
 

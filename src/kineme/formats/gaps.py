@@ -1,10 +1,9 @@
-"""Frames in which a point was not seen: NaN in, numbers out, or a list of what is missing.
+"""Fill short gaps, in which a point was not seen (NaN), and list long ones.
 
-Gaps of up to 0.2 s are filled along a monotone cubic (PCHIP) through the frames
-in which the point was seen; at either end of the recording its nearest position
-is held. Longer ones are listed; where the body cannot be told without the point
-they split the recording, and `bridge_gaps` joins the positions around them so that
-every frame has some: nobody is to look at those.
+Gaps of up to 0.2 s are filled along a monotone cubic (PCHIP) through the frames in which the point
+was seen. At either end of the recording the nearest position is held. Longer gaps are listed. If
+the body cannot be located without the point, the gap splits the recording, and `bridge_gaps`
+interpolates the positions so that every frame has finite values, although they are not used.
 """
 
 from __future__ import annotations
@@ -27,10 +26,10 @@ Spans = NDArray[np.intp]
 
 @dataclass(frozen=True)
 class Gaps:
-    """What was filled and what was not.
+    """Filled and open gaps of points.
 
-    ``filled`` is the number of frames filled in each point that had a short
-    gap, by its index; ``open`` the spans [start, stop) left in a point.
+    ``filled`` is the number of filled frames by the index of the point; ``open`` are the remaining
+    spans [start, stop) of a point.
     """
 
     filled: dict[int, int]
@@ -40,20 +39,25 @@ class Gaps:
 def fill_gaps(points: Floats, fps: float) -> Gaps:
     """Fill the short gaps of ``points`` (frames, points, 3) in place.
 
-    A point that is not a number in any coordinate counts as not seen.
+    A point with NaN in any coordinate counts as not seen.
     """
     missing = np.asarray(np.isnan(points).any(axis=2))
-    longest = int(LONGEST_S * fps + 1e-9)
+    longest = int(LONGEST_S * fps + 1e-9)  # the margin undoes rounding of the product
     gaps = Gaps({}, {})
     for point in np.flatnonzero(missing.any(axis=0)).tolist():
         spans = find_spans(missing[:, point])
         lengths = spans[:, 1] - spans[:, 0]
+        # A point never seen has no neighbours to interpolate, however short the recording is.
         long = np.asarray((lengths > longest) | (lengths == len(points)))
-        at = np.concatenate([np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)])
-        if len(at):
+        missing_frames = np.concatenate(
+            [np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)]
+        )
+        if len(missing_frames):
             visible = np.flatnonzero(~missing[:, point])
-            points[at, point] = _interpolate_cubic(visible, points[visible, point], at)
-            gaps.filled[point] = len(at)
+            points[missing_frames, point] = _interpolate_cubic(
+                visible, points[visible, point], missing_frames
+            )
+            gaps.filled[point] = len(missing_frames)
         if long.any():
             gaps.open[point] = spans[long]
     return gaps
@@ -62,22 +66,20 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
 def bridge_gaps(
     points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
 ) -> tuple[tuple[int, int], ...]:
-    """Return the frames [start, stop) in which any of these points has an open gap.
+    """Fill the open gaps of the chosen points in place and return the filled frames [start, stop).
 
-    They are filled.
-
-    In place, along a straight line. What was seen for no longer than 0.2 s
-    between two gaps is part of one.
+    Values are interpolated linearly. Frames seen for at most 0.2 s between two gaps are part of
+    one gap.
     """
     n, longest = len(points), int(LONGEST_S * fps + 1e-9)
     missing = np.zeros(n, np.bool_)
     for point in chosen:
         if point not in gaps.open:
             continue
-        hidden = mark_spans(gaps.open[point].tolist(), n)
+        is_hidden = mark_spans(gaps.open[point].tolist(), n)
         for axis in range(points.shape[2]):
-            bridge_line(points[:, point, axis], hidden)
-        missing |= hidden
+            bridge_line(points[:, point, axis], is_hidden)
+        missing |= is_hidden
     for start, stop in find_spans(~missing).tolist():
         if missing.any() and stop - start <= longest:
             missing[start:stop] = True
@@ -85,7 +87,7 @@ def bridge_gaps(
 
 
 def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
-    """(n,): whether a frame lies in any of the spans [start, stop)."""
+    """Return a mask (n,) of the frames inside any of the spans [start, stop)."""
     inside = np.zeros(n, np.bool_)
     for start, stop in spans:
         inside[start:stop] = True
@@ -93,18 +95,18 @@ def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
 
 
 def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
-    """Return the motion with these frames [start, stop) in its gaps, besides those that it has."""
+    """Return the motion with these spans [start, stop) added to its gaps."""
     joined = mark_spans([*motion.gaps, *spans], motion.n_frames)
     return replace(motion, gaps=tuple((a, b) for a, b in find_spans(joined).tolist()))
 
 
 def mark_gaps(motion: Motion) -> list[bool]:
-    """Return for each frame whether it lies in a gap of the motion."""
+    """Return for each frame whether it is in a gap of the motion."""
     return list(map(bool, mark_spans(motion.gaps, motion.n_frames)))
 
 
 def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
-    """Warn where motions have gaps, and go into a file of a format that has none."""
+    """Warn if motions with gaps are written to a format that has no gaps."""
     seconds = sum((b - a) / motion.fps for motion in motions for a, b in motion.gaps)
     if seconds:
         warn(
@@ -113,11 +115,14 @@ def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
         )
 
 
-def _interpolate_cubic(visible: NDArray[np.intp], values: Floats, at: NDArray[np.intp]) -> Floats:
-    """(at, 3): the values at frames that were not seen."""
+def _interpolate_cubic(
+    visible: NDArray[np.intp], values: Floats, frames: NDArray[np.intp]
+) -> Floats:
+    """Return values (frames, 3) at the frames that were not seen."""
     if len(visible) == 1:
-        return np.repeat(values, len(at), axis=0)
+        return np.repeat(values, len(frames), axis=0)
     from scipy.interpolate import PchipInterpolator
 
-    inside = np.clip(at, visible[0], visible[-1])
+    # Clipping holds the nearest position at both ends.
+    inside = np.clip(frames, visible[0], visible[-1])
     return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)

@@ -11,13 +11,13 @@ _ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\
 _CLOCK_TIME = r"\d+:\d\d:\d\d\.\d{1,3}"
 _SECONDS = r"\d+(?:\.\d+)?"
 _ELAN_ROW = re.compile(
-    # tier, participant perhaps empty, then begin, end and perhaps duration, then the text
+    # tier, participant (may be empty), begin, end, duration (optional), text
     rf"(?!{_SECONDS}\t)[^\t]+\t[^\t]*(?:\t(?:{_CLOCK_TIME}|{_SECONDS})){{2,}}\t[^\t]*[^\d\s][^\t]*"
 )
 
 
 def is_elan_table(head: str) -> bool:
-    """Return whether a text begins as ELAN exports tab-delimited text, with or without names."""
+    """Return whether a text starts like a tab-delimited export of ELAN, with or without names."""
     lines = [line.strip("\r") for line in head.splitlines() if line.strip()]
     lines = [line for line in lines if not line.startswith('"#')]
     if not lines:
@@ -26,18 +26,18 @@ def is_elan_table(head: str) -> bool:
 
 
 def is_boris_table(head: str) -> bool:
-    """Return whether a text begins as BORIS exports events, a preamble above the names perhaps."""
+    """Return whether a text starts like an export of events from BORIS."""
     cells = {cell.strip('"') for cell in re.split(r"[,\t\r\n]", head)}
     return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
 
 
 def find_label_program(head: str) -> str | None:
-    """Return whose table of labels a text begins, or None."""
+    """Return the program whose table of labels starts with this text, or None."""
     return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
 
 
 def refuse_labels(content: FileContent) -> None:
-    """Raise ReadError where a file of text holds labels."""
+    """Raise ReadError if a text file holds labels."""
     if program := find_label_program(content.text[:HEAD]):
         raise content.error(
             f"holds labels as {program} exports them, not a recording: read it with "

@@ -1,20 +1,18 @@
-"""Which files of a folder are recordings: by suffix, and by head where that tells too little.
+"""Find the recordings in a folder by suffix, and by first bytes if the suffix is ambiguous.
 
-No file is read whole, and most are not opened: a folder of hours of recordings
-is listed at once. Opened are
+No file is read whole and most are not opened, so a folder with hours of recordings is listed
+immediately. Files that are opened:
 
-- tables, whose rows are frames unless their columns name spans or events (``start_s``,
-  ``onset``);
-- npz archives, whose directory names ``poses``, ``positions``, a time, a rate or the
-  coordinates of a joint;
-- JSON and text, which may hold anything and are recordings only if a format knows their
-  first bytes, or those and the last ones of JSON: sets of COCO often begin with their images.
+- tables, whose rows are frames unless their columns are spans or events (``start_s``, ``onset``);
+- npz archives, whose directory lists ``poses``, ``positions``, a time, a rate or joint coordinates;
+- JSON and text, which are recordings only if a format recognises their first bytes. For JSON the
+  last bytes count as well: data sets of COCO often begin with their images.
 
-A video that lies beside a recording of its name shows that recording, and is none of its own; the
-poses that were estimated from a video are read with it.
+A video next to a recording of the same name shows that recording and is not listed itself. Poses
+that were estimated from a video are read with the video.
 
-A file that cannot be judged (damaged, gone, closed to us) is passed over with its name and
-the reason; it never ends the listing.
+Files that cannot be judged (damaged, deleted or unreadable) are skipped with a reason and never
+stop the listing.
 """
 
 from __future__ import annotations
@@ -39,30 +37,30 @@ from kineme.recordings.times import is_timing
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
 
-ROWS, COLUMNS = 3, 2
-"""Of numbers at least in a text that is listed as a recording."""
+MIN_ROWS, MIN_COLUMNS = 3, 2
+"""Minimum size of a table of numbers in a text file that is listed as a recording."""
 
-_SKELETONS = {".asf"}  # belong to the AMC beside them
-_ANYTHING = {".json", ".txt", ".dat"}
+_SKELETONS = {".asf"}  # belong to the AMC next to them
+_AMBIGUOUS = {".json", ".txt", ".dat"}  # may hold anything
 
 
 @dataclass(frozen=True)
 class Listing:
-    """What a folder holds: recordings by name, those of a folder before those deeper in it.
+    """Recordings in a folder by name; those of a folder come before those of its subfolders.
 
-    What was passed over, and why, are files and folders that cannot be opened or are damaged, and
-    frames beside recordings.
+    ``passed_over`` lists skipped paths with the reason: files and folders that cannot be opened or
+    are damaged, and frames next to recordings.
     """
 
     recordings: list[Path]
-    folders: list[Path]  # that were not looked into
+    folders: list[Path]  # not searched
     passed_over: list[tuple[Path, str]]
 
 
 def scan_folder(folder: Path, *, recursive: bool = False) -> Listing:
-    """Return the recordings in a folder, and where ``recursive`` in its folders.
+    """Return the recordings in a folder and, if ``recursive``, in its subfolders.
 
-    A folder with nothing but the frames of a video, a file each, is one recording.
+    A folder that holds only the frames of a video, one file each, is one recording.
 
     Examples
     --------
@@ -70,68 +68,68 @@ def scan_folder(folder: Path, *, recursive: bool = False) -> Listing:
     >>> [path.name for path in scan_folder(bundled_recording().parent).recordings]
     ['exercises.bvh']
     """
-    found = Listing([], [], [])
+    listing = Listing([], [], [])
 
-    def closed(error: OSError) -> None:
-        found.passed_over.append((Path(error.filename), _describe_error(error)))
+    def skip(error: OSError) -> None:
+        listing.passed_over.append((Path(error.filename), _describe_error(error)))
 
-    for place, names, files in os.walk(folder, onerror=closed):
+    for folder_path, names, files in os.walk(folder, onerror=skip):
         names[:] = sorted(name for name in names if not name.startswith("."))
-        here = Path(place)
-        recordings = drop_duplicates(list(_find_recordings(here, files, found)))
+        current = Path(folder_path)
+        recordings = drop_duplicates(list(_find_recordings(current, files, listing)))
         try:
-            frames = list_frame_files(here)
+            frames = list_frame_files(current)
         except OSError as error:
-            closed(error)
+            skip(error)
             frames = []
-        if frames:  # a video beside them shows them
+        if frames:  # a video next to them shows the same recording
             recordings = [path for path in recordings if not is_video(path)]
         if frames and recordings:
             reason = (
                 f"{format_count(len(frames), 'frame')} of OpenPose beside other recordings: give "
                 "them a folder of their own"
             )
-            found.passed_over.append((frames[0][1], reason))
-        found.recordings.extend(recordings or ([here] if frames else []))
+            listing.passed_over.append((frames[0][1], reason))
+        listing.recordings.extend(recordings or ([current] if frames else []))
         if not recursive:
-            found.folders.extend(here / name for name in names)
+            listing.folders.extend(current / name for name in names)
             break
-    return found
+    return listing
 
 
 def list_files(folder: Path) -> list[Path]:
-    """Return the files of a folder in the order of their names, without hidden ones."""
-    found = [path for path in folder.iterdir() if not path.name.startswith(".")]
-    return sorted((path for path in found if path.is_file()), key=lambda path: path.name)
+    """Return the files of a folder ordered by name, without hidden ones."""
+    paths = [path for path in folder.iterdir() if not path.name.startswith(".")]
+    return sorted((path for path in paths if path.is_file()), key=lambda path: path.name)
 
 
 def holds_recording(path: Path) -> bool:
-    """Return whether a file is a recording, by suffix and head; none where it is damaged."""
+    """Return whether a file is a recording, by suffix and first bytes; False if it is damaged."""
     try:
         return _is_recording(path)
-    except Exception:  # noqa: BLE001 (whatever is wrong with a file, it is no recording)
+    except Exception:  # noqa: BLE001 (a damaged file is not a recording)
         return False
 
 
-def _find_recordings(folder: Path, names: list[str], found: Listing) -> Iterator[Path]:
-    """Yield the recordings among files; what cannot be judged is noted in ``found``."""
+def _find_recordings(folder: Path, names: list[str], listing: Listing) -> Iterator[Path]:
+    """Yield the recordings among files; add files that cannot be judged to ``listing``."""
     for name in sorted(names):
         path = folder / name
         if name.startswith("."):
             continue
         try:
             if path.is_symlink() and not path.exists():
-                found.passed_over.append((path, "is a link to a file that is not there"))
+                listing.passed_over.append((path, "is a link to a file that is not there"))
             elif path.is_file() and _is_recording(path):
                 yield path
-        except Exception as error:  # noqa: BLE001 (one file never ends a listing)
-            found.passed_over.append((path, _describe_error(error)))
+        except Exception as error:  # noqa: BLE001 (one file must not stop the listing)
+            listing.passed_over.append((path, _describe_error(error)))
 
 
 def drop_duplicates(recordings: list[Path]) -> list[Path]:
-    """Return the recordings without what another one of them shows or holds already.
+    """Return the recordings without videos and poses of recordings that are listed already.
 
-    These are videos that lie beside a recording of the same name, and poses of a video in the list.
+    These are videos next to a recording of the same name, and poses of a listed video.
     """
     videos = {path.name for path in recordings if is_video(path)}
     stems = {path.stem for path in recordings if path.name not in videos}
@@ -145,12 +143,18 @@ def drop_duplicates(recordings: list[Path]) -> list[Path]:
 
 def _is_recording(path: Path) -> bool:
     suffix = path.suffix.lower()
-    formats = [each for each in supported_formats() if each.read and suffix in each.suffixes]
+    formats = [
+        candidate
+        for candidate in supported_formats()
+        if candidate.read and suffix in candidate.suffixes
+    ]
     if not formats or suffix in _SKELETONS:
         return False
-    if suffix in _ANYTHING:
-        ends = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
-        is_known = any(recognises_safely(each.name, each.recognises, ends) for each in formats)
+    if suffix in _AMBIGUOUS:
+        sample = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
+        is_known = any(
+            recognises_safely(candidate.name, candidate.recognises, sample) for candidate in formats
+        )
         return is_known or (suffix != ".json" and _is_text_table(path))
     if suffix in (".csv", ".tsv"):
         return not _has_span_columns(path)
@@ -161,7 +165,7 @@ def _is_recording(path: Path) -> bool:
 
 
 def _is_text_table(path: Path) -> bool:
-    """Return whether a text has named columns of numbers, and is no list of labels."""
+    """Return whether a text has named columns of numbers and is not a table of labels."""
     if _has_span_columns(path):
         return False
     head = read_head(path)
@@ -173,7 +177,7 @@ def _is_text_table(path: Path) -> bool:
     except ReadError:
         return False
     is_named = not any(name[:1].isdigit() for name in table.names)
-    return is_named and rows >= ROWS and columns >= COLUMNS
+    return is_named and rows >= MIN_ROWS and columns >= MIN_COLUMNS
 
 
 def _has_span_columns(path: Path) -> bool:
@@ -181,7 +185,7 @@ def _has_span_columns(path: Path) -> bool:
         return True
     try:
         names = find_table(FileContent(path, read_head(path))).names
-    except ReadError:  # not a line: an error for who reads it
+    except ReadError:  # an empty file: reading it reports the error
         return False
     return any(name.lower().encode() in SPANS for name in names)
 

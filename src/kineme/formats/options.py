@@ -1,4 +1,4 @@
-"""What a user may say about a file that is read."""
+"""Define the options for reading files."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from kineme.formats.units import AXES, UNITS
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What the user knows better than the file; None where the file is right.
+    """Options that override what a file states; None keeps the file's value.
 
-    They are the keywords of `kineme.read`, which says what each means and takes them as
+    They are the keywords of `kineme.read`, which documents them and takes them as
     ``read(path, **vars(options))``.
 
     Raises
     ------
     ParameterError
-        A value that an option does not take.
+        A value that an option does not accept.
 
     Examples
     --------
@@ -66,5 +66,5 @@ class ReadOptions:
 
     @property
     def channels(self) -> bool:
-        """Return whether channels are asked for, whatever else a file holds."""
+        """Whether channels are requested, regardless of what else a file holds."""
         return self.columns is not None or self.emg

@@ -1,4 +1,4 @@
-"""Whose motion is read where a file holds those of several."""
+"""Choose the person to read from a file with several."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ def choose_person(
     what: str = "people",
     shown: Sequence[str] = (),
 ) -> str:
-    """Return the one who is wanted, or the only one; SeveralPeopleError where that is nobody.
+    """Return the requested person, or the only one; raise SeveralPeopleError if neither exists.
 
-    ``shown`` is how messages call the people, ``what`` how all of them.
+    ``shown`` are the people as listed in the message, ``what`` is the noun for them.
     """
     if person is None and len(people) == 1:
         return next(iter(people))

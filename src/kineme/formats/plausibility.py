@@ -19,28 +19,28 @@ from kineme.formats.units import find_lying_axis, iterate_blocks
 from kineme.recordings import Motion, Note
 from kineme.recordings.regular import LONGEST_S
 
-FASTEST = 15.0
-"""Sizes of the body that a point moves in a second at most, beside the other points.
+MAX_SPEED = 15.0
+"""Maximum speed of a point relative to the others, in body sizes per second.
 
-25 m/s for an adult; hands of pitchers reach about 20 m/s beside the trunk.
+This is 25 m/s for an adult; hands of pitchers reach about 20 m/s relative to the trunk.
 """
-CLUSTER = 3
-"""Markers on one bone at least; two are often estimates of joints, as a Kinect's hips."""
-SAMPLED = 500
-"""Frames from which the size of the body is taken."""
-SHORTEST = 1e-6
-"""Metres, below which a bone has no length."""
-FEWEST_EMPTY = 3
-"""Bones of no length below which none is doubted."""
-BEND = 0.25
-"""Share by which the distance of two points on one bone may change."""
+MIN_RIGID_POINTS = 3
+"""Minimum number of markers on a bone to check; two are often estimated joints (Kinect's hips)."""
+SAMPLED_FRAMES = 500
+"""Number of frames used to measure the body."""
+MIN_BONE_LENGTH = 1e-6
+"""Metres; shorter bones count as empty."""
+MIN_EMPTY_BONES = 3
+"""Number of empty bones from which a skeleton is doubtful."""
+MAX_DISTANCE_CHANGE = 0.25
+"""Fraction by which the distance of two points on one bone may change."""
 
 
 def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[Note]:
-    """Make what was not tracked NaN in points (frames, points, 3), in place, and say so.
+    """Set untracked values in points (frames, points, 3) to NaN in place, and return warnings.
 
-    That are frames in which every coordinate is zero, single points at the origin of
-    coordinates, and points that jump away and come back.
+    Untracked are frames in which every coordinate is zero, single points at the origin, and points
+    that jump away and come back.
     """
     notes = []
     at_origin = (points == 0).all(axis=2)
@@ -52,7 +52,7 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
             f"{format_count(int(empty.sum()), 'frame')} with nothing but zeros: taken as not seen"
         )
         notes.append(Note(remark, "warning"))
-    # A point that never leaves the origin is what the others are measured from.
+    # A point that never leaves the origin defines it: only points that come and go were lost.
     lost = at_origin.any(axis=0) & ~(at_origin | empty[:, None]).all(axis=0)
     if lost.any():
         points[at_origin & lost] = np.nan
@@ -75,40 +75,45 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
     return notes
 
 
-def check_rigid_points(points: Floats, names: Sequence[str], made_of: Sequence[int]) -> list[Note]:
-    """Warn of points on one bone whose distance changes: they were exchanged or slipped."""
-    moved = []
-    if len(made_of) < CLUSTER:
+def check_rigid_points(
+    points: Floats, names: Sequence[str], bone_points: Sequence[int]
+) -> list[Note]:
+    """Warn of points on one bone whose distance changes: they were swapped or slipped."""
+    changes = []
+    if len(bone_points) < MIN_RIGID_POINTS:
         return []
-    for one, other in combinations(made_of, 2):
-        lengths = np.linalg.norm(points[:, one] - points[:, other], axis=1)
+    for first, second in combinations(bone_points, 2):
+        lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
+        # Percentiles ignore single outliers.
         low, middle, high = np.percentile(lengths, (2, 50, 98))
-        if high - low > BEND * middle:
-            moved.append(f"{names[one]} and {names[other]} (by {(high - low) / middle:.0%})")
-    if not moved:
+        if high - low > MAX_DISTANCE_CHANGE * middle:
+            changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
+    if not changes:
         return []
-    return [Note(f"points on one bone change their distance: {join_names(moved)}", "warning")]
+    return [Note(f"points on one bone change their distance: {join_names(changes)}", "warning")]
 
 
 def check_bone_lengths(motion: Motion) -> Motion:
-    """Warn if most bones of a skeleton have no length: its rest pose was left out."""
+    """Warn if most bones of a skeleton have no length: the rest pose is missing in the file."""
     parents = motion.skeleton.parents
-    # Some bones of no length are usual: the file lists more joints than its body has.
+    # A few empty bones are normal: files list more joints than the body has.
     bones = [j for j, parent in enumerate(parents) if parent >= 0]
     bones = [j for j in bones if j not in motion.skeleton.end_sites]
     if motion.rotations is None or not bones:
         return motion
-    places = motion.positions[:: max(1, motion.n_frames // SAMPLED)]
-    lengths = np.linalg.norm(places[:, bones] - places[:, [parents[j] for j in bones]], axis=2)
-    empty = int((lengths.max(axis=0) < SHORTEST).sum())
-    if empty < FEWEST_EMPTY or 2 * empty <= len(bones):
+    positions = motion.positions[:: max(1, motion.n_frames // SAMPLED_FRAMES)]
+    lengths = np.linalg.norm(
+        positions[:, bones] - positions[:, [parents[j] for j in bones]], axis=2
+    )
+    empty = int((lengths.max(axis=0) < MIN_BONE_LENGTH).sum())
+    if empty < MIN_EMPTY_BONES or 2 * empty <= len(bones):
         return motion
     remark = f"{empty} of {len(bones)} bones have no length: export the file with its rest pose"
     return motion.noted(Note(remark, "warning"))
 
 
 def check_posture(motion: Motion) -> Motion:
-    """Warn if the body of a motion with y up lies throughout: its up axis may be another."""
+    """Warn if the body of a motion with y up lies down most of the time: up may be another axis."""
     axis = find_lying_axis(motion.skeleton, motion.positions)
     if axis is None:
         return motion
@@ -119,14 +124,14 @@ def check_posture(motion: Motion) -> Motion:
 def _find_jumps(
     points: Floats, fps: float
 ) -> tuple[list[tuple[int, int, int]], list[tuple[int, int]]]:
-    """Return points and frames [start, stop) of short jumps, and points and frames of others.
+    """Return short jumps as (point, start, stop), and other jumps as (point, frame).
 
-    A short jump is over within the time for which gaps are filled.
+    A short jump ends within the time for which gaps are filled.
     """
     size = _measure_size(points)
     if not size > 0 or len(points) < 3:
         return [], []
-    step = FASTEST * size / fps
+    step = MAX_SPEED * size / fps
     fast = _find_fast_steps(points, step)
     longest = max(1, int(LONGEST_S * fps))
     jumps, others = [], []
@@ -134,10 +139,11 @@ def _find_jumps(
         steps = np.flatnonzero(fast[:, point]).tolist()
         while steps:
             away, *steps = steps
-            back = next((each for each in steps if each - away <= longest), None)
+            back = next((other for other in steps if other - away <= longest), None)
             if back is not None:
-                moved = np.linalg.norm(points[back + 1, point] - points[away, point])
-            if back is None or moved > step * (back + 1 - away):
+                distance = np.linalg.norm(points[back + 1, point] - points[away, point])
+            # A point that does not come back, or comes back elsewhere, did not just jump.
+            if back is None or distance > step * (back + 1 - away):
                 others.append((point, away + 1))
                 continue
             jumps.append((point, away + 1, back + 1))
@@ -146,9 +152,9 @@ def _find_jumps(
 
 
 def _find_fast_steps(points: Floats, step: float) -> NDArray[np.bool_]:
-    """Return for each frame but the last, and each point, whether it moves too far to the next.
+    """Return whether each point moves too far from each frame to the next (frames - 1, points).
 
-    How all points move, as when the origin is moved, is not counted.
+    Motion common to all points, as when the origin is moved, is not counted.
     """
     fast = np.zeros((len(points) - 1, points.shape[1]), np.bool_)
     for span in iterate_blocks(len(points) - 1):
@@ -156,14 +162,14 @@ def _find_fast_steps(points: Floats, step: float) -> NDArray[np.bool_]:
         fast[span] = np.einsum("tpi,tpi->tp", moves, moves) > step**2  # NaN is not above it
         for frame in np.flatnonzero(fast[span].any(axis=1)).tolist():
             common = np.nanmedian(moves[frame], axis=0)
-            beside = np.linalg.norm(moves[frame] - common, axis=1) > step
-            fast[span.start + frame] &= beside
+            relative = np.linalg.norm(moves[frame] - common, axis=1) > step
+            fast[span.start + frame] &= relative
     return fast
 
 
 def _measure_size(points: Floats) -> float:
-    """Return the largest extent of the points, in the middle of some frames."""
-    some = points[:: max(1, len(points) // SAMPLED)]
+    """Return the largest extent of the points, the median over sampled frames."""
+    some = points[:: max(1, len(points) // SAMPLED_FRAMES)]
     seen = np.asarray(~np.isnan(some).any(axis=2))
     some = some[seen.any(axis=1)]
     if not len(some):

@@ -1,4 +1,4 @@
-"""Recordings from files and back, whatever their format."""
+"""Read and write recordings of any format."""
 
 from __future__ import annotations
 
@@ -35,36 +35,35 @@ def read(
 ) -> Motion | Signals:
     """Return the recording in a file: a motion in metres with y up, or signals.
 
-    What the file holds decides which of the two: channels without a body are signals.
-    What had to be inferred stands in the provenance; one KinemeWarning lists what is
-    worth a warning.
+    The content of the file decides between the two: channels without a body are signals. The
+    provenance records what had to be inferred; one KinemeWarning lists the doubtful parts.
 
     Parameters
     ----------
     path : str or PathLike
-        The recording; a folder where it is a file per frame, as OpenPose's.
+        The recording; a folder if each frame is a file, as in OpenPose's output.
     columns : sequence of str, optional
-        Take these columns or analog channels as signals, by name or pattern (``acc_*``) and in
-        this order; all of them if it is empty.
+        Read these columns or analog channels as signals, by name or pattern (``acc_*``), in this
+        order; all of them if the sequence is empty.
     emg : bool
-        Take channels as signals; of the analog channels of a C3D those of muscles, where
-        ``columns`` names none. Their envelopes are the part of `kineme.segment`.
+        Read channels as signals. Of a C3D's analog channels these are the muscles' unless
+        ``columns`` names others. `kineme.segment` computes their envelopes.
     skeleton : str or PathLike, optional
-        The ASF file of an AMC, if it is not found beside it.
+        The ASF file of an AMC, if it is not found next to it.
     fps : float, optional
-        Frames per second, in place of the file's.
+        Frames per second; overrides the file's.
     unit : str or float, optional
-        "m", "cm", "mm", "inch", "cmu" (1/0.45 inch) or the metres in one unit, in place of
-        the file's or of what the body's height suggests.
+        "m", "cm", "mm", "inch", "cmu" (1/0.45 inch) or the metres in one unit; overrides the
+        file's unit and the one inferred from the body's height.
     up : str, optional
         The file's vertical axis, "x", "y", "z", "-x", "-y" or "-z".
     person : str or int, optional
-        Which of several people in a file, by name or number.
+        Which of several people in a file to read, by name or number.
     confidence : float, optional
-        From which a keypoint counts as seen, in place of its format's limit.
+        Minimum confidence of a keypoint that counts as seen; overrides the format's limit.
     take : str or int, optional
-        Which of several animations in a scene (FBX, glTF, USD), by name or number; the first by
-        default, with a warning.
+        Which of several animations in a scene (FBX, glTF, USD) to read, by name or number; by
+        default the first, with a warning.
 
     Returns
     -------
@@ -73,10 +72,10 @@ def read(
     Raises
     ------
     ReadError
-        The file is missing, damaged or of no known format, tells no frame rate, or has not
-        the channels asked for.
+        The file is missing, damaged or of unknown format, has no frame rate, or lacks the
+        requested channels.
     ParameterError
-        An option is outside what it accepts.
+        The value of an option is invalid.
     MissingDependencyError
         The format needs a package that is not installed.
 
@@ -88,16 +87,20 @@ def read(
     """
     if skeleton is not None:
         check_path(skeleton, "skeleton")
-    asf, who, name = (None if each is None else str(each) for each in (skeleton, person, take))
-    options = ReadOptions(asf, fps, unit, up, who, confidence, columns, emg, name)
+    skeleton_path, person_name, take_name = (
+        None if value is None else str(value) for value in (skeleton, person, take)
+    )
+    options = ReadOptions(
+        skeleton_path, fps, unit, up, person_name, confidence, columns, emg, take_name
+    )
     recording = read_quietly(path, options)
-    if remarks := recording.provenance.warnings:
-        warn(f"{path}: {'; '.join(remarks)}")
+    if warnings := recording.provenance.warnings:
+        warn(f"{path}: {'; '.join(warnings)}")
     return recording
 
 
 def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | Signals:
-    """As `read`, without a warning: ``recording.provenance.warnings`` has what it would say.
+    """Read like `read`, without a warning; ``recording.provenance.warnings`` has its content.
 
     Parameters
     ----------
@@ -123,11 +126,9 @@ def read_quietly(path: AnyPath, options: ReadOptions | None = None) -> Motion | 
 
 
 def list_people(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
-    """Return the people in a file, where there are several.
+    """Return the names of the people in a file if there are several.
 
-    Those seen only in passing are left out.
-
-    It is read for it. ReadError where it cannot be.
+    People seen only briefly are left out. The file is read; raise ReadError if that fails.
 
     Examples
     --------
@@ -136,17 +137,17 @@ def list_people(path: AnyPath, options: ReadOptions | None = None) -> tuple[str,
     ()
     """
     try:
-        found = read_quietly(path, replace(options or ReadOptions(), person=None))
+        recording = read_quietly(path, replace(options or ReadOptions(), person=None))
     except SeveralPeopleError as error:
         return error.people if len(error.people) > 1 else ()
-    people = found.provenance.people
+    people = recording.provenance.people
     return people if len(people) > 1 else ()
 
 
 def list_takes(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, ...]:
-    """Return the takes in a scene that move a skeleton, where there are several.
+    """Return the names of the takes that move a skeleton if a scene has several.
 
-    It is read for it. ReadError where it cannot be.
+    The file is read; raise ReadError if that fails.
 
     Examples
     --------
@@ -157,25 +158,25 @@ def list_takes(path: AnyPath, options: ReadOptions | None = None) -> tuple[str, 
     try:
         takes = read_quietly(path, replace(options or ReadOptions(), take=None)).provenance.takes
     except SeveralPeopleError as error:
-        # The takes of each of them are the same.
-        first = replace(options or ReadOptions(), take=None, person=error.people[0])
-        takes = read_quietly(path, first).provenance.takes
+        # All people of a scene have the same takes.
+        options_of_first = replace(options or ReadOptions(), take=None, person=error.people[0])
+        takes = read_quietly(path, options_of_first).provenance.takes
     return takes if len(takes) > 1 else ()
 
 
 def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
-    """Return the channels beside the motion in a file, such as force plates and muscles.
+    """Return the analog channels next to the motion in a file, such as force plates and muscles.
 
     Parameters
     ----------
     path : str or PathLike
     options : ReadOptions
-        As for the motion.
+        Options used for the motion.
 
     Returns
     -------
     Signals or None
-        All of them, at their own rate; None where there are none.
+        All channels at their own rate; None if there are none.
 
     Examples
     --------
@@ -191,27 +192,27 @@ def read_analog(path: AnyPath, options: ReadOptions) -> Signals | None:
         if candidate.read is None or not candidate.analog:
             return None
         try:
-            found = candidate.read(content, replace(options, columns=()))
-        except ReadError:  # it has none
+            recording = candidate.read(content, replace(options, columns=()))
+        except ReadError:  # the file has no channels
             return None
-        return found if isinstance(found, Signals) else None
+        return recording if isinstance(recording, Signals) else None
 
 
 def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
-    """Return a pose here and there of a long file, to look at while it is read.
+    """Return evenly spaced poses of a long file, to show while it is read.
 
     Parameters
     ----------
     path : str or PathLike
     options : ReadOptions
-        As it will be read.
+        Options used for reading.
     most : int
-        Poses.
+        Maximum number of poses.
 
     Returns
     -------
     Sketch or None
-        None where the format has none, or the file no more frames than that.
+        None if the format does not support it, or the file has no more frames than that.
 
     Examples
     --------
@@ -229,13 +230,13 @@ def sketch(path: AnyPath, options: ReadOptions, most: int) -> Sketch | None:
 
 
 def read_motion(path: AnyPath, **options: Any) -> Motion:
-    """As `read`, for those who need a body.
+    """Read a motion like `read`, and raise ReadError if the file holds signals.
 
     Parameters
     ----------
     path : str or PathLike
     **options
-        Those of `read`.
+        Options of `read`.
 
     Returns
     -------
@@ -244,7 +245,7 @@ def read_motion(path: AnyPath, **options: Any) -> Motion:
     Raises
     ------
     ReadError
-        The file holds signals; or as `read`.
+        The file holds signals, or `read` fails.
 
     Examples
     --------
@@ -259,7 +260,7 @@ def read_motion(path: AnyPath, **options: Any) -> Motion:
 
 
 def write(recording: Motion | Signals, path: AnyPath) -> None:
-    """Leave a recording in a file of the format its suffix names, whole or not at all.
+    """Write a recording atomically to a file whose suffix selects the format.
 
     Parameters
     ----------
@@ -269,8 +270,8 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
     Raises
     ------
     WriteError
-        Unknown suffix, a recording the format cannot hold, or a place that cannot be
-        written.
+        The suffix is unknown, the format cannot hold the recording, or the path is not
+        writable.
 
     Examples
     --------
@@ -298,7 +299,7 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
 
 
 def _load(path: AnyPath) -> FileContent:
-    """Return the bytes of a file; of a video, which may be larger than memory, the first ones."""
+    """Return the content of a file; of a video, which may be too large, only the first bytes."""
     return load_head(path) if is_video(Path(path)) else load(path)
 
 
@@ -313,7 +314,7 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
             f"is {candidate.name}, which is not read as channels (columns, emg): load them as an "
             "array and give it to kineme.Signals"
         )
-    recording: object = candidate.read(content, options)  # of another package, perhaps
+    recording: object = candidate.read(content, options)  # may be another package's reader
     if not isinstance(recording, Motion | Signals):
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")

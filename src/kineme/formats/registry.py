@@ -1,12 +1,11 @@
-"""Which formats there are, and which of them a file is in.
+"""Register formats, and recognise the format of a file.
 
-A format is a name, its suffixes, a test of a file's first bytes, a reader and
-writers. A reader takes a `FileContent` and `ReadOptions` and returns a `Motion`
-or `Signals`, whichever the file holds; options it has no use for it ignores.
-What it had to infer it leaves in the recording's provenance, and does not warn.
+A format has a name, suffixes, a test of a file's first bytes, a reader and writers. A reader takes
+a `FileContent` and `ReadOptions` and returns a `Motion` or `Signals`, depending on the content. It
+ignores options that do not apply. It records what it inferred in the provenance and does not warn.
 
-Other packages add formats with `register`, or name a `Format` as an entry point
-of the group ``kineme.formats``.
+Other packages add formats with `register`, or declare a `Format` as an entry point of the group
+``kineme.formats``.
 """
 
 from __future__ import annotations
@@ -26,11 +25,11 @@ from kineme.recordings import Motion, Signals
 
 @dataclass(frozen=True)
 class Sketch:
-    """What a long file shows of itself before it is read."""
+    """A preview of a long file before it is read."""
 
-    motion: Motion  # of few frames, evenly apart
-    n_frames: int  # that the file says it has
-    fps: float  # those in a second
+    motion: Motion  # few frames, evenly spaced
+    n_frames: int  # number of frames stated in the file
+    fps: float  # frames per second of the file
 
 
 @dataclass(frozen=True)
@@ -40,36 +39,36 @@ class Format:
     Parameters
     ----------
     name : str
-        As people call it.
+        Name shown to users.
     suffixes : tuple of str
         Lower case, with the dot.
     recognises : callable
-        Whether a file's first 4096 bytes look like this format.
+        Returns whether a file's first 4096 bytes look like this format.
     read : callable, optional
-        From `FileContent` and `ReadOptions` to the recording in it.
+        Takes `FileContent` and `ReadOptions`, returns the recording.
     write : callable, optional
-        From a motion to a path.
+        Takes a motion and a path.
     write_signals : callable, optional
-        From signals to a path.
+        Takes signals and a path.
     read_folder : callable, optional
-        From a folder of files that are one recording to this recording, None where there
-        are none of this format in it.
+        Takes a folder and `ReadOptions`, and returns the recording whose frames are its files, or
+        None if it has no files of this format.
     channels : bool
-        Whether files can hold channels, so that ``read`` minds ``columns`` and ``emg``.
+        Whether files can hold channels, so that ``read`` respects ``columns`` and ``emg``.
     analog : bool
-        Whether channels stand beside the motion in a file, as force plates and muscles do, so
-        that ``read`` gives either.
+        Whether a file can hold channels next to a motion, such as force plates and muscles;
+        ``read`` then returns either.
     sketch : callable, optional
-        From `FileContent`, `ReadOptions` and a number of frames to a `Sketch` of so many at most,
-        much sooner than ``read``; None where that cannot be.
+        Takes `FileContent`, `ReadOptions` and a maximum number of frames, and quickly returns a
+        `Sketch`, or None if the file cannot be previewed.
     write_animations : callable, optional
-        From motions of one skeleton, by their names, to a path; for formats that hold several.
+        Takes motions of one skeleton by name, and a path; for formats that hold several.
     is_video : bool
-        Whether files are videos, of which ``read`` gets the first bytes alone and opens the path.
-        Beside a recording of its name a video is no other recording, but shows that one.
+        Whether files are videos: ``read`` gets only the first bytes and opens the path. A video
+        next to a recording of the same name is not listed as another recording.
     copy_animations : callable, optional
-        From the same and the file that they came from to a path: a copy of that file with these
-        animations instead of its own.
+        Takes motions by name, the path of the file that they came from, and a path. Writes a copy
+        of that file with these animations instead of its own.
 
     Examples
     --------
@@ -99,14 +98,14 @@ class Format:
 
 _EXPORT = "export BVH or C3D from the program that made it"
 _UNPACK = "unpack it first"
-INSTEAD = {
+ADVICE = {
     **dict.fromkeys((".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
     **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
     **dict.fromkeys(
         (".usdz", ".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK
     ),
 }
-"""What to do with files that people try, by suffix."""
+"""Advice for unsupported files that people try to read, by suffix."""
 
 FORMATS: Registry[Format] = Registry(
     Format,
@@ -137,23 +136,23 @@ FORMATS: Registry[Format] = Registry(
     ),
     newest_first=True,
 )
-"""In the order in which they are tried: those of others ahead of the package's own."""
+"""Formats in the order in which they are tried: those of other packages come first."""
 
 
 def register(new: Format, *, replace: bool = False) -> None:
-    """Make a format known to `read` and `write`, ahead of those there are.
+    """Add a format for `read` and `write`, tried before the existing ones.
 
     Parameters
     ----------
     new : Format
-        What is added.
+        The format to add.
     replace : bool
-        Whether it takes the place of a format of the same name.
+        Whether to replace a format of the same name.
 
     Raises
     ------
     ParameterError
-        There is a format of this name, or it is none.
+        A format of this name exists, or ``new`` is not a format.
 
     Examples
     --------
@@ -166,7 +165,7 @@ def register(new: Format, *, replace: bool = False) -> None:
 
 
 def supported_formats() -> tuple[Format, ...]:
-    """Return the formats, in the order in which they are tried.
+    """Return the formats in the order in which they are tried.
 
     Returns
     -------
@@ -181,19 +180,25 @@ def supported_formats() -> tuple[Format, ...]:
 
 
 def find_writer(suffix: str) -> Format | None:
-    """Return the format that writes motions to files of this suffix; None where there is none."""
-    found = (each for each in supported_formats() if each.write and suffix in each.suffixes)
-    return next(found, None)
+    """Return the format that writes motions to files of this suffix, or None."""
+    writers = (
+        candidate
+        for candidate in supported_formats()
+        if candidate.write and suffix in candidate.suffixes
+    )
+    return next(writers, None)
 
 
 def is_video(path: Path) -> bool:
-    """Return whether a file is a video, by its suffix."""
+    """Return whether a path has the suffix of a video."""
     suffix = path.suffix.lower()
-    return any(each.is_video and suffix in each.suffixes for each in supported_formats())
+    return any(
+        candidate.is_video and suffix in candidate.suffixes for candidate in supported_formats()
+    )
 
 
 def recognise(content: FileContent) -> Format:
-    """Return the format the content speaks for; where several or none do, the suffix decides."""
+    """Return the format of a file by its content; if that is ambiguous, by its suffix."""
     head = content.data[:HEAD]
     suffix = content.path.suffix.lower()
     formats = supported_formats()
@@ -203,8 +208,9 @@ def recognise(content: FileContent) -> Format:
         if recognises_safely(candidate.name, candidate.recognises, head)
     ]
     by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
-    if suffix in INSTEAD and not by_suffix:
-        raise ReadError(content.path, f"{suffix} is not read: {INSTEAD[suffix]}")
+    if suffix in ADVICE and not by_suffix:
+        raise ReadError(content.path, f"{suffix} is not read: {ADVICE[suffix]}")
+    # Prefer a format that matches both, then the content, then the suffix.
     for candidate in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
         return candidate
     suffixes = sorted({s for candidate in formats for s in candidate.suffixes})
@@ -216,10 +222,10 @@ def recognise(content: FileContent) -> Format:
 
 
 def recognises_safely(name: str, recognises: Callable[..., bool], *evidence: Any) -> bool:
-    """Return whether a format or dialect knows a file; one that cannot tell costs itself only."""
+    """Return whether a format or dialect accepts a file; an exception counts as False."""
     try:
         return recognises(*evidence)
-    except Exception as error:  # noqa: BLE001 (whatever a stranger's format raises)
+    except Exception as error:  # noqa: BLE001 (formats of other packages may raise anything)
         reason = f"{type(error).__name__}: {error}"
         warn(f"the format {name} is passed over, it cannot tell its files: {reason:.200}")
         return False

@@ -1,12 +1,12 @@
-"""Find where a table begins in a file of text that no device claims, see `kineme.formats.devices`.
+"""Find the table in a text file of no known device (see `kineme.formats.devices` for these).
 
-- Above the names there may be blank lines, lines that begin with ``#``, the ``sep=;`` of
-  spreadsheets, a header that ends in ``endheader``, and lines on the device and the recording. One
-  of these may tell the frame rate: ``Sample rate: 120.0Hz``, ``Frequency,50``.
-- Cells are parted by tabs, semicolons or commas, else by blanks.
-- Below the names there may be two lines of words: units, what kind of numbers these are, or second
-  names, where the first ones are those of several columns.
-- Names may be missing: rows of numbers then stand at the top.
+- Lines above the names may be blank, start with ``#``, be the ``sep=;`` of spreadsheets, a header
+  that ends with ``endheader``, or describe the device. One of them may state the frame rate:
+  ``Sample rate: 120.0Hz``, ``Frequency,50``.
+- Tabs, semicolons or commas separate cells, else blanks.
+- Up to two lines of words may follow the names: units, kinds of numbers, or second names if the
+  first ones are shared by several columns.
+- Names may be missing: the table then starts with a row of numbers.
 """
 
 from __future__ import annotations
@@ -30,100 +30,109 @@ from kineme.formats.delimited import (
 from kineme.formats.files import FileContent
 from kineme.recordings.times import is_date, is_timing
 
-HIGHEST = 200
-"""Lines above the names at most."""
+MAX_HEADER_LINES = 200
+"""Maximum number of lines above the names."""
 
-WORDS = 2
-"""Lines of words between names and numbers at most."""
+MAX_WORD_LINES = 2
+"""Maximum number of lines of words between names and numbers."""
 
 SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
-"""Line in which spreadsheets say what parts their cells."""
+"""Line in which spreadsheets declare the separator."""
 
 _RATE = re.compile(
     r"\b(?:(?:sampl\w+|frame|update|output|measurement|capture|data)[\s_]*)?"
     r"(?:rate|frequency|freq|fps)\b\s*(?:[(\[]hz[)\]])?[^\w]*(\d+(?:[.,]\d+)?)",
     re.IGNORECASE,
 )
-_OF_A_FILTER = re.compile(r"cut|pass|notch|bandwidth|analog|range", re.IGNORECASE)
+_NO_FRAME_RATE = re.compile(r"cut|pass|notch|bandwidth|analog|range", re.IGNORECASE)
+"""Words of lines whose frequency is that of a filter or of analog channels."""
 
 
 def sniff(content: FileContent) -> DelimitedText:
-    r"""Return the table in a file of text.
+    r"""Return the table in a text file.
 
-    The names are in the first line, unless a line below it, of more cells than all above, looks
-    like names over rows of numbers.
+    The names are in the first line, unless a later line has more cells than all lines above it and
+    looks like names above rows of numbers.
 
     Raises
     ------
     ReadError
-        There are no lines, or the names cannot be read.
+        The file is empty, or the names cannot be read.
 
     Examples
     --------
     >>> from pathlib import Path
     >>> text = b"Logger 3\ntime;hip x;hip y\ns;mm;mm\n0,00;1,5;2\n0,01;1,6;2\n"
     >>> table = sniff(FileContent(Path("take.csv"), text))
-    >>> table.names, table.separator, table.comma, table.numbers().tolist()
+    >>> table.names, table.separator, table.has_decimal_comma, table.numbers().tolist()
     (['time', 'hip x', 'hip y'], ';', True, [[0.0, 1.5, 2.0], [0.01, 1.6, 2.0]])
     """
     lines = content.text.splitlines()
-    ended = next((i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None)
-    start = 0 if ended is None else ended + 1
-    text = (i for i in range(start, len(lines)) if is_text_line(lines[i]))
-    full = [*islice(text, HIGHEST + WORDS + 3)]  # the highest head, words and rows below it
-    if not full:
+    header_end = next(
+        (i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None
+    )
+    start = 0 if header_end is None else header_end + 1
+    text_lines = (i for i in range(start, len(lines)) if is_text_line(lines[i]))
+    content_lines = [
+        *islice(text_lines, MAX_HEADER_LINES + MAX_WORD_LINES + 3)
+    ]  # header, words and rows
+    if not content_lines:
         raise content.error("has no lines of numbers")
-    declared = next(filter(None, map(SEPARATOR.fullmatch, lines[: full[0]])), None)
+    # A declaration such as ``sep=;`` overrides the most frequent separator.
+    declared = next(filter(None, map(SEPARATOR.fullmatch, lines[: content_lines[0]])), None)
     separator = declared[1] if declared else None
-    places = range(min(HIGHEST, len(full)))
-    first = next((k for k in places if _is_head(lines, full, k, separator)), 0)
-    head = full[first]
+    candidates = range(min(MAX_HEADER_LINES, len(content_lines)))
+    first = next((k for k in candidates if _is_head(lines, content_lines, k, separator)), 0)
+    head = content_lines[first]
     separator = separator or find_separator(lines[head])
-    words = _count_word_lines(lines, full[first:], separator)
-    below = full[first + words] + 1
-    blanks = ended is not None or separator not in lines[head]
-    if blanks:
+    n_words = _count_word_lines(lines, content_lines[first:], separator)
+    first_row = content_lines[first + n_words] + 1
+    is_blank_separated = header_end is not None or separator not in lines[head]
+    if is_blank_separated:
         separator, cells = "\t", lines[head].split()
         cells = [cell.strip('"').strip() for cell in cells]
     else:
-        row = next(filter(str.strip, islice(lines, below, None)), "")
+        row = next(filter(str.strip, islice(lines, first_row, None)), "")
         cells = split_head(content, lines[head], row, separator)
-    passed = full[first + 1 : first + 1 + words]
-    if words and (both := _join_names(cells, split_cells(lines[passed[0]], separator))) != cells:
-        cells, passed = both, passed[1:]
-    headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
+    skipped = content_lines[first + 1 : first + 1 + n_words]
+    if (
+        n_words
+        and (joined := _join_names(cells, split_cells(lines[skipped[0]], separator))) != cells
+    ):
+        cells, skipped = joined, skipped[1:]
+    is_headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     remark = "holds no numbers and is passed over"
-    notes = [f"line {i + 1} {remark}: {lines[i]:.60}" for i in passed]
+    notes = [f"line {i + 1} {remark}: {lines[i]:.60}" for i in skipped]
     return DelimitedText(
         content,
         lines,
         make_unique_names(map(from_text, cells)),
         head,
-        below,
+        first_row,
         separator,
-        headless,
-        blanks,
-        split_cells(lines[below - 1], separator) if words else (),
+        is_headless,
+        is_blank_separated,
+        split_cells(lines[first_row - 1], separator) if n_words else (),
         _find_rate(lines[:head]),
-        (*note_skipped_lines(first, "rows" if headless else "names"), *notes),
+        (*note_skipped_lines(first, "rows" if is_headless else "names"), *notes),
     )
 
 
 def is_text_line(line: str) -> bool:
-    """Return whether a line is neither blank, a comment, nor the ``sep=;`` of spreadsheets."""
+    """Return whether a line is not blank, not a comment, and not the ``sep=;`` of spreadsheets."""
     return bool(line.strip()) and line[0] != "#" and not SEPARATOR.fullmatch(line)
 
 
-def note_skipped_lines(count: int, what: str) -> tuple[str, ...]:
-    """Return the note on lines above the names or rows of a table, if there are any."""
-    return (f"{format_count(count, 'line')} above the {what} passed over",) if count else ()
+def note_skipped_lines(count: int, name: str) -> tuple[str, ...]:
+    """Return a note on the number of lines above the table, if there are any."""
+    return (f"{format_count(count, 'line')} above the {name} passed over",) if count else ()
 
 
 def split_head(content: FileContent, line: str, row: str, separator: str) -> list[str]:
     """Return the cells of the line of names above a row.
 
-    A separator between quotes is part of a name, but where the row has as many cells as there
-    are without quotes.
+    A separator inside quotes is part of a name, unless the row has as many cells as the line has
+    without regard to quotes.
     """
     plain = split_cells(line, separator)
     if '"' not in line or len(split_cells(row, separator)) == len(plain):
@@ -135,25 +144,31 @@ def split_head(content: FileContent, line: str, row: str, separator: str) -> lis
     return [cell.strip().strip('"').strip() for cell in cells]
 
 
-def _is_head(lines: Sequence[str], full: Sequence[int], at: int, separator: str | None) -> bool:
-    """Return whether a line has names: rows of as many cells below it, fewer cells above it."""
-    separator = separator or find_separator(lines[full[at]])
-    names, *below = (split_cells(lines[i], separator) for i in full[at : at + WORDS + 3])
+def _is_head(
+    lines: Sequence[str], content_lines: Sequence[int], index: int, separator: str | None
+) -> bool:
+    """Return whether a line holds names: rows below have as many cells, lines above fewer."""
+    separator = separator or find_separator(lines[content_lines[index]])
+    names, *below = (
+        split_cells(lines[i], separator) for i in content_lines[index : index + MAX_WORD_LINES + 3]
+    )
     rows = [*dropwhile(lambda cells: not any(map(is_number, cells)), below)][:2]
-    # spreadsheets fill lines up with separators
-    above = (split_cells(lines[i].strip().rstrip(separator), separator) for i in full[:at])
+    # Spreadsheets pad lines with separators.
+    cells_above = (
+        split_cells(lines[i].strip().rstrip(separator), separator) for i in content_lines[:index]
+    )
     return (
         len(names) > 1
         and not any(map(is_number, names))
         and _is_full(names)
         and bool(rows)
         and all(_fits(row, len(names)) and any(map(is_number, row)) for row in rows)
-        and all(len(cells) < len(names) or not _is_full(cells) for cells in above)
+        and all(len(cells) < len(names) or not _is_full(cells) for cells in cells_above)
     )
 
 
 def _join_names(names: list[str], words: Sequence[str]) -> list[str]:
-    """Names with the words below them, where only both tell the columns apart.
+    """Return the names joined with the words below, if only both together are unique.
 
     Examples
     --------
@@ -162,31 +177,34 @@ def _join_names(names: list[str], words: Sequence[str]) -> list[str]:
     >>> _join_names(["time", "acc", "acc"], ["s", "g", "g"])
     ['time', 'acc', 'acc']
     """
-    both = ["_".join(filter(None, pair)) for pair in zip(names, words, strict=False)]
-    needed = len(set(names)) < len(names) == len(both) == len(set(both))
-    return both if needed else names
+    joined = ["_".join(filter(None, pair)) for pair in zip(names, words, strict=False)]
+    needed = len(set(names)) < len(names) == len(joined) == len(set(joined))
+    return joined if needed else names
 
 
-def _count_word_lines(lines: Sequence[str], full: Sequence[int], separator: str) -> int:
-    """Return how many lines hold words below the names, in the first line, and above numbers."""
-    names, *below = (split_cells(lines[i], separator) for i in full[: WORDS + 2])
-    words = [*takewhile(lambda cells: not any(map(_has_value, cells)), below[:WORDS])]
+def _count_word_lines(lines: Sequence[str], content_lines: Sequence[int], separator: str) -> int:
+    """Return the number of lines of words between the names in the first line and the numbers."""
+    names, *below = (split_cells(lines[i], separator) for i in content_lines[: MAX_WORD_LINES + 2])
+    words = [*takewhile(lambda cells: not any(map(_has_value, cells)), below[:MAX_WORD_LINES])]
     row = below[len(words)] if len(words) < len(below) else []
     if len(names) == 1 or any(map(is_number, names)) or not _fits(row, len(names)):
         return 0
-    places = [[i for i, cell in enumerate(each) if cell.lower() not in EMPTY] for each in words]
-    fits = all(_fits(each, len(names)) for each in words)
-    over = all(places) and all(i < len(names) and _has_value(row[i]) for i in chain(*places))
-    return len(words) if fits and over else 0
+    positions = [[i for i, cell in enumerate(line) if cell.lower() not in EMPTY] for line in words]
+    # Words count only if rows below have a value in each of their columns.
+    fits = all(_fits(line, len(names)) for line in words)
+    has_values_below = all(positions) and all(
+        i < len(names) and _has_value(row[i]) for i in chain(*positions)
+    )
+    return len(words) if fits and has_values_below else 0
 
 
 def _fits(cells: Sequence[str], width: int) -> bool:
-    """Whether a line has so many cells; rows may end in one more separator than their names."""
+    """Return whether a line has this many cells; rows may end with an additional separator."""
     return len(cells) == width or (len(cells) == width + 1 and not cells[-1])
 
 
 def is_row(cells: Sequence[str]) -> bool:
-    """Return whether cells hold numbers, dates or nothing, and a number at least."""
+    """Return whether cells hold numbers, dates or nothing, and at least one number."""
     has_number = any(map(is_number, cells))
     return has_number and all(_has_value(cell) or cell.lower() in EMPTY for cell in cells)
 
@@ -196,17 +214,18 @@ def _has_value(cell: str) -> bool:
 
 
 def _is_full(cells: Sequence[str]) -> bool:
-    """Return whether most cells of a line hold something."""
+    """Return whether most cells of a line are not empty."""
     return 2 * sum(map(bool, cells)) > len(cells)
 
 
 def _find_rate(lines: Sequence[str]) -> float | None:
-    """Return the frame rate that the lines above a table tell, if they tell one."""
-    found = {
+    """Return the frame rate stated in the lines above a table, if there is exactly one."""
+    values = {
         float(match[1].replace(",", "."))
         for line in lines
-        if not _OF_A_FILTER.search(line)
+        if not _NO_FRAME_RATE.search(line)
         for match in _RATE.finditer(line)
     }
-    rates = found - {0.0}
+    # Several different rates are ambiguous.
+    rates = values - {0.0}
     return rates.pop() if len(rates) == 1 else None

@@ -1,13 +1,12 @@
-"""Tables of joint positions or of channels: CSV, TSV, MOT, STO and Parquet; and CSV out.
+"""Read tables of joint positions or channels (CSV, TSV, MOT, STO, Parquet), and write CSV.
 
-Where a table begins and what parts its cells: `kineme.formats.delimited`; what the columns of
-joints may be called: `kineme.formats.columns`; tables of single programs:
-`kineme.formats.dialects`. MOT and STO, OpenSim's tables of joint angles, forces or other
-channels, tell no positions without the model that they belong to, so they are signals,
+`kineme.formats.delimited` parses text tables, `kineme.formats.columns` names of joint columns, and
+`kineme.formats.dialects` tables of specific programs. MOT and STO, OpenSim's tables of joint
+angles, forces or other channels, hold no positions without their model. They are read as signals,
 whatever their columns are called.
 
-Written are ``time`` in seconds and ``JOINT_x JOINT_y JOINT_z`` in metres, y up, empty in gaps;
-the skeleton is not.
+CSV files are written with ``time`` in seconds and ``JOINT_x JOINT_y JOINT_z`` in metres, y up,
+empty in gaps; the skeleton is not written.
 """
 
 from __future__ import annotations
@@ -44,17 +43,17 @@ from kineme.recordings.times import NO_TIMES, RATE, is_date, is_timing
 
 
 def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """Return the joints or keypoints in a text table, or its channels where there are none."""
+    """Return the joints or keypoints in a text table, or its channels if there are none."""
     refuse_labels(content)
     table, dialect = recognise_table(content)
     if options.channels and dialect and not dialect.channels:
         raise content.error(f"is a {dialect.name} table of joints, which is a motion")
     if dialect and dialect.read and not (options.channels and dialect.motion):
-        found = dialect.read(table, replace(options, columns=None))
+        recording = dialect.read(table, replace(options, columns=None))
         if not options.channels:
-            return found
-        if isinstance(found, Signals):
-            return choose_channels(content, found, options.columns or None)
+            return recording
+        if isinstance(recording, Signals):
+            return choose_channels(content, recording, options.columns or None)
     elif not options.channels and not hold_channels(table.names):
         return _read_joints(table, options)
     channels = read_text_channels(table, options.columns or None)
@@ -68,16 +67,16 @@ def read_mot(content: FileContent, options: ReadOptions) -> Signals:
 
 
 def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """Return the joint positions in a Parquet table, or its channels where there are none."""
+    """Return the joint positions in a Parquet table, or its channels if there are none."""
     file = open_parquet(content)
     if holds_poses(file) and not options.channels:
         return poses_to_motion(content, parse_poses(content, file), options)
-    stored = file.schema_arrow.names
-    if options.channels or hold_channels(make_unique_names(stored)):
+    stored_names = file.schema_arrow.names
+    if options.channels or hold_channels(make_unique_names(stored_names)):
         table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
-    used = read_parquet_columns(content, file, [name for name in stored if is_used(name)])
-    columns = dict.fromkeys(make_unique(stored), np.empty(0)) | {
+    used = read_parquet_columns(content, file, [name for name in stored_names if is_used(name)])
+    columns = dict.fromkeys(make_unique(stored_names), np.empty(0)) | {
         name: np.asarray(column.to_numpy())
         for name, column in zip(make_unique(used.column_names), used.columns, strict=True)
     }
@@ -85,15 +84,16 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
 
 
 def write_csv(motion: Motion, path: Path) -> None:
-    """Leave the joints' positions in a CSV file, in metres with y up."""
+    """Write the joints' positions to a CSV file, in metres with y up."""
     joints = clean_names(
         path, motion.skeleton.names, lambda n: format_point_name(n.replace('"', "'"))
     )
-    rate = [RATE] if motion.n_frames < 2 else []  # which the time of one row does not tell
+    rate = [RATE] if motion.n_frames < 2 else []  # a single time defines no rate
     names = [*rate, "time", *(f"{joint}_{axis}" for joint in joints for axis in "xyz")]
     head = ",".join(f'"{name}"' if "," in name else name for name in map(as_text, names)) + "\n"
     first = "".join(f"{motion.fps!r}," for _ in rate)
     cells = 3 * len(joints)
+    # Format strings are much faster than formatting each number.
     row = f"{first}%.9f{',%.9f' * cells}\n"
     empty = f"{first}%.9f{',' * cells}\n"
     values = motion.positions.reshape(motion.n_frames, -1).tolist()
@@ -102,7 +102,7 @@ def write_csv(motion: Motion, path: Path) -> None:
 
 
 def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of the joints whose coordinates the columns are."""
+    """Return the motion of the joints whose coordinates are in the columns."""
     table.refuse_interleaved()
     names, content = table.names, table.content
     remarks = list(table.remarks)
@@ -110,12 +110,13 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
         options = replace(options, fps=table.rate)
         remarks.append(describe_header_rate(table.rate))
     times = {} if options.fps else table.times
+    # With a given rate, columns of times are not read.
     used = [i for i, name in enumerate(names) if name in times or is_used(name)]
     used = [i for i in used if names[i] in times or not is_timing(names[i])]
     for i in used:
         if i < len(table.first_cells) and _is_missing_time(names[i], table.first_cells[i]):
             reason = f"column {names[i]!r} {NO_TIMES}: give fps= (--fps)"
-            raise content.error(reason, table.below + 1)
+            raise content.error(reason, table.first_row + 1)
     values = table.numbers(used)
     columns = {
         times.get(names[i], names[i]): column for i, column in zip(used, values.T, strict=True)
@@ -124,7 +125,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def _is_missing_time(name: str, cell: str) -> bool:
-    """Return whether a column is called as times are, and its first cell is none."""
+    """Return whether a column has the name of a time, but does not start with one."""
     return is_timing(name) and not (is_number(cell) or is_date(cell) or cell.lower() in EMPTY)
 
 

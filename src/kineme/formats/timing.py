@@ -1,4 +1,4 @@
-"""What the columns of a table tell of its times, see `kineme.recordings.times` and `.regular`."""
+"""Find the timing of a table from its columns, see `kineme.recordings.times` and `.regular`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import Timing, place_rows
 from kineme.recordings.times import UNITS_NAMED, as_seconds, find_time_unit, is_rate, is_time
 
-_SLOWEST = 1.0  # frames per second: at or below, times of no stated unit are hardly seconds
+_MIN_RATE = 1.0  # frames per second; times without a unit that give less are not seconds
 
 
 def find_table_timing(
@@ -25,10 +25,10 @@ def find_table_timing(
     fps: float | None = None,
     values: Floats | None = None,
 ) -> Timing:
-    """Return the rate of a table and the frame of each row; ``fps`` stands in place of its times.
+    """Return the rate of a table and the frame of each row; ``fps`` overrides its times.
 
-    ``values``, (rows, channels), tell sensors of several rates apart. ReadError where no column
-    tells the rate, or one contradicts itself.
+    ``values`` (rows, channels) help to separate sensors of different rates. Raise ReadError if no
+    column defines the rate, or if one is inconsistent.
     """
     if fps:
         return Timing(fps)
@@ -37,20 +37,20 @@ def find_table_timing(
             return Timing(_check_rate(content, read_column(content, columns, column)))
     clocks = [column for column in columns if is_time(column)]
     stopped = [column for column in clocks if len(clocks) > 1 and _is_stopped(columns[column])]
-    # Of several clocks those count that run; a single one is refused with the reason.
+    # Use the first clock that runs; a single stopped one is refused with the reason.
     for column in [name for name in clocks if name not in stopped] or clocks:
         unit = find_time_unit(column)
         try:
-            times, guessed = as_seconds(columns[column], unit)
+            times, guessed_unit = as_seconds(columns[column], unit)
         except (ValueError, TypeError) as error:
             raise content.error(f"column {column!r} does not tell times: {error}") from None
         times = read_column(content, {column: times}, column)
         timing = find_timing(content, times, values)
         notes = list(timing.notes)
-        if guessed:
-            remark = f"{column} is taken in {UNITS_NAMED[guessed]}, by its steps"
+        if guessed_unit:
+            remark = f"{column} is taken in {UNITS_NAMED[guessed_unit]}, by its steps"
             notes.insert(0, Note(remark, "warning"))
-        elif timing.fps <= _SLOWEST and not unit:
+        elif timing.fps <= _MIN_RATE and not unit:
             raise content.error(
                 f"its times are {1 / timing.fps:g} apart; if these are not seconds, give fps "
                 f"(--fps; {1e3 * timing.fps:g} for milliseconds)"
@@ -63,7 +63,7 @@ def find_table_timing(
 
 
 def find_timing(content: FileContent, times: Floats, values: Floats | None = None) -> Timing:
-    """Return what `place_rows` finds; ReadError where times tell nothing."""
+    """Return the result of `place_rows`; raise ReadError if the times define no rate."""
     try:
         return place_rows(times, values)
     except ParameterError as error:
@@ -71,28 +71,27 @@ def find_timing(content: FileContent, times: Floats, values: Floats | None = Non
 
 
 def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[int, int], ...]]:
-    """Return points (rows, points, axes) in frames, and the gaps in which there are no rows.
+    """Return points (rows, points, axes) as frames, and the gaps without rows.
 
-    NaN where single points are missing for long. Rows that are frames are left as they are, with
-    their holes.
+    Points that are missing for long become NaN. If rows are frames already, they stay unchanged.
     """
     if timing.order is None:
         return points, timing.gaps
-    found = timing.resample(points.reshape(len(points), -1))
+    resampled = timing.resample(points.reshape(len(points), -1))
     gaps = timing.gaps
-    if found.missing is not None:
-        pause = np.asarray(found.missing.all(axis=1))
-        found.values[found.missing & ~pause[:, None]] = np.nan
+    if resampled.missing is not None:
+        is_empty = np.asarray(resampled.missing.all(axis=1))
+        resampled.values[resampled.missing & ~is_empty[:, None]] = np.nan
         for start, stop in gaps:
-            pause[start:stop] = True
-        gaps = tuple((start, stop) for start, stop in find_spans(pause).tolist())
-    return found.values.reshape(-1, *points.shape[1:]), gaps
+            is_empty[start:stop] = True
+        gaps = tuple((start, stop) for start, stop in find_spans(is_empty).tolist())
+    return resampled.values.reshape(-1, *points.shape[1:]), gaps
 
 
 def read_column(
     content: FileContent, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
 ) -> Floats:
-    """(rows,): a column as numbers; ReadError where it holds others, or is of another length."""
+    """Return a column as numbers (rows,); raise ReadError if it has other values or length."""
     try:
         values = np.asarray(columns[name], np.float64)
     except (ValueError, TypeError):
@@ -103,7 +102,7 @@ def read_column(
 
 
 def _is_stopped(cells: ArrayLike) -> bool:
-    """Return whether a column of times is empty, or the same in all of several rows."""
+    """Return whether a column of times is empty, or constant over several rows."""
     texts = {str(cell).strip() for cell in np.asarray(cells).ravel()}
     return texts <= {"", "nan", "None"} or (len(texts) == 1 and np.size(cells) > 1)
 

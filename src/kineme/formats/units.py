@@ -1,8 +1,7 @@
-"""From a file's own units and axes to metres with y up.
+"""Convert a file's units and axes to metres with y up.
 
-Formats without a unit or an up axis are judged by the body they describe: its
-size tells the unit, the line from feet to head the vertical. Whatever is
-inferred is said in the motion's provenance.
+For formats without unit or up axis these are inferred from the body: the unit from its size, the
+vertical from the line between feet and head. The motion's provenance records what was inferred.
 """
 
 from __future__ import annotations
@@ -27,12 +26,13 @@ INCH = 0.0254
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": INCH, "cmu": INCH / 0.45}
 """Metres in one unit; "cmu" is 1/0.45 inch, the unit of the CMU database."""
 
-HEIGHTS = (1.2, 2.4)
-"""Metres a body may be tall for its unit to be beyond doubt: less than the
-factor of 2.2 apart that lies between the two closest units."""
+CERTAIN_HEIGHTS = (1.2, 2.4)
+"""Body heights in metres for which a unit is certain. Their ratio is below 2.2, the smallest
+ratio of two units.
+"""
 
-BODIES = (0.3, 4.0)
-"""Metres outside of which a unit that was given is remarked upon."""
+PLAUSIBLE_HEIGHTS = (0.3, 4.0)
+"""Body heights in metres outside of which a given unit is doubtful."""
 
 _TO_Y = {
     "y": (1.0, 0.0, 0.0, 0.0),
@@ -42,29 +42,30 @@ _TO_Y = {
     "x": (0.5**0.5, 0.0, 0.0, 0.5**0.5),
     "-x": (0.5**0.5, 0.0, 0.0, -(0.5**0.5)),
 }
-"""Rotation that brings an axis up, and leaves x or z where it is."""
+"""Rotation that turns an axis to y, and keeps x or z fixed."""
 
 AXES = tuple(_TO_Y)
 
 BLOCK = 2048
-"""Frames."""
+"""Number of frames processed at once."""
 
-SPREADS = (0.3, 3.0)
-"""Metres over which markers on a person spread, in the middle of the recording:
-a factor of ten, as between two of m, cm and mm."""
+MARKER_EXTENTS = (0.3, 3.0)
+"""Extent in metres of the markers on a person. The ratio of ten is the smallest ratio of two of
+m, cm and mm.
+"""
 
-SIZES = (0.02, 50.0)
-"""Metres: a whole body of less, or points of more, are not of the unit that the file states."""
+POINT_EXTENTS = (0.02, 50.0)
+"""Metres: the stated unit is wrong for smaller bodies and for points farther apart."""
 
 METRIC = ("m", "cm", "mm")
 """Units of markers and of most files."""
 
 _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
-_HEIGHT = 1.7  # metres, given to a body measured in pixels
+_HEIGHT = 1.7  # metres assumed for a body measured in pixels
 
 
 def iterate_blocks(n_frames: int) -> Iterator[slice]:
-    """Yield the frames in order, as many at a time as stay in the processor's cache."""
+    """Yield slices of frames, in blocks that fit into the processor's cache."""
     for start in range(0, n_frames, BLOCK):
         yield slice(start, min(start + BLOCK, n_frames))
 
@@ -75,7 +76,7 @@ def to_metres(unit: str | float) -> float:
 
 
 def parse_unit(word: str) -> str | None:
-    """Return the unit that a file calls ``word`` ("mm", "Millimeters", "in"), or None."""
+    """Return the unit called ``word`` ("mm", "Millimeters", "in") in a file, or None."""
     word = word.strip().lower()
     if metric := _METRES.fullmatch(word):
         return {"centi": "cm", "milli": "mm"}.get(metric[1], "m")
@@ -83,7 +84,7 @@ def parse_unit(word: str) -> str | None:
 
 
 def turn_upright(points: Floats, up: str) -> Floats:
-    """Return points (frames, points, 3), turned in place so that their axis ``up`` becomes y."""
+    """Turn points (frames, points, 3) in place so that their axis ``up`` becomes y; return them."""
     if up != "y":
         for span in iterate_blocks(len(points)):
             points[span] = rot.rotate(make_up_rotation(up), points[span])
@@ -96,21 +97,24 @@ def make_up_rotation(up: str) -> Floats:
 
 
 def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
-    """Return the unit that makes this a body of human size, and the note that says so.
+    """Return the unit in which the body has human size, and a note.
 
-    The height is taken as three quarters of the longest path along the bones,
-    hand to foot; in nine skeletons (CMU, HDM05, PyMO, aitviewer) that is
-    within 7 % of the path along the bones from head to toes. If no unit fits the
-    nearest is taken, and the note is a warning.
+    The height is estimated as three quarters of the longest path along the bones, hand to foot. In
+    nine skeletons (CMU, HDM05, PyMO, aitviewer) this is within 7 % of the path along the bones from
+    head to toes. If no unit fits, the nearest is used and the note is a warning.
     """
     height = estimate_height(skeleton, means)
-    fits = {name: HEIGHTS[0] <= height * size <= HEIGHTS[1] for name, size in UNITS.items()}
+    fits = {
+        name: CERTAIN_HEIGHTS[0] <= height * size <= CERTAIN_HEIGHTS[1]
+        for name, size in UNITS.items()
+    }
     if any(fits.values()):
         unit = next(name for name, fit in fits.items() if fit)
-        tall = height * UNITS[unit]
-        return unit, Note(f"unit {unit} inferred: the skeleton is then about {tall:.2f} m tall")
-    off = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
-    unit = list(UNITS)[int(np.abs(off).argmin())]
+        metres = height * UNITS[unit]
+        return unit, Note(f"unit {unit} inferred: the skeleton is then about {metres:.2f} m tall")
+    # Compare ratios to 1.7 m on a logarithmic scale.
+    errors = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
+    unit = list(UNITS)[int(np.abs(errors).argmin())]
     remark = (
         f"in no unit is this skeleton, about {height:.3g} units tall, of human size: "
         f"{unit} assumed; give unit= (--unit)"
@@ -119,15 +123,15 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
 
 
 def estimate_height(skeleton: Skeleton, means: Floats) -> float:
-    """Three quarters of the longest path along the bones, in file units.
+    """Return three quarters of the longest path along the bones, in file units.
 
-    ``means`` (joints, 3) is where each joint is in its parent's frame, on average.
+    ``means`` (joints, 3) are the mean positions of joints relative to their parents.
     """
     return 0.75 * _measure_longest_path(skeleton, np.linalg.norm(means, axis=1))
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
-    """Return the axis along which the body stands, both at rest and most of the time; else "y"."""
+    """Return the axis along which the body stands at rest and most of the time, else "y"."""
     feet, head = find_feet_and_head(skeleton)
     if not head or not feet:
         return "y"
@@ -136,13 +140,14 @@ def infer_up(skeleton: Skeleton, positions: Floats) -> str:
 
 
 def infer_rate(word: str) -> tuple[float, str | None]:
-    """Frames per second from a frame time as written, and a note if it was rounded.
+    """Return frames per second for a written frame time, and a note if it was rounded.
 
-    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s; where one
-    whole rate lies in that range, as 120 Hz does, it is the one meant.
+    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s. If exactly one integer rate
+    lies in that range, here 120 Hz, it is used.
     """
     period = Decimal(word)
     exponent = period.as_tuple().exponent
+    # Half a unit of the last written digit is the largest rounding error.
     half = Decimal(5).scaleb(int(exponent) - 1)
     if half >= period:
         return float(1 / period), None
@@ -156,11 +161,12 @@ def infer_rate(word: str) -> tuple[float, str | None]:
 def _measure_longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     """Return the longest path between two joints along the bones of the body.
 
-    Bones above the hips are left out: their length is how far somebody walked.
+    Bones above the hips are ignored: their length is the distance walked.
     """
     body = set(skeleton.body) - {skeleton.carrier}
     reach = [0.0] * skeleton.n_joints
     longest = 0.0
+    # Process children before parents: `reach` is the longest path down from each joint.
     for joint in range(skeleton.n_joints - 1, -1, -1):
         parent = skeleton.parents[joint]
         if parent >= 0 and joint in body:
@@ -177,13 +183,14 @@ def infer_scale(
     stated: str | None = None,
     is_body: bool = False,
 ) -> tuple[float, list[str]]:
-    """Return the metres in one unit of the positions, and what was inferred.
+    """Return the metres in one unit of the positions, and notes on what was inferred.
 
-    ``stated`` is what the file says where ``unit`` is None. It is not believed if the points are
-    then above 50 m apart, or if a whole body is below 2 cm.
+    ``stated`` is the file's unit, used if ``unit`` is None. It is rejected if the points are then
+    more than 50 m apart, or if a whole body is smaller than 2 cm.
     """
     if unit is not None and unit != "pixel":
         return to_metres(unit), []
+    # Median over frames of the largest extent along an axis.
     spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
     if unit == "pixel":
         return _HEIGHT / (spread or 1.0), [
@@ -195,6 +202,7 @@ def infer_scale(
     if unit is not None:
         note = f"unit {unit} inferred: the points then spread over {spread * UNITS[unit]:.2f} m"
         return UNITS[unit], [note]
+    # No unit fits: small numbers are more likely metres, large ones millimetres.
     name = "m" if spread < 1 else "mm"
     remark = (
         f"markers {spread:.3g} units apart are in no unit those of a person: "
@@ -204,9 +212,9 @@ def infer_scale(
 
 
 def _check_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float, list[str]]:
-    """Return the metres in the stated unit, or in one that makes the points human, and a note."""
+    """Return the metres in the stated unit, or in one that gives human size, and a note."""
     size, other = spread * to_metres(stated), _find_human_unit(spread)
-    if other is None or (size <= SIZES[1] and (size >= SIZES[0] or not is_body)):
+    if other is None or (size <= POINT_EXTENTS[1] and (size >= POINT_EXTENTS[0] or not is_body)):
         return to_metres(stated), []
     remark = (
         f"the points spread over {size:.4g} m by the file's unit {stated}: {other} assumed "
@@ -216,41 +224,43 @@ def _check_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float, l
 
 
 def _find_human_unit(spread: float) -> str | None:
-    """Return the unit in which points spread as far as those on a person, or None."""
-    fits = (name for name in METRIC if SPREADS[0] <= spread * UNITS[name] < SPREADS[1])
+    """Return the unit in which points are spread like those on a person, or None."""
+    fits = (
+        name for name in METRIC if MARKER_EXTENTS[0] <= spread * UNITS[name] < MARKER_EXTENTS[1]
+    )
     return next(fits, None)
 
 
 def infer_up_axis(
-    usual: str, positions: Floats, body: Body, *, is_stated: bool = False
+    default: str, positions: Floats, body: Body, *, is_stated: bool = False
 ) -> tuple[str, list[str]]:
-    """Return the axis along which the body stands, else the usual one, and what was inferred.
+    """Return the axis along which the body stands, else the usual one, and notes.
 
-    ``is_stated`` says that the file names the usual axis: another one is then a warning.
+    ``is_stated`` means that the file states the usual axis; another one is then a warning.
     """
     upper = list(body.get("head", ()) or body.get("pelvis", ()))
     feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
     up = _find_body_axis(positions, feet, upper, 0.7) if upper and feet else None
-    if is_stated and up in (None, usual):
-        return usual, []
+    if is_stated and up in (None, default):
+        return default, []
     if up is None:
-        return usual, [f"up axis {usual} assumed; give up= (--up) if it is another"]
+        return default, [f"up axis {default} assumed; give up= (--up) if it is another"]
     part = "head" if body.get("head") else "pelvis"
     note = f"up axis {up} inferred: {part} and feet lie along it"
     if not is_stated:
         return up, [note]
-    return up, [Note(f"{note}, though the file names {usual}; up= (--up) overrides", "warning")]
+    return up, [Note(f"{note}, though the file names {default}; up= (--up) overrides", "warning")]
 
 
 def find_lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:
-    """Return the axis along which a body lies most of the time, or None if it does not."""
+    """Return the axis along which a body lies most of the time, or None if it does not lie."""
     feet, head = find_feet_and_head(skeleton)
     axis = _find_body_axis(positions, feet, head, 0.7) if head and feet else None
     return None if axis == "y" else axis
 
 
 def find_feet_and_head(skeleton: Skeleton) -> tuple[list[int], list[int]]:
-    """Return the joints of feet and head by their names."""
+    """Return the joints of feet and head, by their names."""
     feet, head = (
         [i for i, name in enumerate(skeleton.names) if mentions(name, *parts)]
         for parts in (("*_ankle", "*_foot", "*_toe"), ("head",))
@@ -261,10 +271,14 @@ def find_feet_and_head(skeleton: Skeleton) -> tuple[list[int], list[int]]:
 def _find_body_axis(
     positions: Floats, feet: list[int], head: list[int], least: float
 ) -> str | None:
-    """Return the axis that points from feet to head, ``-z`` among them, for a share at least."""
-    body = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
-    length = np.linalg.norm(body, axis=1, keepdims=True)
-    direction = np.median(body / np.where(length > 0, length, 1), axis=0)
+    """Return the axis from feet to head, which may be negative (``-z``), or None.
+
+    ``least`` is the minimum component of the median direction along that axis.
+    """
+    vectors = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    # The median is robust to frames in which the body bends or lies.
+    direction = np.median(vectors / np.where(length > 0, length, 1), axis=0)
     axis = int(np.abs(direction).argmax())
     if abs(direction[axis]) < least:
         return None

@@ -1,17 +1,15 @@
-"""AMASS and other npz files with SMPL poses, on a skeleton of our own.
+"""Read AMASS and other npz files with SMPL poses, on a skeleton of average proportions.
 
-``poses`` (frames, 72, 156 or 165) are rotation vectors of the joints of SMPL,
-SMPL-H or SMPL-X, ``trans`` (frames, 3) is the place of the body. The 22 joints
-that the three have in common are used; hands, jaw and eyes are left out. No
-body model is needed: bones have the average lengths below, for a height of
-1.70 m, and not those of the person, so positions are off by the difference in
-build, and the pelvis by some 0.2 m in height, which no feature depends on.
+``poses`` (frames, 72, 156 or 165) are rotation vectors of the joints of SMPL, SMPL-H or SMPL-X;
+``trans`` (frames, 3) is the position of the body. The 22 joints common to all three are used;
+hands, jaw and eyes are left out. No body model is needed: bones have average lengths for a height
+of 1.70 m instead of the person's. Positions therefore differ by build, and the pelvis by about
+0.2 m in height, which affects no feature.
 
-AMASS has z up at rest along y: its files are turned; ``up`` says otherwise.
+AMASS has z up and bodies at rest along y. Its files are turned accordingly; ``up`` overrides this.
 
-Source: joint order of N. Mahmood et al., "AMASS", ICCV 2019; bone lengths from
-the shares of height in D. A. Winter, "Biomechanics and Motor Control of Human
-Movement", 4th ed. 2009, figure 4.1.
+Source: joint order of N. Mahmood et al., "AMASS", ICCV 2019; bone lengths from the shares of height
+in D. A. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, figure 4.1.
 """
 
 from __future__ import annotations
@@ -29,6 +27,7 @@ from kineme.formats.units import make_up_rotation, to_metres
 from kineme.recordings import Motion, Skeleton
 
 WIDTHS = {72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
+"""Body models by the number of values per frame."""
 
 # Name, parent, offset in metres in a T-pose: y up, facing z, the left at x.
 _JOINTS: tuple[tuple[str, str | None, tuple[float, float, float]], ...] = (
@@ -63,7 +62,7 @@ _N_TURNING = len(_JOINTS) - 1
 def poses_to_motion(
     content: FileContent, arrays: Mapping[str, Any], options: ReadOptions
 ) -> Motion:
-    """Return the motion of the body that ``poses`` and ``trans`` describe."""
+    """Return the motion of the body described by ``poses`` and ``trans``."""
     poses = _check_arrays(content, arrays, "poses")
     if poses.shape[1] not in WIDTHS:
         raise content.error(
@@ -77,7 +76,7 @@ def poses_to_motion(
         raise content.error(f"trans has shape {path.shape}, not ({len(poses)}, 3)")
     vectors = poses[:, : 3 * _N_TURNING].reshape(len(poses), _N_TURNING, 3)
     rotations = np.zeros((len(poses), len(_JOINTS), 4))
-    # The crown has no rotation of its own.
+    # The crown is an end site without rotation.
     rotations[:, -1] = rot.IDENTITY
     rotations[:, :-1] = rot.from_rotation_vectors(vectors)
     turn = make_up_rotation(options.up or "z")
@@ -98,7 +97,7 @@ def poses_to_motion(
 
 
 def make_smpl_skeleton() -> Skeleton:
-    """Return the joints that SMPL, SMPL-H and SMPL-X share, at average lengths, and a crown."""
+    """Return the joints shared by SMPL, SMPL-H and SMPL-X, at average lengths, and a crown."""
     names = tuple(name for name, _, _ in _JOINTS)
     parents = tuple(-1 if parent is None else names.index(parent) for _, parent, _ in _JOINTS)
     offsets = np.array([offset for _, _, offset in _JOINTS])
@@ -118,7 +117,7 @@ def _check_arrays(content: FileContent, arrays: Mapping[str, Any], name: str) ->
 
 
 def find_rate(content: FileContent, arrays: Mapping[str, Any], names: Sequence[str]) -> float:
-    """Return the frame rate under the first of the names that has one."""
+    """Return the frame rate stored under the first of the names that holds one."""
     for name in names:
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
             rate = float(arrays[name].item())

@@ -1,11 +1,10 @@
-"""MAT files of MATLAB: joint positions by variables, QTM's exports, or channels.
+"""Read MAT files of MATLAB: variables with joint positions, exports of QTM, or channels.
 
-Variables are arrays by name, see `kineme.formats.arrays.named_arrays`; also those inside a
-structure, as long as it is the only one. Versions 5 to 7.2 are read as they are,
-7.3 needs h5py.
+Variables are named arrays, see `kineme.formats.arrays.named_arrays`. If the file holds exactly one
+structure, its fields count as variables. Versions 5 to 7.2 are read directly, 7.3 needs h5py.
 
-QTM (Qualisys) exports a structure with ``FrameRate`` and
-``Trajectories.Labeled.Data`` (markers, 4, frames), ``Labels``: millimetres, z up.
+QTM (Qualisys) exports a structure with ``FrameRate`` and ``Trajectories.Labeled.Data``
+(markers, 4, frames) and ``Labels``, in millimetres with z up.
 """
 
 from __future__ import annotations
@@ -43,7 +42,7 @@ _RATES = (
 
 
 def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
-    """Return the motion in a MAT file, or the channels where it holds no joints."""
+    """Return the motion in a MAT file, or its channels if it holds no joints."""
     variables = read_variables(content)
     labeled = _find_labeled(variables)
     if labeled is not None and not options.channels:
@@ -56,7 +55,8 @@ def read_mat(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 
 def read_variables(content: FileContent) -> dict[str, Any]:
-    """Return the variables of a MAT file of either kind, by name."""
+    """Return the variables of a MAT file of any version, by name."""
+    # Version 7.3 puts a header of 512 bytes before the HDF5 signature.
     is_hdf5 = content.data.startswith(SIGNATURE) or content.data[512:520] == SIGNATURE
     variables = parse_hdf5(content) if is_hdf5 else parse_mat(content)
     if not variables:
@@ -65,29 +65,29 @@ def read_variables(content: FileContent) -> dict[str, Any]:
 
 
 def to_arrays(variables: Mapping[str, Any]) -> dict[str, Array]:
-    """Numbers and texts as arrays; vectors and single numbers without MATLAB's other dimension."""
-    inner = [value for value in variables.values() if isinstance(value, Mapping)]
-    # A structure that is alone holds the variables.
-    if len(inner) == 1:
-        variables = {**inner[0], **variables}
-    found: dict[str, Array] = {}
+    """Return numbers and texts as arrays; drop MATLAB's second dimension of vectors and scalars."""
+    structures = [value for value in variables.values() if isinstance(value, Mapping)]
+    # The fields of a single structure count as variables.
+    if len(structures) == 1:
+        variables = {**structures[0], **variables}
+    arrays: dict[str, Array] = {}
     for name, value in variables.items():
         if isinstance(value, np.ndarray) and value.dtype.kind in "iufb":
             # MATLAB has no vectors: they are matrices of one row or column.
             single = value.ndim == 2 and 1 in value.shape
-            found[name] = value.ravel() if single and value.size > 1 else value
-            found[name] = found[name].reshape(()) if value.size == 1 else found[name]
+            arrays[name] = value.ravel() if single and value.size > 1 else value
+            arrays[name] = arrays[name].reshape(()) if value.size == 1 else arrays[name]
         elif words := collect_texts(value):
-            found[name] = np.array(words)
-    return found
+            arrays[name] = np.array(words)
+    return arrays
 
 
 def arrays_to_channels(
     content: FileContent, arrays: Arrays, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """Return the channels in a MAT file's arrays: those named, or those of the most usual length.
+    """Return the named channels in a MAT file's arrays, or those of the most frequent length.
 
-    A matrix is a channel for each column, ``NAME_1`` and so on; its longer side is time.
+    Each column of a matrix is a channel, ``NAME_1`` and so on; the longer side is time.
     """
     rates = {name.lower(): array for name, array in arrays.items() if array.ndim == 0}
     rate = next((float(rates[key]) for key in _RATES if key in rates), None)
@@ -98,11 +98,10 @@ def arrays_to_channels(
         if array.ndim == 1:
             channels[name] = array
         elif array.ndim == 2:
-            # The longer side is time.
             tracks = array.T if len(array) >= array.shape[1] else array
             channels |= {f"{name}_{i}": track for i, track in enumerate(tracks, 1)}
     lengths = Counter(map(len, channels.values()))
-    # The most usual length; of equally usual ones the longest.
+    # The most frequent length; on a tie the longest.
     length = max(lengths, key=lambda n: (lengths[n], n), default=0)
     times = {name: name for name in channels if is_timing(name)}
     columns = select_columns(content, list(channels), columns, list(channels), times)
@@ -124,7 +123,7 @@ def arrays_to_channels(
 
 
 def _hold_channels(arrays: Arrays) -> bool:
-    """Return whether none of the arrays is joints' positions, by their names and shapes."""
+    """Return whether no array holds positions of joints, by names and shapes."""
     if {"poses", "positions"} & arrays.keys():
         return False
     flat = [name for name, array in arrays.items() if array.ndim <= 1]
@@ -135,13 +134,13 @@ def _hold_channels(arrays: Arrays) -> bool:
 def _find_labeled(
     variables: Mapping[str, Any],
 ) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
-    """QTM's structure, and the labelled trajectories in it."""
+    """Return QTM's structure and its labelled trajectories, or None."""
     for value in variables.values():
-        inner = value
+        item = value
         for key in ("Trajectories", "Labeled"):
-            inner = inner.get(key) if isinstance(inner, Mapping) else None
-        if isinstance(inner, Mapping) and {"Data", "Labels"} <= inner.keys():
-            return value, inner
+            item = item.get(key) if isinstance(item, Mapping) else None
+        if isinstance(item, Mapping) and {"Data", "Labels"} <= item.keys():
+            return value, item
     return None
 
 

@@ -1,15 +1,13 @@
-"""Layout of MAT files of version 5 (MATLAB 5 to 7.2, the default up to -v7).
+"""Parse MAT files of version 5 (MATLAB 5 to 7.2, written by -v6 and -v7).
 
-128 bytes of text with the order of the bytes, then elements: type and size, and
-that many bytes, padded to eight. An element of type 15 holds another one,
-compressed. An array has flags, dimensions and a name, and then its numbers,
-its characters, its cells or its fields. Sparse arrays, objects, tables and
-functions are passed over.
+The file starts with 128 bytes of text and the byte order. Elements follow: type, size and as many
+bytes, padded to eight. An element of type 15 holds another one, compressed. An array has flags,
+dimensions and a name, followed by its numbers, characters, cells or fields. Sparse arrays, objects,
+tables and functions are skipped.
 
-Nothing is allocated that the file does not hold, arrays are views of its bytes, and
-damage is one error. That is why this is not `scipy.io.loadmat`, which copies (0.4 s
-for 86 MB), and of 700 damaged files asked for more than 3 GB in one and raised
-anything from OSError to UnboundLocalError in others.
+No more memory is allocated than the file holds, arrays are views of its bytes, and all damage
+raises the same error. `scipy.io.loadmat` copies the data (0.4 s for 86 MB); on 700 damaged files it
+requested more than 3 GB once and raised errors from OSError to UnboundLocalError.
 
 Source: The MathWorks, "MAT-File Format", R2023a.
 """
@@ -37,16 +35,16 @@ _NUMBERS = {
 _TEXTS = {16: "utf-8", 17: "utf-16", 18: "utf-32"}
 _CELL, _STRUCT, _CHAR, _NUMERIC = 1, 2, 4, range(6, 16)
 _COMPLEX = 0x08
-_MOST_DIMENSIONS = 32
-_DEEPEST = 30  # structures inside one another
+_MAX_DIMENSIONS = 32
+_MAX_DEPTH = 30  # nesting of structures
 
 
 class _DamagedError(ValueError):
-    """What a part of the file says about itself cannot be."""
+    """The file contradicts itself."""
 
 
 def parse_mat(content: FileContent) -> dict[str, Value]:
-    """Return the variables of a MAT file by name; ReadError where it is none or damaged."""
+    """Return the variables of a MAT file by name; raise ReadError if it is damaged."""
     data = memoryview(content.data)
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:
@@ -70,7 +68,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
 
 def _unpack(body: Bytes, budget: int) -> Bytes:
     engine = zlib.decompressobj()
-    # At most as much as there is room for; what is left over shows that there was more.
+    # Unpack at most the budget; a remaining tail shows that the element is larger.
     unpacked = engine.decompress(body, max(1, budget))
     if engine.unconsumed_tail:
         raise _DamagedError("it claims to unpack to much more than it holds")
@@ -78,31 +76,31 @@ def _unpack(body: Bytes, budget: int) -> Bytes:
 
 
 def _split_elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
-    """Type and bytes of the elements, one after the other."""
-    at = 0
-    while at + 8 <= len(data):
-        first, size = np.frombuffer(data, f"{order}u4", 2, at).tolist()
-        if first >> 16:  # a small element: size and type share four bytes, the data the others
-            kind, size, start, step = first & 0xFFFF, first >> 16, at + 4, 8
+    """Yield type and bytes of each element."""
+    offset = 0
+    while offset + 8 <= len(data):
+        first, size = np.frombuffer(data, f"{order}u4", 2, offset).tolist()
+        if first >> 16:  # a small element: four bytes of size and type, four of data
+            kind, size, start, step = first & 0xFFFF, first >> 16, offset + 4, 8
             if size > 4:
                 raise _DamagedError(f"a small element of {size} bytes")
         else:
-            kind, start = first, at + 8
-            # Elements are padded to eight bytes, but compressed ones are not.
+            kind, start = first, offset + 8
+            # Elements are padded to eight bytes, except compressed ones.
             step = 8 + (size if kind == _COMPRESSED else -(-size // 8) * 8)
         if start + size > len(data):
             raise _DamagedError(
                 f"an element of {size} bytes, of which {len(data) - start} are there"
             )
         yield kind, data[start : start + size]
-        at += step
+        offset += step
 
 
 def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
-    """Name and value of an array; None for those that are passed over."""
+    """Return name and value of an array; the value is None for kinds that are skipped."""
     if not body:
         return "", np.empty((0, 0))
-    if depth > _DEEPEST:
+    if depth > _MAX_DEPTH:
         raise _DamagedError("structures too deep in one another")
     parts = _split_elements(body, order)
     flags, shape = (
@@ -110,7 +108,7 @@ def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
         _parse_counts(_read_element(parts), order),
     )
     name = bytes(_read_element(parts)[1]).decode("utf-8", "replace")
-    if not flags or not shape or min(shape) < 0 or len(shape) > _MOST_DIMENSIONS:
+    if not flags or not shape or min(shape) < 0 or len(shape) > _MAX_DIMENSIONS:
         raise _DamagedError("an array without flags or dimensions")
     # The class of the array is in the low byte of its flags.
     kind, is_complex = flags[0] & 0xFF, flags[0] >> 8 & _COMPLEX
@@ -126,10 +124,10 @@ def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
 
 
 def _read_element(parts: Iterator[tuple[int, Bytes]]) -> tuple[int, Bytes]:
-    found = next(parts, None)
-    if found is None:
+    element = next(parts, None)
+    if element is None:
         raise _DamagedError("an array breaks off")
-    return found
+    return element
 
 
 def _parse_numbers(kind: int, data: Bytes, order: str) -> Array:
@@ -157,7 +155,7 @@ def _reshape(flat: Array, shape: list[int]) -> Array:
 
 
 def _parse_text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
-    """Return a text; of several rows, a list of them without the blanks at their ends."""
+    """Return a text; for several rows, a list of texts without trailing blanks."""
     if kind in _TEXTS:
         coding = _TEXTS[kind] + ("" if kind == 16 else "-le" if order == "<" else "-be")
         letters = list(bytes(data).decode(coding, "replace"))
@@ -166,7 +164,7 @@ def _parse_text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
             chr(int(code)) if 0 < code < 0xD800 else " "
             for code in _parse_numbers(kind, data, order)
         ]
-    # Characters are stored column by column: every n-th is of one row.
+    # Characters are stored column by column: every n-th belongs to one row.
     rows = shape[0]
     if rows <= 1 or len(letters) % rows:
         return "".join(letters)
@@ -176,14 +174,14 @@ def _parse_text(kind: int, data: Bytes, shape: list[int], order: str) -> Value:
 def _parse_fields(
     parts: Iterator[tuple[int, Bytes]], shape: list[int], order: str, depth: int
 ) -> Value:
-    """Return the fields of a structure by name; of several structures, those of the first."""
+    """Return the fields of a structure by name; of an array of structures, those of the first."""
     width = _parse_counts(_read_element(parts), order)
     names = bytes(_read_element(parts)[1])
     if len(width) != 1 or width[0] < 1 or 0 in shape:
         return {}
     step = width[0]
     keys = [
-        # Names have one width, filled with zero bytes.
+        # All names have the same width, padded with zero bytes.
         names[i : i + step].split(b"\0")[0].decode("utf-8", "replace")
         for i in range(0, len(names), step)
     ]

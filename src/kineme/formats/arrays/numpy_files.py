@@ -1,11 +1,10 @@
-"""npz and npy: arrays of joint positions, and all of a motion in an npz.
+"""Read npz and npy files with joint positions, and write motions to npz.
 
-An npz holds arrays by name, see `kineme.formats.arrays.named_arrays`; `write_npz` leaves
-all of a motion but its provenance in one.
+An npz holds named arrays, see `kineme.formats.arrays.named_arrays`. `write_npz` stores all of a
+motion except its provenance.
 
-An npy holds positions (frames, joints, 3) without names, or records with named
-fields as a table. Pickled objects are refused, and so is an archive that claims
-to unpack to much more than it holds.
+An npy holds positions (frames, joints, 3) without names, or records with named fields as a table.
+Pickled objects are rejected, as are archives that claim to unpack to much more than they hold.
 """
 
 from __future__ import annotations
@@ -31,8 +30,8 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
-_MOST_DIMENSIONS = 32
-# What numpy raises on headers, which are Python literals, depending on where the damage is.
+_MAX_DIMENSIONS = 32
+# Errors that numpy raises on damaged headers, which are Python literals.
 _HEADER_DAMAGE = (
     ValueError, TypeError, LookupError, AttributeError, SyntaxError, OverflowError, TokenError,
     RecursionError, MemoryError,
@@ -54,7 +53,7 @@ def read_npy(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def write_npz(motion: Motion, path: Path) -> None:
-    """Leave all of a motion but its provenance in an npz archive."""
+    """Write all of a motion except its provenance to an npz archive."""
     skeleton = motion.skeleton
     arrays: dict[str, Any] = {
         "positions": motion.positions,
@@ -73,28 +72,26 @@ def write_npz(motion: Motion, path: Path) -> None:
 
 
 def read_arrays(content: FileContent) -> dict[str, Array]:
-    """Return the arrays of an npz by name.
+    """Return the arrays of an npz by name; skip those of objects.
 
-    Those of another kind than numbers or text are passed over.
-
-    ReadError where it is damaged, or claims to hold much more than it can.
+    Raise ReadError if the archive is damaged, or claims to hold much more than it can.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content.data)) as archive:
             infos = archive.infolist()
             size = sum(info.file_size for info in infos)
             content.require_memory(size, f"to unpack to {size / 1e6:.0f} MB")
-            found = {}
+            arrays = {}
             for info in infos:
                 data = archive.read(info)
                 if not _is_pickled(data):
                     name = info.filename.removesuffix(".npy")
-                    found[name] = _parse_array(content, data, name)
+                    arrays[name] = _parse_array(content, data, name)
     except (zipfile.BadZipFile, zlib.error, LZMAError, OSError, EOFError, ValueError) as error:
         raise content.error(f"is no whole npz archive: {error}") from error
     except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
         raise content.error(f"its archive cannot be read: {error}") from error
-    return found
+    return arrays
 
 
 def _is_pickled(data: bytes) -> bool:
@@ -102,24 +99,26 @@ def _is_pickled(data: bytes) -> bool:
 
 
 def _parse_array(content: FileContent, data: bytes, name: str) -> Array:
-    """Return the array that npy bytes hold, a view of them."""
+    """Return the array in the bytes of an npy, as a view of them."""
     file = io.BytesIO(data)
     try:
-        first = npy_format.read_magic(file) == (1, 0)
-        header = npy_format.read_array_header_1_0 if first else npy_format.read_array_header_2_0
+        is_version_1 = npy_format.read_magic(file) == (1, 0)
+        header = (
+            npy_format.read_array_header_1_0 if is_version_1 else npy_format.read_array_header_2_0
+        )
         with catch_warnings(action="ignore"):  # of headers from Python 2
-            shape, fortran, kind = header(file)
-        if kind.hasobject:
+            shape, fortran, dtype = header(file)
+        if dtype.hasobject:
             raise content.error(f"{name} holds pickled objects, which are not read")
-        if len(shape) > _MOST_DIMENSIONS:
+        if len(shape) > _MAX_DIMENSIONS:
             raise content.error(f"{name} has {len(shape)} dimensions, more than any recording")
         count = int(np.prod(shape, dtype=object))
         # The header may claim more than the file holds.
-        if count < 0 or count * kind.itemsize > len(data) - file.tell():
+        if count < 0 or count * dtype.itemsize > len(data) - file.tell():
             raise content.error(f"{name} claims shape {shape}, more than the file holds")
-        if count == 0 or kind.itemsize == 0:
+        if count == 0 or dtype.itemsize == 0:
             return np.empty(0)
-        flat = np.frombuffer(data, kind, count, file.tell())
+        flat = np.frombuffer(data, dtype, count, file.tell())
     except _HEADER_DAMAGE as error:
         raise content.error(f"{name} is no npy array: {shorten_error(error)}") from error
     return flat.reshape(shape, order="F" if fortran else "C")

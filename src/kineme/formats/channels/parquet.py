@@ -1,4 +1,4 @@
-"""Parquet tables: opened without reading them, and their columns as channels."""
+"""Open Parquet tables without reading them, and read their columns as channels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from kineme.recordings.times import is_timing
 
 
 def open_parquet(content: FileContent) -> Any:
-    """A `pyarrow.parquet.ParquetFile`, opened but not read; ReadError where it is damaged."""
+    """Return a `pyarrow.parquet.ParquetFile`, not yet read; raise ReadError if it is damaged."""
     with require_extra("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import parquet
@@ -36,19 +36,19 @@ def open_parquet(content: FileContent) -> Any:
 
 
 def read_parquet_columns(content: FileContent, file: Any, columns: Sequence[str]) -> Any:
-    """Columns of a Parquet file as a table, none larger than the file can honestly hold.
+    """Return columns of a Parquet file as a table, if the file can plausibly hold that much.
 
-    Texts are first read as the file keeps them, each different one once, and weighed:
+    Texts are first read as dictionaries of distinct values, and their expanded size is estimated:
     ten kilobytes can repeat a long text for gigabytes.
     """
     import pyarrow as pa
     from pyarrow import parquet
 
     texts = [field.name for field in file.schema_arrow if _is_text(field.type)]
-    try:  # the metadata of single columns, where damaged, would end the process: not asked
+    try:  # without the metadata of columns: if damaged, it ends the process
         if texts:
             file = parquet.ParquetFile(pa.BufferReader(content.data), read_dictionary=texts)
-        # A thread that lets go of the bytes while Python ends would make it abort.
+        # A thread that releases the bytes while Python exits would abort the process.
         table = file.read(columns=list(columns), use_threads=False)
         content.require_memory(
             sum(map(_estimate_expanded_size, table.columns)), "texts that repeat"
@@ -68,13 +68,13 @@ def read_parquet_columns(content: FileContent, file: Any, columns: Sequence[str]
 def read_parquet_channels(
     content: FileContent, file: Any, columns: Sequence[str] | None
 ) -> ChannelTable:
-    """Return channels of a Parquet file: those named, in this order, or all that hold numbers."""
+    """Return the named channels of a Parquet file in this order, or all columns of numbers."""
     import pyarrow as pa
 
     names = make_unique_names(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
     numbers = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
-    dates = (*numbers, pa.types.is_timestamp, pa.types.is_string)  # which may hold them
+    dates = (*numbers, pa.types.is_timestamp, pa.types.is_string)  # types that may hold dates
     numeric = [
         name
         for name in names
@@ -104,7 +104,7 @@ def _is_text(kind: Any) -> bool:
 
 
 def _estimate_expanded_size(column: Any) -> int:
-    """Bytes of a column, with every row's text by itself."""
+    """Return the bytes of a column with the text of every row stored separately."""
     import pyarrow.compute as pc
     from pyarrow import types
 

@@ -1,18 +1,17 @@
-"""From columns of numbers to signals: their rate, their holes, and what was inferred.
+"""Convert columns of numbers to signals: find their rate, fill gaps, and note what was inferred.
 
 ============== ==================================================================
-CSV, TSV, text names in the first line, or numbers only (channels 1, 2, …);
-               between commas, tabs, semicolons or blanks
+CSV, TSV, text names in the first line, or only numbers (channels 1, 2, …);
+               separated by commas, tabs, semicolons or blanks
 Parquet        one channel per column
 MOT, STO       OpenSim's coordinates, forces or other channels
-C3D            the analog channels, or those of muscles, see `kineme.formats.markers.c3d`
-MAT            vectors, and columns of matrices, of the length that most have
+C3D            all analog channels, or the muscles', see `kineme.formats.markers.c3d`
+MAT            vectors and columns of matrices that have the most frequent length
 ============== ==================================================================
 
-The frame rate comes from the file (its own, or a column ``time``, ``time_ms``
-or ``fps``, see `kineme.formats.columns`) or from the user. Columns that count
-rows, and those that do not hold numbers, are no channels; this is said. Rows become
-frames as `kineme.recordings.regular` says.
+The frame rate comes from the file (its header, or a column ``time``, ``time_ms`` or ``fps``, see
+`kineme.formats.columns`) or from the user. Columns that count rows or hold no numbers are not
+channels; a note lists them. `kineme.recordings.regular` converts rows to frames.
 """
 
 from __future__ import annotations
@@ -35,44 +34,41 @@ from kineme.recordings.channel_names import is_channel_name
 from kineme.recordings.regular import Timing, fill_gaps_in_channels
 from kineme.recordings.times import NO_TIMES, name_clock
 
-WILD = frozenset("*?[")
-"""Characters by which a pattern is told from a name."""
+WILDCARDS = frozenset("*?[")
+"""Characters that distinguish a pattern from a name."""
 
-CLOCK_ROWS = 200
-"""Rows from which on a column that rises evenly is a clock or a count, and no channel."""
+MIN_CLOCK_ROWS = 200
+"""Minimum number of rows of an evenly rising column that counts as a clock or counter."""
 
 
 @dataclass(frozen=True)
 class ChannelTable:
-    """Columns of numbers, with what tells their rate."""
+    """Columns of numbers, and columns that define their rate."""
 
     names: list[str]  # of the channels
-    values: Floats  # (rows, channels), NaN where there is nothing
-    timing: Mapping[str, ArrayLike]  # columns that tell times or a rate
+    values: Floats  # (rows, channels), NaN where missing
+    timing: Mapping[str, ArrayLike]  # columns of times or rates
     rate: float | None = None  # the file's own
-    notes: tuple[str, ...] = ()  # on what was left out
-    hint: str = ""  # on what may tell the rate, where nothing does
-    nominal: float | None = None  # what a header says beside times
+    notes: tuple[str, ...] = ()  # on skipped columns
+    hint: str = ""  # on columns that may be times, if the rate is unknown
+    nominal: float | None = None  # rate in a header, next to columns of times
 
-    def timed(self, content: FileContent, fps: float | None) -> Timing:
-        """Return frames per second, and the frame of each row."""
+    def find_timing(self, content: FileContent, fps: float | None) -> Timing:
+        """Return frames per second and the frame of each row."""
         if fps or self.rate:
             return Timing(fps or self.rate or 0.0)
         if not self.timing:
             raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
         timing = find_table_timing(content, self.timing, values=self.values)
-        # times rounded to milliseconds miss the rate by a little
+        # Times rounded to milliseconds deviate slightly from the nominal rate.
         nominal = self.nominal or 0.0
-        near = abs(timing.fps - nominal) <= 0.005 * nominal
-        return replace(timing, fps=nominal) if near and timing.order is None else timing
+        is_near = abs(timing.fps - nominal) <= 0.005 * nominal
+        return replace(timing, fps=nominal) if is_near and timing.order is None else timing
 
 
 def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float | None) -> Signals:
-    """Return the signals in a table of channels.
-
-    ``fps`` stands in place of what the table tells.
-    """
-    timing = table.timed(content, fps)
+    """Return the signals in a table of channels; ``fps`` overrides the table's rate."""
+    timing = table.find_timing(content, fps)
     try:
         values, gaps, filled = fill_gaps_in_channels(timing, table.values, table.names)
     except ParameterError as error:
@@ -83,16 +79,16 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 
 
 def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
-    """Return the channels of a text table: those named, in this order, or all that hold numbers."""
-    text = text.numbered()
+    """Return the named channels of a text table in this order, or all columns of numbers."""
+    text = text.number_columns()
     text.refuse_interleaved()
-    names, numeric, times = list(text.names), text.numeric(), text.times
+    names, numeric, times = list(text.names), text.find_numeric_columns(), text.times
     columns = select_columns(text.content, names, columns, numeric, times)
     chosen = list_needed_columns(columns, numeric, times or list(filter(name_clock, numeric)))
-    places = {name: i for i, name in enumerate(names)}  # each is there once
+    places = {name: i for i, name in enumerate(names)}
     values = text.numbers([places[name] for name in chosen])
-    read = dict(zip(chosen, values.T, strict=True))
-    table = make_channel_table(text.content, names, read, columns, times)
+    columns_by_name = dict(zip(chosen, values.T, strict=True))
+    table = make_channel_table(text.content, names, columns_by_name, columns, times)
     notes = (*text.remarks, *table.notes)
     if times or text.rate is None:
         return replace(table, notes=notes, nominal=text.rate)
@@ -102,13 +98,13 @@ def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Ch
 def choose_channels(
     content: FileContent, signals: Signals, columns: Sequence[str] | None
 ) -> Signals:
-    """Return those of a file's signals that are asked for, in this order; None for all."""
+    """Return the requested signals of a file in this order, or all if ``columns`` is None."""
     names = select_columns(content, signals.names, columns, signals.names)
     return signals if names is None else signals.select(names)
 
 
 def describe_header_rate(rate: float) -> str:
-    """Return the note on a rate that stands above the names of a table."""
+    """Return a note on a rate in a line above the table."""
     return f"{rate:g} Hz, as a line above the columns says"
 
 
@@ -119,37 +115,37 @@ def select_columns(
     numeric: Sequence[str],
     times: Container[str] = (),
 ) -> list[str] | None:
-    """Return the columns that are asked for, in this order; None for all.
+    """Return the requested columns in this order; None stands for all.
 
-    A name is that column. ``acc_*`` and ``gyr_?`` are all columns of numbers that they fit, in
-    the order of the file, but for times; capitals and small letters are the same.
+    A name selects that column. ``acc_*`` and ``gyr_?`` select all matching columns of numbers,
+    except times, in the order of the file; case is ignored.
     """
     if columns is None:
         return None
     present = set(names)
-    plain = [name for name in columns if name in present]
-    if len(set(plain)) < len(plain):
+    exact = [name for name in columns if name in present]
+    if len(set(exact)) < len(exact):
         raise content.error("a column is asked for twice")
-    found: dict[str, None] = {}
+    selected: dict[str, None] = {}
     for pattern in columns:
         if pattern in present:
-            found[pattern] = None
+            selected[pattern] = None
             continue
-        fitting = [
+        matches = [
             name
             for name in numeric
             if fnmatchcase(name.lower(), pattern.lower()) and name not in times
         ]
-        if not (fitting and WILD & set(pattern)):
+        if not (matches and WILDCARDS & set(pattern)):
             raise content.error(f"no column {pattern!r}; there are {', '.join(names)}")
-        found |= dict.fromkeys(fitting)
-    return list(found)
+        selected |= dict.fromkeys(matches)
+    return list(selected)
 
 
 def list_needed_columns(
     names: Sequence[str] | None, numeric: Iterable[str], times: Container[str] = ()
 ) -> list[str]:
-    """Return the columns to read: those asked for, or all that hold numbers, and those of times."""
+    """Return the columns to read: those requested, or all of numbers, plus the columns of times."""
     timing = [name for name in numeric if name in times]
     chosen = numeric if names is None else names
     return [*dict.fromkeys([*chosen, *timing])]
@@ -162,16 +158,16 @@ def make_channel_table(
     columns: Sequence[str] | None,
     times: Mapping[str, str],
 ) -> ChannelTable:
-    """Return the columns read, taken apart: channels, times, and a note of what is neither.
+    """Split the columns that were read into channels and times, and note the remaining ones.
 
-    ``times`` are the columns that tell times or a rate, and how `find_table_timing` knows them.
+    ``times`` maps columns of times or rates to the names that `find_table_timing` knows.
     """
     timing = {times[name]: column for name, column in values.items() if name in times}
     hints = [f"; {name!r} {NO_TIMES}" for name in times if name not in values]
     if not times:
         clocks = (name for name in values if name_clock(name) and _is_mostly_rising(values[name]))
         times = {name: name_clock(name) or "" for name in islice(clocks, 1)}
-        timing = {called: values[name] for name, called in times.items()}
+        timing = {time_name: values[name] for name, time_name in times.items()}
     if columns is not None:
         chosen, notes = list(columns), []
     else:
@@ -184,8 +180,8 @@ def make_channel_table(
                 f"; {name!r} rises by {_measure_step(values[name]):g} a row" for name in rising
             ]
         used = {*chosen, *times}
-        left = [name for name in names if name not in used]
-        notes = [f"columns that are no channels: {', '.join(left)}"] if left else []
+        unused = [name for name in names if name not in used]
+        notes = [f"columns that are no channels: {', '.join(unused)}"] if unused else []
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
     channels = np.column_stack([values[name] for name in chosen])
@@ -197,19 +193,19 @@ def _may_be_channel(name: str) -> bool:
 
 
 def _is_clock(values: Floats) -> bool:
-    """Return whether a column rises all the time, by a step from a straight line at most.
+    """Return whether a column always rises and deviates by at most one step from a straight line.
 
-    So do times and counts under names that nobody knows, and no sensor.
+    Times and counters do so, whatever their names; sensors do not.
     """
-    if len(values) < CLOCK_ROWS or not (np.diff(values) > 0).all():
+    if len(values) < MIN_CLOCK_ROWS or not (np.diff(values) > 0).all():
         return False
     line = values[0] + _measure_step(values) * np.arange(len(values))
     return bool(np.abs(values - line).max() <= _measure_step(values))
 
 
 def _is_mostly_rising(values: Floats) -> bool:
-    """Return whether a column rises as clocks do, be it with holes or set now and then."""
-    return len(values) >= CLOCK_ROWS and bool((np.diff(values) > 0).mean() > 0.9)
+    """Return whether a column rises like a clock, possibly with gaps or jumps."""
+    return len(values) >= MIN_CLOCK_ROWS and bool((np.diff(values) > 0).mean() > 0.9)
 
 
 def _measure_step(values: Floats) -> float:

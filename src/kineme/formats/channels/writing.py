@@ -1,11 +1,10 @@
-"""Signals to files: rows of the file that they came from, to the last digit, or their values.
+"""Write signals to files: as rows copied from their source file, or as formatted values.
 
-Where the file of a recording still holds what was read, its own rows are written: every
-column, channel or not, in the file's format and with its cells untouched. Elsewhere (channels
-of a C3D or MAT, arrays, channels that were changed or brought to even times) a CSV is, of
-``time`` in seconds and one column per channel, empty in gaps. Where the columns of a file do not
-tell the rate that the recording has, as when people gave it, or one row alone tells none, a column
-``fps`` does, so that everything that is written is read again as it was.
+If the source file still holds the signals, its rows are copied: all columns, including those that
+are no channels, in the file's format and unchanged. Otherwise (channels of a C3D or MAT, arrays,
+changed or resampled channels) a CSV is written with ``time`` in seconds and one column per channel,
+empty in gaps. If the columns do not define the recording's rate, because the user gave it or there
+is only one row, a column ``fps`` is added. Files therefore read back unchanged.
 """
 
 from __future__ import annotations
@@ -36,18 +35,20 @@ from kineme.recordings import Signals
 from kineme.recordings.times import RATE, is_rate, is_timing
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
+"""Separators of text tables by suffix."""
 TEXT = ("table", "MOT/STO")
 PARQUET = "Parquet table"
 
+# Number of rows in the header of MOT and STO files, which changes if rows are cut.
 _ROW_COUNT = re.compile(r"^(\s*(?:nrows\s*=|datarows\s)\s*)\d+", re.IGNORECASE | re.MULTILINE)
 
 
 def write_signals(
     signals: Signals, path: str | PathLike[str], *, columns: Sequence[str] | None = None
 ) -> None:
-    """Leave signals in a file of their own format, a CSV, TSV or Parquet, whole or not at all.
+    """Write signals atomically to their original format, a CSV, TSV or Parquet.
 
-    Of columns that are given, these alone and those of times.
+    ``columns`` restricts the output to these columns and those of times.
     """
     target, rows = Path(path), make_rows(signals)
     suffix = target.suffix.lower()
@@ -56,7 +57,7 @@ def write_signals(
     elif suffix in SEPARATORS:
         _convert_rows(rows, suffix, columns).write(target)
     elif suffix == ".parquet":
-        _ParquetRows.of_values(signals).write(target)
+        _ParquetRows.from_values(signals).write(target)
     else:
         suffixes = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
         original = Path(signals.provenance.path or "").suffix.lower()
@@ -67,29 +68,34 @@ def write_signals(
 
 
 def make_rows(signals: Signals, *, shortest: int | None = None) -> Rows:
-    """Return the frames of signals as rows of their own file, or of a CSV where these are others.
+    """Return the frames of signals as rows of their source file, or else as rows of a CSV.
 
-    ``shortest`` is how many rows are written at once at least; all by default.
+    ``shortest`` is the smallest number of rows written to one file; all by default.
     """
-    alone = min(signals.n_frames, shortest or signals.n_frames) < 2
+    # A single row has no step between times, so it needs a column of the rate.
+    may_be_single = min(signals.n_frames, shortest or signals.n_frames) < 2
     path = signals.provenance.path
     if path is not None and Path(path).is_file():
         content = load(path)
-        same = content.digest == signals.provenance.sha256
-        table = _find_source_table(content, signals) if same else None
+        is_unchanged = content.digest == signals.provenance.sha256
+        table = _find_source_table(content, signals) if is_unchanged else None
         if table is not None:
-            fps = None if not alone and _has_rate(table, content, signals.fps) else signals.fps
+            fps = (
+                None
+                if not may_be_single and _has_rate(table, content, signals.fps)
+                else signals.fps
+            )
             if signals.provenance.format == PARQUET:
-                return _ParquetRows.of(content, fps)
-            rows = _TextRows.of(content, signals.n_frames)
+                return _ParquetRows.from_file(content, fps)
+            rows = _TextRows.from_file(content, signals.n_frames)
             return rows if fps is None else _add_rate_column(rows, fps)
     rows = _format_values(signals)
-    return _add_rate_column(rows, signals.fps) if alone else rows
+    return _add_rate_column(rows, signals.fps) if may_be_single else rows
 
 
 @dataclass(frozen=True)
 class _TextRows:
-    """Lines of a text table as they stand, and the same lines for a csv reader (``records``)."""
+    """Unchanged lines of a text table; ``records`` are the same lines for a csv reader."""
 
     suffix: str
     names: Sequence[str] | None
@@ -97,35 +103,42 @@ class _TextRows:
     lines: Sequence[str]
     records: Sequence[str]
     separator: str
-    comma: bool = False
+    has_decimal_comma: bool = False
 
     @classmethod
-    def of(cls, content: FileContent, n_rows: int) -> _TextRows:
-        """Return the first rows of a file, blank lines left out."""
-        table = find_table(content).numbered()
+    def from_file(cls, content: FileContent, n_rows: int) -> _TextRows:
+        """Return the first rows of a file, without blank lines."""
+        table = find_table(content).number_columns()
         text = (
             content.text
             if content.is_utf16
-            else content.data.decode("utf-8", errors="surrogateescape")
+            else content.data.decode("utf-8", errors="surrogateescape")  # keeps all bytes
         )
         lines = text.splitlines(keepends=True)
-        head, below = lines[: table.below], lines[table.below :]
+        head, below = lines[: table.first_row], lines[table.first_row :]
+        # A quoted cell may span several lines, which belong to one row.
         reader = csv.reader(table.rows, delimiter=table.separator)
-        kept: list[str] = []
+        rows: list[str] = []
         start = 0
         for cells in reader:
             if any(map(str.strip, cells)):
-                kept.append("".join(below[start : reader.line_num]))
+                rows.append("".join(below[start : reader.line_num]))
             start = reader.line_num
         numbered = [str(i) for i in range(1, len(table.names) + 1)]
         names = None if table.names == numbered else table.names
         suffix = content.path.suffix.lower()
         return cls(
-            suffix, names, "".join(head), kept[:n_rows], table.rows, table.separator, table.comma
+            suffix,
+            names,
+            "".join(head),
+            rows[:n_rows],
+            table.rows,
+            table.separator,
+            table.has_decimal_comma,
         )
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
-        """Leave rows [start, stop) in a file of the suffix, whole or not at all."""
+        """Write rows [start, stop) atomically to a file."""
         lines = self.lines[start:stop]
         head = _ROW_COUNT.sub(rf"\g<1>{len(lines)}", self.head)
         text = "".join((head, *lines))
@@ -135,34 +148,37 @@ class _TextRows:
     def cells(self) -> Iterator[Sequence[str]]:
         """Yield the cells of each row."""
         reader = csv.reader(self.records, delimiter=self.separator)
-        full = (cells for cells in reader if any(map(str.strip, cells)))
-        as_read = ([*map(replace_decimal_comma, cells)] if self.comma else cells for cells in full)
-        return islice(as_read, len(self.lines))
+        filled = (cells for cells in reader if any(map(str.strip, cells)))
+        converted = (
+            [*map(replace_decimal_comma, cells)] if self.has_decimal_comma else cells
+            for cells in filled
+        )
+        return islice(converted, len(self.lines))
 
 
 @dataclass(frozen=True)
 class _ParquetRows:
-    """An Arrow table."""
+    """Rows of an Arrow table."""
 
     names: Sequence[str]
     table: Any
     suffix: str = ".parquet"
 
     @classmethod
-    def of(cls, content: FileContent, fps: float | None) -> _ParquetRows:
-        """Return all of a file, with a column of the rate where one is given."""
+    def from_file(cls, content: FileContent, fps: float | None) -> _ParquetRows:
+        """Return all rows of a file, with a column of the rate if ``fps`` is given."""
         table = open_parquet(content).read()
         if fps is not None:
             import pyarrow as pa
 
-            timeless = [name for name in table.column_names if not is_rate(name)]
+            names = [name for name in table.column_names if not is_rate(name)]
             rates = pa.array([fps] * table.num_rows, pa.float64())
-            table = table.select(timeless).add_column(0, RATE, rates)
+            table = table.select(names).add_column(0, RATE, rates)
         return cls(make_unique_names(table.column_names), table)
 
     @classmethod
-    def of_values(cls, signals: Signals) -> _ParquetRows:
-        """Times and channels, null in gaps."""
+    def from_values(cls, signals: Signals) -> _ParquetRows:
+        """Return times and channels, null in gaps."""
         with require_extra("pyarrow", "tables"):
             import pyarrow as pa
         missing = mark_spans(signals.gaps, signals.n_frames)
@@ -187,14 +203,11 @@ class _ParquetRows:
 
 
 Rows = _TextRows | _ParquetRows
-"""Frames of a recording as rows of a file; ``names`` is None where the file has none."""
+"""Frames of a recording as rows of a file; ``names`` is None if the file has no names."""
 
 
 def _find_source_table(content: FileContent, signals: Signals) -> ChannelTable | None:
-    """Return the table on disk whose rows are the frames of signals, holes aside.
-
-    None for another.
-    """
+    """Return the table in a file if its rows are the frames of the signals, apart from gaps."""
     try:
         if signals.provenance.format == PARQUET:
             table = read_parquet_channels(content, open_parquet(content), signals.names)
@@ -202,35 +215,36 @@ def _find_source_table(content: FileContent, signals: Signals) -> ChannelTable |
             table = read_text_channels(find_table(content), signals.names)
         else:
             return None
-    except ReadError:  # channels of other names
+    except ReadError:  # the file has other channels
         return None
     values = table.values
     if values.shape != signals.values.shape:
         return None
-    same = ((values == signals.values) | ~np.isfinite(values)).all()
-    return table if same else None
+    # Gaps were filled on reading, so values that are missing in the file may differ.
+    is_equal = ((values == signals.values) | ~np.isfinite(values)).all()
+    return table if is_equal else None
 
 
 def _has_rate(table: ChannelTable, content: FileContent, fps: float) -> bool:
-    """Return whether a table says by itself that it is of this rate."""
+    """Return whether a table itself defines this rate."""
     try:
-        return isclose(table.timed(content, None).fps, fps)
+        return isclose(table.find_timing(content, None).fps, fps)
     except ReadError:
         return False
 
 
 def _add_rate_column(rows: _TextRows, fps: float) -> _TextRows:
-    """Return the cells of rows as a CSV or TSV, below a rate in place of any of their own."""
+    """Return the cells of rows as a CSV or TSV, with a column of the rate instead of their own."""
     numbered = (str(i) for i in range(1, len(next(rows.cells(), ())) + 1))
     names = list(rows.names or numbered)
-    at = [i for i, name in enumerate(names) if not is_rate(name)]
+    indices = [i for i, name in enumerate(names) if not is_rate(name)]
     suffix = rows.suffix if rows.suffix in SEPARATORS else ".csv"
-    cells = ([repr(float(fps)), *(row[i] for i in at)] for row in rows.cells())
-    return _format_rows(suffix, [RATE, *(names[i] for i in at)], cells)
+    cells = ([repr(float(fps)), *(row[i] for i in indices)] for row in rows.cells())
+    return _format_rows(suffix, [RATE, *(names[i] for i in indices)], cells)
 
 
 def _format_values(signals: Signals) -> _TextRows:
-    """Times and channels as a CSV that reads back to the same numbers."""
+    """Return times and channels as a CSV that reads back to the same numbers."""
     missing = mark_spans(signals.gaps, signals.n_frames)
     empty = [""] * signals.n_channels
     rows = (
@@ -241,17 +255,17 @@ def _format_values(signals: Signals) -> _TextRows:
 
 
 def _convert_rows(rows: Rows, suffix: str, columns: Sequence[str] | None) -> _TextRows:
-    """Return same cells between commas or tabs: all of them, or some columns and those of times."""
+    """Return cells separated by commas or tabs: all columns, or some and those of times."""
     names = rows.names
     if columns is None:
         return _format_rows(suffix, names, rows.cells())
     if names is None:
-        at = [int(name) - 1 for name in columns]
+        indices = [int(name) - 1 for name in columns]
     else:
         timing = [name for name in names if is_timing(name) and name not in columns]
-        at = [names.index(name) for name in (*timing, *columns)]
-        names = [names[i] for i in at]
-    return _format_rows(suffix, names, ([cells[i] for i in at] for cells in rows.cells()))
+        indices = [names.index(name) for name in (*timing, *columns)]
+        names = [names[i] for i in indices]
+    return _format_rows(suffix, names, ([cells[i] for i in indices] for cells in rows.cells()))
 
 
 def _format_rows(

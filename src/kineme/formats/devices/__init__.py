@@ -1,7 +1,7 @@
-"""Declare how a device lays out its table: the line of names, the clock, the rate, the counters.
+"""Describe the layout of a device's table: line of names, clock, rate, counters.
 
-A device is one module of this folder that ends in one `Dialect`, ``DIALECT``. Its ``layout`` is a
-`Layout`, or a function from table to table where patterns do not say it all.
+Each device is a module of this folder that defines a `Dialect` named ``DIALECT``. Its ``layout`` is
+a `Layout`, or a function from table to table if patterns are not sufficient.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from itertools import islice
 
 from kineme.formats.delimited import DelimitedText, find_separator, make_unique_names
 from kineme.formats.sniffing import (
-    HIGHEST,
+    MAX_HEADER_LINES,
     SEPARATOR,
     is_row,
     is_text_line,
@@ -25,7 +25,7 @@ Recognise = Callable[[Sequence[str], Sequence[str]], bool]
 
 
 def begins_with(pattern: str, *, within: int = 1) -> Recognise:
-    """Return a test of whether one of the first lines of a file begins as a pattern.
+    """Return a test of whether one of the first lines of a file starts with a pattern.
 
     Blank lines and the ``sep=;`` of spreadsheets do not count.
 
@@ -45,23 +45,23 @@ def begins_with(pattern: str, *, within: int = 1) -> Recognise:
 
 @dataclass(frozen=True)
 class Layout:
-    r"""Where a device's table stands in its file, and what the columns are.
+    r"""The position of a device's table in its file, and the meaning of its columns.
 
     Parameters
     ----------
     head : str
-        Pattern that the line of names, or the first row, begins with; by default the first line.
+        Pattern at the start of the line of names or the first row; by default the first line.
     names : sequence of str
-        Of the columns, where a row stands in place of the line of names.
+        Names of the columns, if the file has no line of names.
     words : int
-        Lines between names and rows, such as units.
+        Number of lines between names and rows, such as units.
     clocks : mapping of str to str
-        From patterns of the name of the column of times to its unit, "" for dates. The first that
-        a column has counts.
+        Patterns of the name of the column of times, and its unit ("" for dates). The first pattern
+        that matches a column is used.
     rate : str
-        Pattern whose group is the frame rate, anywhere in the lines above the names.
+        Pattern whose group is the frame rate, searched in the lines above the names.
     hidden : str
-        Pattern of names of columns that are channels only if they are asked for, such as counters.
+        Pattern of names of columns that are channels only if requested, such as counters.
 
     Examples
     --------
@@ -71,7 +71,7 @@ class Layout:
     >>> watch = Layout(head="t,", clocks={"t": "ms"}, rate=r"at (\d+) Hz", hidden="battery")
     >>> text = sniff(FileContent(Path("a.csv"), b"MyWatch at 50 Hz\nt,x,battery\n0,1.5,99\n"))
     >>> table = watch(text)
-    >>> table.rate, table.times, table.numeric()
+    >>> table.rate, table.times, table.find_numeric_columns()
     (50.0, {'t': 'time (ms)'}, ['t', 'x'])
     """
 
@@ -83,17 +83,18 @@ class Layout:
     hidden: str = ""
 
     def __call__(self, text: DelimitedText) -> DelimitedText:
-        """Return the table in the lines of a file; ReadError where its head is not there."""
-        lines, head = text.lines, self._head(text)
+        """Return the table in the lines of a file; raise ReadError if its head is missing."""
+        lines, head = text.lines, self._find_head(text)
         separator = find_separator(lines[head])
-        # names and rows may end in one more separator
+        # Names and rows may end with an additional separator.
         cells = split_head(text.content, lines[head].rstrip(f"{separator} "), "", separator)
         below = head + 1 + self.words
+        # Without a line of names the first row is in its place.
         if has_no_names := bool(self.names) and is_row(cells):
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
             cells, below = [*self.names, *numbered][: len(cells)], head
         names = make_unique_names(cells)
-        clocks = self._clocks(names)
+        clocks = self._find_clocks(names)
         hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
         passed = sum(map(is_text_line, lines[:head]))
         return DelimitedText(
@@ -103,26 +104,26 @@ class Layout:
             head,
             below,
             separator,
-            rate=self._rate(lines[:head]),
+            rate=self._find_rate(lines[:head]),
             notes=note_skipped_lines(passed, "rows" if has_no_names else "names"),
             hidden=frozenset(hidden - clocks.keys()),
             clocks=clocks,
         )
 
-    def _head(self, text: DelimitedText) -> int:
-        for i, line in enumerate(islice(text.lines, HIGHEST)):
+    def _find_head(self, text: DelimitedText) -> int:
+        for i, line in enumerate(islice(text.lines, MAX_HEADER_LINES)):
             if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
                 return i
         raise text.content.error("has no line of names where its device writes one")
 
-    def _clocks(self, names: Sequence[str]) -> dict[str, str]:
+    def _find_clocks(self, names: Sequence[str]) -> dict[str, str]:
         for pattern, unit in self.clocks.items():
             for name in names:
                 if re.fullmatch(pattern, name):
                     return {name: unit}
         return {}
 
-    def _rate(self, lines: Sequence[str]) -> float | None:
+    def _find_rate(self, lines: Sequence[str]) -> float | None:
         matches = (re.search(self.rate, line) for line in lines if self.rate)
         rates = (float(match[1]) for match in matches if match)
         return next((rate for rate in rates if rate > 0), None)

@@ -1,4 +1,4 @@
-"""Axivity: acceleration in g as OmGui exports it, with names or without, at dates."""
+"""Read Axivity: acceleration in g exported by OmGui, with or without names, at dates."""
 
 from __future__ import annotations
 

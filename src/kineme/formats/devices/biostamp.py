@@ -1,4 +1,4 @@
-"""BioStamp (MC10): one file a sensor, times in milli- or microseconds since 1970."""
+"""Read BioStamp (MC10): one file per sensor, times in milli- or microseconds since 1970."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Delsys Trigno: channels stand behind columns of their own times, each at a rate of its own.
+"""Read Delsys Trigno: channels follow their own columns of times, each at its own rate.
 
 EMGworks writes ``X[s],"biceps: EMG 1 [Volts]",X[s],"biceps: ACC X [g]"``. Trigno Discover writes
 names such as ``EMG 1 Time Series (s),EMG 1 (mV)`` below lines of sensors and their modes. Slower
-channels end in empty cells or zeros. All are interpolated at the times of the fastest.
+channels end with empty cells or zeros. All channels are interpolated at the times of the fastest.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from kineme.recordings import Signals
 
 _TIME = r'"?(?:X ?\[s\]|[^,;\t]*Time Series \(s\))'
 _EMG = re.compile(r"\bEMG\b")
-_NUMBER = re.compile(r" *\(\d+\)$")  # of a sensor
+_NUMBER = re.compile(r" *\(\d+\)$")  # number of a sensor
 
 
 def read(text: DelimitedText, options: ReadOptions) -> Signals:
-    """Return all channels at the rate of the fastest, or those of muscles with ``emg``."""
+    """Return all channels at the rate of the fastest, or with ``emg`` those of muscles."""
     content, table = text.content, Layout(head=_TIME)(text)
     is_time = [re.match(_TIME, name) is not None for name in table.names]
-    # each channel belongs to the last column of times on its left
+    # Each channel belongs to the nearest column of times on its left.
     clocks = [*accumulate((i if time else 0 for i, time in enumerate(is_time)), max)]
     names = make_unique_names(_prefix_sensors(table))
     chosen = [i for i, time in enumerate(is_time) if not time]
@@ -39,17 +39,17 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
         chosen = [i for i in chosen if _EMG.search(names[i])]
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
-    # Discover writes the rates between names and rows
+    # Discover writes the rates between names and rows.
     firsts = (split_cells(line, table.separator)[0] for line in table.rows)
-    words = next((i for i, first in enumerate(firsts) if is_number(first)), 0)
-    columns = replace(table, below=table.below + words).numbers().T
+    skipped = next((i for i, first in enumerate(firsts) if is_number(first)), 0)
+    columns = replace(table, first_row=table.first_row + skipped).numbers().T
     lengths = [_count_times(columns[clock]) for clock in clocks]
     fastest = max(chosen, key=lengths.__getitem__)
     times = columns[clocks[fastest], : lengths[fastest]]
     values = []
     for i in chosen:
-        at, known = columns[[clocks[i], i], : lengths[i]]
-        values.append(np.interp(times, at, known, left=np.nan, right=np.nan))
+        sample_times, samples = columns[[clocks[i], i], : lengths[i]]
+        values.append(np.interp(times, sample_times, samples, left=np.nan, right=np.nan))
     slower = sum(lengths[i] < len(times) for i in chosen)
     notes = (f"{format_count(slower, 'slower channel')} interpolated",) if slower else ()
     timing = {"time (s)": times}
@@ -58,12 +58,12 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
 
 
 def _prefix_sensors(table: DelimitedText) -> list[str]:
-    """Return the names of columns, with the sensor before them where a line above tells it."""
+    """Return the names of columns with the sensor's name in front, if a line above states it."""
     above = [line for line in table.lines[: table.head] if line.strip(f"{table.separator} ")]
     if len(above) < 2 or not above[-1].startswith("sensor mode"):
         return [*table.names]
     names = split_cells(table.lines[table.head], table.separator)[: len(table.names)]
-    # a sensor stands above the first of its columns
+    # Only the first column of a sensor has its name above.
     sensors = [_NUMBER.sub("", cell) for cell in split_cells(above[-2], table.separator)]
     filled: accumulate[str] = accumulate(
         chain(sensors, repeat("")), lambda sensor, cell: cell or sensor
@@ -72,7 +72,7 @@ def _prefix_sensors(table: DelimitedText) -> list[str]:
 
 
 def _count_times(times: Floats) -> int:
-    """Return how many times there are before those that are empty or do not rise."""
+    """Return the number of times before the first one that is empty or does not rise."""
     ends = np.flatnonzero(~(np.diff(times) > 0))
     return int(ends[0]) + 1 if len(ends) else len(times)
 

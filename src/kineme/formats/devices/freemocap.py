@@ -1,6 +1,6 @@
-"""FreeMoCap: joints by trajectory, ``body_nose_x``, …, in millimetres with z up.
+"""Read FreeMoCap: joints by trajectory, ``body_nose_x``, …, in millimetres with z up.
 
-The column ``timestamp`` counts nanoseconds from any beginning; in other versions it has seconds.
+The column ``timestamp`` holds nanoseconds from an arbitrary start, or seconds in other versions.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from kineme.recordings import Motion
 
 _BODY = "body_"
 _OTHERS = ("left_hand_", "right_hand_", "face_")
-_NANOSECONDS = 1e5  # a step of a clock at or above it is no number of seconds
+_MIN_NANOSECONDS = 1e5  # larger steps of a clock are nanoseconds, not seconds
 
 
 def recognises(names: Sequence[str], _: Sequence[str]) -> bool:
@@ -28,7 +28,7 @@ def recognises(names: Sequence[str], _: Sequence[str]) -> bool:
 
 
 def read(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Read the joints of the body; those of hands and face are left out."""
+    """Return the motion of the body's joints; those of hands and face are left out."""
     used = [
         i
         for i, name in enumerate(table.names)
@@ -40,11 +40,11 @@ def read(table: DelimitedText, options: ReadOptions) -> Motion:
     }
     times = columns.pop("timestamp")
     if not options.fps:
-        unit = "ns" if np.nanmedian(np.diff(times)) >= _NANOSECONDS else "s"
+        unit = "ns" if np.nanmedian(np.diff(times)) >= _MIN_NANOSECONDS else "s"
         columns[f"timestamp ({unit})"] = times
     options = replace(options, unit=options.unit or "mm", up=options.up or "z")
-    left = any(name.startswith(_OTHERS) for name in table.names)
-    notes = ["hands and face are left out"] if left else []
+    has_others = any(name.startswith(_OTHERS) for name in table.names)
+    notes = ["hands and face are left out"] if has_others else []
     return columns_to_motion(table.content, "FreeMoCap table", columns, options).noted(*notes)
 
 

@@ -1,4 +1,4 @@
-"""MetaMotion (MbientLab): one file a sensor, the same time in three columns."""
+"""Read MetaMotion (MbientLab): one file per sensor, with the same time in three columns."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""OpenSignals (BITalino, biosignalsplux): a header of JSON between lines of ``#``, then rows.
+"""Read OpenSignals (BITalino, biosignalsplux): a JSON header between lines of ``#``, then rows.
 
-The header tells the rate, the names of the columns, and which of them are sensors.
+The header states the rate, the names of the columns, and which of them are sensors.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from kineme.formats.dialects import Dialect
 
 
 def lay_out(text: DelimitedText) -> DelimitedText:
-    """Return the table, its columns called by label and sensor: ``A1 EMG``."""
+    """Return the table with columns named by label and sensor: ``A1 EMG``."""
     try:
         devices = [*json.loads(text.lines[1].lstrip("# ")).values()]
         rate = float(devices[0]["sampling rate"])
         sensors = {
             label: label if sensor in ("RAW", "") else f"{label} {sensor}"
-            for each in devices
-            for label, sensor in zip(each["label"], each["sensor"], strict=True)
+            for device in devices
+            for label, sensor in zip(device["label"], device["sensor"], strict=True)
         }
-        columns = [str(column) for each in devices for column in each["column"]]
+        columns = [str(column) for device in devices for column in device["column"]]
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise text.content.error(f"its header cannot be read: {error}", 2) from None
     names = [sensors.get(column, column) for column in columns]

@@ -1,4 +1,4 @@
-"""Phyphox: names between quotes with their unit, the time in seconds first."""
+"""Read phyphox: quoted names with their unit, the time in seconds first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sensor Logger (Android, iOS): one file a sensor, ``time`` in nanoseconds since 1970."""
+"""Read Sensor Logger (Android, iOS): one file per sensor, ``time`` in nanoseconds since 1970."""
 
 from __future__ import annotations
 

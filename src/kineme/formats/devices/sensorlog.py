@@ -1,4 +1,4 @@
-"""SensorLog (iOS): names such as ``accelerometerAccelerationX(G)``, each sensor with a clock."""
+"""Read SensorLog (iOS): names such as ``accelerometerAccelerationX(G)``, a clock per sensor."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Shimmer: Consensys writes a line of names and one of units, older programs four lines.
+"""Read Shimmer: Consensys writes a line of names and one of units, older programs four lines.
 
-The four are the device, the signal, whether it is calibrated, and the unit, for each column.
+For each column the four lines hold the device, the signal, whether it is calibrated, and the unit.
 """
 
 from __future__ import annotations
@@ -23,17 +23,19 @@ _recognise_kinds = begins_with(r"(?:CAL|RAW)[\t,;](?:CAL|RAW)\b", within=3)
 
 
 def lay_out(text: DelimitedText) -> DelimitedText:
-    """Return the table below two lines or four; several devices are part of the names."""
+    """Return the table below two or four lines; names include the device if there are several."""
     lines = text.lines
     if _recognise_names((), lines):
         return _CONSENSYS(text)
-    at = next(i for i, line in enumerate(lines) if line.startswith(("CAL", "RAW"))) - 1
-    separator = find_separator(lines[at])
-    devices, signals = (split_cells(line, separator) for line in lines[at - 1 : at + 1])
+    signal_line = next(i for i, line in enumerate(lines) if line.startswith(("CAL", "RAW"))) - 1
+    separator = find_separator(lines[signal_line])
+    devices, signals = (
+        split_cells(line, separator) for line in lines[signal_line - 1 : signal_line + 1]
+    )
     if len(set(filter(None, devices))) > 1:
         signals = [" ".join(pair) for pair in zip(devices, signals, strict=False)]
-    table = _FOUR_LINES(replace(text, lines=[separator.join(signals), *lines[at + 1 :]]))
-    return replace(table, lines=lines, head=at, below=at + table.below)
+    table = _FOUR_LINES(replace(text, lines=[separator.join(signals), *lines[signal_line + 1 :]]))
+    return replace(table, lines=lines, head=signal_line, first_row=signal_line + table.first_row)
 
 
 DIALECT = Dialect(

@@ -1,4 +1,4 @@
-"""Xsens DOT, Movella DOT: lines on the sensor, ``OutputRate:,60Hz`` among them, then the table."""
+"""Read Xsens DOT, Movella DOT: lines on the sensor with ``OutputRate:,60Hz``, then the table."""
 
 from __future__ import annotations
 

@@ -1,17 +1,17 @@
-"""Xsens MT Manager and MTw Awinda: text exports of one motion tracker.
+"""Read Xsens MT Manager and MTw Awinda: text exports of one motion tracker.
 
-Lines that begin with ``//`` tell the rate. Columns of counters and clocks may be empty, and some
-tell fields of a date: none of them is a channel or tells the time.
+Lines that start with ``//`` state the rate. Columns of counters and clocks may be empty, and others
+hold parts of a date: none of them is a channel or a usable time.
 """
 
 from __future__ import annotations
 
 from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
-from kineme.formats.sniffing import HIGHEST
+from kineme.formats.sniffing import MAX_HEADER_LINES
 
 _has_comments = begins_with("//")
-_has_counter = begins_with(r'"?(?:Packet)?Counter\b', within=HIGHEST)
+_has_counter = begins_with(r'"?(?:Packet)?Counter\b', within=MAX_HEADER_LINES)
 
 DIALECT = Dialect(
     "Xsens MT Manager",

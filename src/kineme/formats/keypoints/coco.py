@@ -1,14 +1,13 @@
-"""COCO keypoints in JSON: a data set with ``annotations``, or the list of a detector's results.
+"""Read COCO keypoints in JSON: a data set with ``annotations``, or a list of detection results.
 
-Each entry has ``image_id`` and ``keypoints``, x, y and a third number for each
-of the 17 keypoints below, or of those that ``categories`` names. In a data set
-the third number is 0 where a keypoint is not labelled, 1 where it is hidden and 2
-where it is seen; in results it is a confidence. People are told apart by
-``track_id``, ``person_id``, ``instance_id`` or ``idx`` (AlphaPose's) where all
-entries have one.
+Each entry has ``image_id`` and ``keypoints``: x, y and a third number for each of the 17 keypoints
+below, or of those named in ``categories``. In a data set the third number is 0 for keypoints that
+are not labelled, 1 for hidden and 2 for visible ones; in results it is a confidence. People are
+identified by ``track_id``, ``person_id``, ``instance_id`` or ``idx`` (AlphaPose) if all entries
+have one.
 
-Frames are the ``images`` of a data set in the order of their numbers or names,
-else the numbers in ``image_id``. Keypoints less sure than 0.3 count as not seen.
+Frames are the ``images`` of a data set ordered by number or name, else the numbers in ``image_id``.
+Keypoints with a confidence below 0.3 count as not seen.
 
 Source: T.-Y. Lin et al., "Microsoft COCO", ECCV 2014, and its page on formats.
 """
@@ -43,14 +42,14 @@ _FEET = (*_TOES, *(name.replace("left", "right") for name in _TOES))
 _HALPE = ("head", "neck", "hip", *(f"{side}_{part}" for part in ("big_toe", "small_toe", "heel")
                                   for side in ("left", "right")))  # fmt: skip
 LAYOUTS = {17: NAMES, 26: (*NAMES, *_HALPE), 133: (*NAMES, *_FEET)}
-"""COCO, Halpe and COCO-WholeBody by their number of keypoints; hands and face are left out."""
+"""Keypoints of COCO, Halpe and COCO-WholeBody by their number; hands and face are left out."""
 
 _IDS = ("track_id", "person_id", "instance_id", "idx")
 _DIGITS = re.compile(r"\d+")
 
 
 def is_coco(data: Any) -> bool:
-    """Return whether JSON of this content is a COCO data set or a list of results."""
+    """Return whether JSON data is a COCO data set or a list of results."""
     entries = data.get("annotations") if isinstance(data, Mapping) else data
     return isinstance(entries, list) and any(
         isinstance(entry, Mapping) and "keypoints" in entry and "image_id" in entry
@@ -68,14 +67,12 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     ]
     names = _find_names(data) if is_set else None
     frames = _find_frames(content, data.get("images") if is_set else None, entries)
-    tracked = next(
-        (key for key in _IDS if all(entry.get(key) is not None for entry in entries)), ""
-    )
+    id_key = next((key for key in _IDS if all(entry.get(key) is not None for entry in entries)), "")
     people = []
     for entry, frame in zip(entries, frames, strict=True):
         groups = split_groups(content, entry["keypoints"], 3)
-        who = str(entry[tracked])[:40] if tracked else None
-        people.append(Person(frame, groups[:, :2], groups[:, 2], who))
+        person = str(entry[id_key])[:40] if id_key else None
+        people.append(Person(frame, groups[:, :2], groups[:, 2], person))
     count = len(people[0].points) if people else len(NAMES)
     if names is None or len(names) != count:
         names = list(NAMES)
@@ -88,7 +85,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
 
 
 def _find_names(data: Mapping[str, Any]) -> list[str] | None:
-    """Return the names of the first category that has any."""
+    """Return the keypoint names of the first category that has any."""
     categories = data.get("categories")
     for category in categories if isinstance(categories, list) else []:
         names = category.get("keypoints") if isinstance(category, Mapping) else None
@@ -103,7 +100,7 @@ def _find_frames(
     """Return the frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
-        # Images in the order of their frames, whatever their ids are.
+        # Order images by frame, since ids may be arbitrary.
         order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_make_sort_key))}
         for entry in entries:
             if str(entry.get("image_id")) not in order:
@@ -113,7 +110,7 @@ def _find_frames(
 
 
 def _make_sort_key(image: Mapping[str, Any]) -> tuple[int, list[int], str]:
-    """Where an image comes: by frame number, else by the numbers in its name, else by its id."""
+    """Return the sort key of an image: frame number, then numbers in its name, then the name."""
     number = image.get("frame_id")
     name = str(image.get("file_name") or image["id"])
     return (number if isinstance(number, int) else 0, _find_numbers(name), name)
@@ -124,7 +121,7 @@ def _find_numbers(name: str) -> list[int]:
 
 
 def _parse_frame_number(content: FileContent, image: Any) -> int:
-    """Return the last number in what a result calls its image: 12, "12.jpg", "video_0012"."""
+    """Return the last number in the image of a result: 12, "12.jpg", "video_0012"."""
     numbers = _find_numbers(str(image)[:200])
     if not numbers:
         raise content.error(f"image_id {str(image)[:40]!r} has no frame number in it")

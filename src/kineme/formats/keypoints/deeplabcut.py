@@ -1,9 +1,9 @@
-"""DeepLabCut: tables of keypoints under rows of names.
+"""Read DeepLabCut: tables of keypoints below several rows of names.
 
-Rows ``scorer``, ``individuals`` (where there are several), ``bodyparts`` and
-``coords`` (x, y, perhaps z, likelihood), then a row per frame. Keypoints less
-likely than 0.6, DeepLabCut's own limit for plots, count as not seen. Of several
-individuals ``person`` names one. There is no frame rate in the file: ``fps`` gives it.
+These rows are ``scorer``, ``individuals`` (if there are several), ``bodyparts`` and ``coords``
+(x, y, optionally z, likelihood). A row per frame follows. Keypoints with a likelihood below 0.6,
+DeepLabCut's limit for plots, count as not seen. ``person`` selects one of several individuals. The
+file has no frame rate: ``fps`` is required.
 """
 
 from __future__ import annotations
@@ -34,17 +34,17 @@ def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
     individuals = labels.get("individuals", [""] * len(parts))
     if len({len(parts), len(coords), len(individuals)}) > 1:
         raise content.error("the rows of names differ in length", line)
-    several = list(dict.fromkeys(individuals))
-    individual = choose_person(content.path, several, options.person, "individuals")
+    unique_individuals = list(dict.fromkeys(individuals))
+    individual = choose_person(content.path, unique_individuals, options.person, "individuals")
     names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
-    values = replace(table, names=names, below=table.head + len(labels)).numbers()[:, 1:]
+    values = replace(table, names=names, first_row=table.head + len(labels)).numbers()[:, 1:]
     columns = {
         name: column
         for name, owner, column in zip(names[1:], individuals, values.T, strict=True)
         if owner == individual
     }
     motion = columns_to_motion(content, "DeepLabCut", columns, options, limit=LIKELY)
-    provenance = motion.provenance.of_person(individual, several)
+    provenance = motion.provenance.of_person(individual, unique_individuals)
     return replace(motion, provenance=provenance)
 
 

@@ -1,21 +1,19 @@
-"""MediaPipe Pose: 33 landmarks per frame, as people save them in JSON or CSV.
+"""Read MediaPipe Pose: 33 landmarks per frame in JSON or CSV.
 
-There is no file format of MediaPipe's own. What is read:
+MediaPipe has no file format of its own. These forms are read:
 
-- JSON: a list of frames, by itself, under ``frames`` or by their numbers. A frame
-  is its landmarks or has them under ``pose_world_landmarks``, ``pose_landmarks``,
-  ``world_landmarks``, ``landmarks`` or the same in camel case; one list of 33, or
-  a list of these for each person, or landmarks by their names. A landmark has
-  ``x``, ``y``, ``z`` and ``visibility``, by name or in this order.
-- CSV: columns ``x0 y0 z0 v0`` to 32 (or 1 to 33), ``nose_x`` and so on by name or number;
-  or a row for each landmark, with columns for frame, landmark, x, y and z.
+- JSON: a list of frames, at top level, under ``frames`` or keyed by number. A frame is a list of
+  landmarks, or has it under ``pose_world_landmarks``, ``pose_landmarks``, ``world_landmarks``,
+  ``landmarks`` or the same in camel case: one list of 33, a list of these for each person, or
+  landmarks by name. A landmark has ``x``, ``y``, ``z`` and ``visibility``, by name or in order.
+- CSV: columns ``x0 y0 z0 v0`` to 32 (or 1 to 33), ``nose_x`` and so on by name or number; or a row
+  for each landmark, with columns for frame, landmark, x, y and z.
 
-World landmarks are metres from the middle of the hips, with y down; they are
-taken where they are there, or where the hips' middle stays at 0. The place in
-the room is lost in these. Landmarks of the image are shares of its width and
-height: where the file does not tell these, the image is taken as square.
-All landmarks are used: their visibility tells whether something is in front of them, and
-not whether their place is right. ``confidence`` leaves out those below it.
+World landmarks are metres from the middle of the hips, with y down. They are used if present, or if
+the middle of the hips stays at 0; the position in the room is then unknown. Image landmarks are
+fractions of the image's width and height; if these are unknown, the image is assumed to be square.
+All landmarks are used: visibility states whether a landmark is occluded, not whether its position
+is correct. ``confidence`` leaves out those below it.
 
 FreeMoCap's tables of the same landmarks are in space, in millimetres with z up.
 
@@ -57,7 +55,7 @@ _PLAIN = re.compile(r"[\s_-]")
 
 
 def is_mediapipe(data: Any) -> bool:
-    """Return whether JSON of this content has frames of 33 landmarks."""
+    """Return whether JSON data has frames of 33 landmarks."""
     return any(
         _find_poses(frame, world=False) or _find_poses(frame, world=True)
         for _, frame in _list_frames(data)
@@ -97,10 +95,10 @@ def landmarks_to_motion(
     frames: Sequence[int] = (),
     notes: Sequence[str] = (),
 ) -> Motion:
-    """Return the motion of one person's landmarks: x, y and z of 33 in every frame.
+    """Return the motion of one person from x, y and z of 33 landmarks in every frame.
 
-    ``world`` tells whether they are world landmarks, None judges by the hips; ``size`` is width and
-    height of the image, where the file tells; ``frames`` numbers all frames, with anybody or not.
+    ``world`` states whether these are world landmarks (None: judge by the hips); ``size`` is width
+    and height of the image, if known; ``frames`` are the numbers of all frames, also empty ones.
     """
     if world is None and people:
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
@@ -118,7 +116,7 @@ def landmarks_to_motion(
         )
         return video_to_motion(content, video, options)
     hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
-    if np.nanmax(np.abs(hips), initial=0.0) < 4:  # shares of the image, and not pixels
+    if np.nanmax(np.abs(hips), initial=0.0) < 4:  # fractions of the image, not pixels
         width, height = size
         if not (width and height):
             width = height = 1.0
@@ -126,7 +124,7 @@ def landmarks_to_motion(
                 "landmarks are shares of an image of unknown shape, taken as square: multiply x "
                 "and z by width / height, if it was not"
             )
-        # Shares of the width and height; z is in shares of the width.
+        # z is a fraction of the width, like x.
         sides = np.array([width, height, width])
         people = [replace(person, points=np.asarray(person.points) * sides) for person in people]
     video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, notes=notes)
@@ -136,20 +134,20 @@ def landmarks_to_motion(
 def _are_in_space(people: Sequence[Person]) -> bool:
     """Return whether the nose is above the ankles along z most of the time.
 
-    The depth of landmarks in an image is measured from the hips and much smaller.
+    In image landmarks depth is measured from the hips and much smaller.
     """
     ends = [NAMES.index(name) for name in ("nose", "left_ankle", "right_ankle")]
     poses = np.array([[p.points[end] for end in ends] for p in people])
     if poses.ndim != 3 or poses.shape[2] != 3:
         return False
-    # From the middle of the ankles to the nose.
+    # Vectors from the middle of the ankles to the nose.
     lengths = poses[:, 0] - poses[:, 1:].mean(axis=1)
     along = np.nanmedian(lengths / np.linalg.norm(lengths, axis=1, keepdims=True), axis=0)
     return bool(along[2] > 0.7)
 
 
 def _list_frames(data: Any) -> list[tuple[int, Any]]:
-    """Return each frame and its number."""
+    """Return the number and the data of each frame."""
     if isinstance(data, list):
         return [(0, data)] if _is_pose(data) else list(enumerate(data))
     if not isinstance(data, Mapping):
@@ -165,20 +163,20 @@ def _list_frames(data: Any) -> list[tuple[int, Any]]:
 
 def _find_poses(frame: Any, *, world: bool) -> list[Any]:
     """Return the poses in a frame: lists of 33 landmarks."""
-    found = frame
+    landmarks = frame
     if isinstance(frame, Mapping) and not _order_landmarks(frame):
-        found = _find_value(frame, _WORLD if world else _IMAGE)
+        landmarks = _find_value(frame, _WORLD if world else _IMAGE)
     elif world:
         return []
-    if isinstance(found, Mapping) and "landmark" in found:
-        found = found["landmark"]
-    if isinstance(found, Mapping):
-        found = _order_landmarks(found)
-    if not isinstance(found, list):
+    if isinstance(landmarks, Mapping) and "landmark" in landmarks:
+        landmarks = landmarks["landmark"]
+    if isinstance(landmarks, Mapping):
+        landmarks = _order_landmarks(landmarks)
+    if not isinstance(landmarks, list):
         return []
-    if _is_pose(found):
-        return [found]
-    return [pose for pose in found if _is_pose(pose)]
+    if _is_pose(landmarks):
+        return [landmarks]
+    return [pose for pose in landmarks if _is_pose(pose)]
 
 
 def _is_pose(value: Any) -> bool:
@@ -192,7 +190,7 @@ def _is_landmark(value: Any) -> bool:
 
 
 def _order_landmarks(frame: Mapping[str, Any]) -> list[Any]:
-    """Return the landmarks in order, from a mapping by their names; empty if it is none."""
+    """Return the landmarks of a mapping by name in order; empty if names are missing."""
     by_name = {normalize_name(str(key)): landmark for key, landmark in frame.items()}
     names = [normalize_name(name) for name in NAMES]
     return [by_name[name] for name in names] if all(name in by_name for name in names) else []
@@ -208,7 +206,7 @@ def _parse_landmarks(
             fields = ("visibility", "score", "presence")
             visibility = next((landmark[key] for key in fields if key in landmark), 1.0)
         else:
-            # What is missing of z and visibility is filled in: 0 and 1.
+            # Fill in a missing z with 0 and visibility with 1.
             x, y, z, visibility = [*landmark, *(0.0, 1.0)[len(landmark) - 2 :]][:4]
         try:
             points.append([float(x), float(y), float(z or 0.0)])
@@ -219,7 +217,7 @@ def _parse_landmarks(
 
 
 def _find_value(mapping: Mapping[str, Any], keys: Sequence[str]) -> Any:
-    """Return the value under the first of the keys, whatever its case and underscores."""
+    """Return the value of the first existing key, ignoring case and underscores."""
     values = {normalize_name(str(key)): value for key, value in mapping.items()}
     return next((values[key] for key in keys if key in values), None)
 
@@ -230,5 +228,5 @@ def _to_positive(value: Any) -> float | None:
 
 
 def normalize_name(name: str) -> str:
-    """Return a name without blanks, underscores and hyphens, in small letters."""
+    """Return a name in lower case without blanks, underscores and hyphens."""
     return _PLAIN.sub("", name).lower()

@@ -1,6 +1,6 @@
-"""MediaPipe's landmarks in tables, as people save them: a row for each frame, or for each landmark.
+"""Read MediaPipe's landmarks in tables with a row for each frame, or for each landmark.
 
-What the columns may be called: `kineme.formats.keypoints.mediapipe`.
+`kineme.formats.keypoints.mediapipe` describes the names of columns.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from kineme.recordings import Motion
 from kineme.recordings.regular import Timing
 from kineme.recordings.times import is_timing
 
-_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # read, stacked and placed
+_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # three copies of four numbers
 
 _FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3, "presence": 3, "score": 3}
 _WORD = r"(?:pose|landmarks?|lm|kp|keypoint|point)?[\s_.-]*"
@@ -40,7 +40,7 @@ _PLACES = {normalize_name(name): i for i, name in enumerate(NAMES)}
 
 
 def is_long(names: Sequence[str]) -> bool:
-    """Return whether columns of these names are landmarks, a row for each of them."""
+    """Return whether these are the columns of a table with a row for each landmark."""
     lower = [name.lower() for name in names]
     return {"x", "y"} <= set(lower) and None not in (
         _find_column(names, _FRAME),
@@ -49,21 +49,23 @@ def is_long(names: Sequence[str]) -> bool:
 
 
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks, a row for each frame."""
-    at = _find_landmark_columns(table.names)
+    """Return the motion of MediaPipe's landmarks from a table with a row for each frame."""
+    field_columns = _find_landmark_columns(table.names)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)]
     frame = _find_column(table.names, _FRAME)
     extra = [*timing, *([frame] if frame is not None else [])]
-    rows = table.numbers([*at.values(), *extra])
-    # Columns x, y, z and visibility; the last one is 1 where there is none.
+    rows = table.numbers([*field_columns.values(), *extra])
+    # x, y, z and visibility, which is 1 if there is no column for it.
     poses = np.zeros((len(rows), len(NAMES), 4))
     poses[..., 3] = 1.0
-    for (landmark, field), column in zip(at, rows[:, : len(at)].T, strict=True):
+    for (landmark, field), column in zip(
+        field_columns, rows[:, : len(field_columns)].T, strict=True
+    ):
         poses[:, landmark, field] = column
     frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
     gaps = clock.gaps
     if timing and not options.fps:
-        columns = {table.names[i]: rows[:, len(at) + k] for k, i in enumerate(timing)}
+        columns = {table.names[i]: rows[:, len(field_columns) + k] for k, i in enumerate(timing)}
         clock = find_table_timing(table.content, columns)
         poses, gaps = place_points(clock, poses)
         frames = np.arange(len(poses))
@@ -87,26 +89,28 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks, a row for each landmark."""
+    """Return the motion of MediaPipe's landmarks from a table with a row for each landmark."""
     lower = [name.lower() for name in table.names]
-    at = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
+    field_columns = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
     landmark_column, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
-    rows = table.numbers([frame or 0, *at.values(), *timing])
+    rows = table.numbers([frame or 0, *field_columns.values(), *timing])
     landmarks = _parse_landmarks(table.content, table.texts(landmark_column or 0)[: len(rows)])
-    # Rows of one frame share a place.
-    frames, place = np.unique(to_frame_numbers(table.content, rows[:, 0]), return_inverse=True)
+    # Index of the frame of each row.
+    frames, frame_index = np.unique(
+        to_frame_numbers(table.content, rows[:, 0]), return_inverse=True
+    )
     size = _BYTES_PER_POSE * len(frames)
     table.content.require_memory(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
     poses = np.full((len(frames), len(NAMES), 4), np.nan)
-    # Without z and visibility in the table, these are 0 and 1.
+    # Defaults of z and visibility.
     poses[..., 2:] = (0.0, 1.0)
-    for k, field in enumerate(at, 1):
-        poses[place, landmarks, field] = rows[:, k]
+    for k, field in enumerate(field_columns, 1):
+        poses[frame_index, landmarks, field] = rows[:, k]
     fps = options.fps
     if timing and not fps:
         times = np.zeros(len(frames))
-        times[place] = rows[:, -1]
+        times[frame_index] = rows[:, -1]
         clock = find_table_timing(table.content, {table.names[timing[0]]: times})
         poses, fps = place_points(clock, poses)[0], clock.fps
         frames = np.arange(len(poses)) if clock.order is not None else frames
@@ -118,17 +122,17 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
-    """Return for each landmark and field the column; empty unless x and y of all 33 are there."""
-    found: dict[tuple[str, int], int] = {}
+    """Return the column of each landmark and field; empty unless x and y of all 33 exist."""
+    columns: dict[tuple[str, int], int] = {}
     for column, name in enumerate(names):
         first, last = _FIELD_FIRST.fullmatch(name.strip()), _FIELD_LAST.fullmatch(name.strip())
         if first:
-            found.setdefault((first[2], _FIELDS[first[1].lower()]), column)
+            columns.setdefault((first[2], _FIELDS[first[1].lower()]), column)
         elif last:
-            found.setdefault((normalize_name(last[1]), _FIELDS[last[2].lower()]), column)
-    by_name = {(_PLACES[name], field): i for (name, field), i in found.items() if name in _PLACES}
-    by_number = {(int(m), field): i for (m, field), i in found.items() if m.isdecimal()}
-    # Landmarks counted from 1.
+            columns.setdefault((normalize_name(last[1]), _FIELDS[last[2].lower()]), column)
+    by_name = {(_PLACES[name], field): i for (name, field), i in columns.items() if name in _PLACES}
+    by_number = {(int(m), field): i for (m, field), i in columns.items() if m.isdecimal()}
+    # Landmarks may count from 1.
     if by_number and min(landmark for landmark, _ in by_number) == 1:
         by_number = {(landmark - 1, field): i for (landmark, field), i in by_number.items()}
     for table in (by_name, by_number):
@@ -138,7 +142,7 @@ def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
 
 
 def _parse_landmarks(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
-    """Return the landmarks that people call by number or name."""
+    """Return the numbers of landmarks that are given by number or name."""
     numbers = []
     for text in texts:
         name = normalize_name(text.rpartition(".")[2])  # PoseLandmark.NOSE

@@ -1,17 +1,15 @@
-"""MMPose: the predictions that its inferencers and demos leave as JSON.
+"""Read MMPose: predictions that its inferencers and demos write as JSON.
 
-``instance_info``, or the file itself, is a list of frames with ``frame_id`` and
-``instances``. Each of these has ``keypoints``, two or three numbers each, and
-``keypoint_scores``. Names stand in ``meta_info``; without these they are those
-of COCO (17 keypoints), of Halpe (26) or the first of COCO-WholeBody (133). Of
-whole bodies hands and face are left out. People are told apart by ``track_id``
-where all have one. Keypoints less sure than 0.3 count as not seen.
+``instance_info``, or the file itself, is a list of frames with ``frame_id`` and ``instances``. Each
+instance has ``keypoints``, two or three numbers each, and ``keypoint_scores``. ``meta_info`` holds
+the names; without them those of COCO (17 keypoints), Halpe (26) or the first of COCO-WholeBody
+(133) are used. Hands and face of whole bodies are left out. People are identified by ``track_id``
+if all have one. Keypoints with a score below 0.3 count as not seen.
 
-Keypoints in three dimensions, as its lifters make, are z up and in a unit of
-their own.
+Three-dimensional keypoints, as its lifters produce, have z up and an unknown unit.
 
-Source: MMPose's guide on inference, and its demos ``topdown_demo_with_mmdet``
-and ``body3d_pose_lifter_demo``.
+Source: MMPose's guide on inference, and its demos ``topdown_demo_with_mmdet`` and
+``body3d_pose_lifter_demo``.
 """
 
 from __future__ import annotations
@@ -28,35 +26,37 @@ from kineme.recordings import Motion
 
 
 def is_mmpose(data: Any) -> bool:
-    """Return whether JSON of this content is MMPose's."""
+    """Return whether JSON data is MMPose's."""
     return any(isinstance(frame, Mapping) and "instances" in frame for frame in _list_frames(data))
 
 
 def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person in MMPose's predictions."""
-    found: list[tuple[int, Mapping[str, Any]]] = []
+    instances_found: list[tuple[int, Mapping[str, Any]]] = []
     numbers = []
-    for place, frame in enumerate(_list_frames(data)):
+    for index, frame in enumerate(_list_frames(data)):
         instances = frame.get("instances") if isinstance(frame, Mapping) else None
         if not isinstance(instances, list):
-            raise content.error(f"frame {place} has no list of 'instances'")
+            raise content.error(f"frame {index} has no list of 'instances'")
         number = frame.get("frame_id")
-        numbers.append(number if isinstance(number, int) else place)
-        found += [(numbers[-1], each) for each in instances if isinstance(each, Mapping)]
-    width = max((len(_get_points(each)) for _, each in found), default=0)
+        numbers.append(number if isinstance(number, int) else index)
+        instances_found += [
+            (numbers[-1], instance) for instance in instances if isinstance(instance, Mapping)
+        ]
+    width = max((len(_get_points(instance)) for _, instance in instances_found), default=0)
     names = _find_names(data, width)
     if not names:
         raise content.error(f"a person has {width} keypoints, and 'meta_info' does not name them")
-    tracked = all(each.get("track_id") is not None for _, each in found)
+    has_ids = all(instance.get("track_id") is not None for _, instance in instances_found)
     people = []
-    for number, each in found:
-        scores = each.get("keypoint_scores")
+    for number, instance in instances_found:
+        scores = instance.get("keypoint_scores")
         confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
-        who = str(each["track_id"])[:40] if tracked else None
-        people.append(Person(number, _get_points(each)[: len(names)], confidence, who))
+        person = str(instance["track_id"])[:40] if has_ids else None
+        people.append(Person(number, _get_points(instance)[: len(names)], confidence, person))
     first = people[0].points[0]
-    flat = isinstance(first, list) and len(first) == 2
-    unit, up = ("pixel", "-y") if flat else (None, "z")
+    is_flat = isinstance(first, list) and len(first) == 2
+    unit, up = ("pixel", "-y") if is_flat else (None, "z")
     video = Video("MMPose", names, people, LIMIT, frames=numbers, unit=unit, up=up)
     return video_to_motion(content, video, options)
 
@@ -72,12 +72,9 @@ def _get_points(instance: Mapping[str, Any]) -> Sequence[Any]:
 
 
 def _find_names(data: Any, count: int) -> Sequence[str]:
-    """Return the names in the file, else those that so many keypoints usually have.
-
-    None for others.
-    """
-    facts = data.get("meta_info") if isinstance(data, Mapping) else None
-    named = facts.get("keypoint_id2name") if isinstance(facts, Mapping) else None
+    """Return the names in the file, else the usual ones for this count; empty if unknown."""
+    metadata = data.get("meta_info") if isinstance(data, Mapping) else None
+    named = metadata.get("keypoint_id2name") if isinstance(metadata, Mapping) else None
     if isinstance(named, Mapping) and count in (len(named), 133):
         listed = make_unique(str(named.get(str(i), i)) for i in range(count))
         return listed[: len(LAYOUTS[133])] if count == 133 else listed

@@ -1,15 +1,14 @@
-"""OpenPose: a JSON file for each frame of a video, in a folder.
+"""Read OpenPose: a folder with a JSON file for each frame of a video.
 
-``people`` holds for each person ``pose_keypoints_2d``, x, y and confidence of 25
-(BODY_25), 18 (COCO) or 15 (MPI) keypoints, or of 17 (COCO), 26 (Halpe) or 133
-(COCO-WholeBody) as other programs write them in this form; or ``pose_keypoints_3d``, with z and in
-the unit of the cameras' calibration, taken where they are there. Hands and face are
-left out. OpenPose does not track people; where another program has, ``person_id`` tells.
+``people`` holds ``pose_keypoints_2d`` of each person: x, y and confidence of 25 (BODY_25), 18
+(COCO) or 15 (MPI) keypoints, or of 17 (COCO), 26 (Halpe) or 133 (COCO-WholeBody) from other
+programs. ``pose_keypoints_3d``, with z and in the unit of the cameras' calibration, is preferred if
+present. Hands and face are left out. OpenPose does not track people; if another program does,
+``person_id`` identifies them.
 
-A folder is read in the order of the numbers in the files' names; numbers that
-are missing are frames in which nobody is found. Frames collected in one file,
-as a list or by their numbers, do as well. Keypoints less sure than 0.3 count as
-not seen.
+The files of a folder are ordered by the numbers in their names; missing numbers are frames without
+people. One file may also hold all frames, as a list or keyed by number. Keypoints with a confidence
+below 0.3 count as not seen.
 
 Source: G. Hidalgo et al., OpenPose's documentation of its output.
 """
@@ -59,7 +58,7 @@ _KEYS = {"pose_keypoints_3d": 4, "pose_keypoints_2d": 3, "pose_keypoints": 3}
 
 
 def is_openpose(data: Any) -> bool:
-    """Return whether JSON of this content is one or more of OpenPose's frames."""
+    """Return whether JSON data is one or more of OpenPose's frames."""
     return any(isinstance(frame, Mapping) and "people" in frame for _, frame in _list_frames(data))
 
 
@@ -96,10 +95,9 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
 
 
 def list_frame_files(folder: Path) -> list[tuple[int, Path]]:
-    """Return files in a folder that hold a frame each, with the numbers of the frames, in order.
+    """Return the frame files in a folder with their frame numbers, in order.
 
-    Files numbered alike are frames where one of them begins as OpenPose's do; a numbered
-    JSON of something else is none.
+    A series of numbered files counts if one of them starts like OpenPose's.
     """
     series: dict[str, list[tuple[int, Path]]] = {}
     for file in folder.iterdir():
@@ -120,12 +118,12 @@ def _begins_frame(file: Path) -> bool:
         head = read_head(file)
     except OSError:
         return False
-    # Byte order mark and blanks may come before the JSON.
+    # A byte order mark and blanks may precede the JSON.
     return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and b'"people"' in head
 
 
 def _list_frames(data: Any) -> list[tuple[int, Any]]:
-    """Return each frame and its number."""
+    """Return the number and the data of each frame."""
     if isinstance(data, Mapping) and "people" in data:
         return [(0, data)]
     if isinstance(data, list):
@@ -160,16 +158,16 @@ def _to_motion(
     content: FileContent, people: list[Person], options: ReadOptions, frames: list[int]
 ) -> Motion:
     in_space = [person for person in people if np.shape(person.points)[1:] == (3,)]
-    people = in_space or people  # others are in one view only, in pixels
+    people = in_space or people  # flat ones were seen by one camera only, in pixels
     counts = {len(person.points) for person in people}
     for count in counts:
         if count not in NAMES:
             layouts = ", ".join(map(str, sorted(NAMES)))
             raise content.error(f"a person has {count} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
-    n = len(names)  # of a whole body the points of hands and face are left out
-    people = [replace(each, points=each.points[:n], confidence=each.confidence[:n])
-              for each in people]  # fmt: skip
+    n = len(names)  # leaves out hands and face of whole bodies
+    people = [replace(person, points=person.points[:n], confidence=person.confidence[:n])
+              for person in people]  # fmt: skip
     video = Video("OpenPose", names, people, LIMIT, frames=frames)
     if in_space:
         video = replace(video, unit=None, up=None)

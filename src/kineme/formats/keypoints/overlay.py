@@ -1,7 +1,7 @@
-"""Keypoints in the picture of a video, as they are drawn over it.
+"""Find the keypoints of a video in image coordinates, to draw them over the picture.
 
-They come from the table of poses that a recording is, or that lies beside the video that it is.
-They are those of the estimator, neither smoothed nor turned.
+They come from a recording that is a table of poses, or from the table next to a video. They are the
+estimator's original keypoints, neither smoothed nor rotated.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ LINES = (
     *((f"left_{part}", f"right_{part}") for part in _ACROSS),
     *(("nose", f"{side}_eye") for side in ("left", "right")),
 )
-"""Names of keypoints between which a line is drawn, where an estimator has both."""
+"""Names of keypoints between which a line is drawn, if both exist."""
 
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
     """Keypoints of a person in the picture of a video.
 
-    ``points`` is (frames, keypoints, 3): pixels from the left and from the top, and the confidence,
-    0 to 1; NaN where nobody was found. Frame 0 is shown at second ``start_s`` of the video, whose
-    picture is ``width`` by ``height`` pixels.
+    ``points`` (frames, keypoints, 3) are pixels from the left and from the top, and the confidence,
+    0 to 1; NaN where nobody was found. Frame 0 is at second ``start_s`` of the video, whose picture
+    is ``width`` by ``height`` pixels.
     """
 
     names: tuple[str, ...]
@@ -51,17 +51,17 @@ class Overlay:
 
 
 def find_overlay(recording: Path, person: str | None = None) -> Overlay | None:
-    """Return the keypoints of a recording that came from a video, None for any other.
+    """Return the keypoints of a recording that came from a video, else None.
 
-    ``person`` is who of several people. What is wrong with a table was said when it was read.
+    ``person`` selects one of several people. Errors of the table are not reported again.
     """
     try:
-        place = recording
+        path = recording
         if is_video(recording):
-            place = find_poses(recording, load_head(recording).digest)
-        if place.suffix.lower() != ".parquet" or not place.is_file():
+            path = find_poses(recording, load_head(recording).digest)
+        if path.suffix.lower() != ".parquet" or not path.is_file():
             return None
-        content = load(place)
+        content = load(path)
         file = open_parquet(content)
         return make_overlay(parse_poses(content, file), person) if holds_poses(file) else None
     except KinemeError:
@@ -69,15 +69,15 @@ def find_overlay(recording: Path, person: str | None = None) -> Overlay | None:
 
 
 def make_overlay(poses: Poses, person: str | None) -> Overlay:
-    """Return the keypoints of a person, by default the one seen most, in frames of an even rate."""
+    """Return the keypoints of a person, by default the most frequent one, at an even frame rate."""
     head, rows = poses.head, poses.rows
     names, fps = tuple(map(str, head["keypoints"])), float(head["fps"])
-    everybody, counts = np.unique(rows["person"], return_counts=True)
-    chosen = everybody[counts.argmax()] if person is None else int(person)
-    mine = rows[rows["person"] == chosen]
+    people, counts = np.unique(rows["person"], return_counts=True)
+    chosen = people[counts.argmax()] if person is None else int(person)
+    person_rows = rows[rows["person"] == chosen]
     points = np.full((round(float(head["duration"]) * fps) + 1, len(names), 3), np.nan)
-    frames = np.rint(mine["time"] * fps).astype(np.intp)
-    points[frames, :, :2], points[frames, :, 2] = mine["image"], mine["confidence"]
+    frames = np.rint(person_rows["time"] * fps).astype(np.intp)
+    points[frames, :, :2], points[frames, :, 2] = person_rows["image"], person_rows["confidence"]
     lines = tuple((names.index(a), names.index(b)) for a, b in LINES if {a, b} <= {*names})
     return Overlay(
         names, lines, points, fps, float(head.get("start", 0.0)),

@@ -1,4 +1,4 @@
-"""JSON of pose estimators: which of them wrote it is told by what is in it."""
+"""Read JSON of pose estimators; the content identifies the program."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _READERS = (
     (is_mediapipe, read_mediapipe),
     (is_ultralytics, read_ultralytics),
 )
-"""What tells whose a file is, in this order, and what reads it."""
+"""Test and reader of each program, in the order in which they are tried."""
 
 _OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
 
@@ -36,8 +36,8 @@ _OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one person in a JSON file of keypoints."""
     data = parse_json(content)
-    for is_of, read in _READERS:
-        if is_of(data):
+    for recognises, read in _READERS:
+        if recognises(data):
             return read(content, data, options)
     raise content.error(
         "no keypoints found in it: JSON is read as OpenPose ('people'), COCO ('keypoints' and "
@@ -46,33 +46,33 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def begins_openpose(head: bytes) -> bool:
-    """Return whether JSON begins as a list of OpenPose's frames, or frames by their numbers.
+    """Return whether JSON starts like a list of OpenPose's frames, or frames keyed by number.
 
-    One frame alone is none: it belongs to the folder it lies in.
+    A single frame does not count: it belongs to its folder.
     """
     return b'"people"' in head and _SEVERAL.match(head) is not None
 
 
 def begins_coco(head: bytes) -> bool:
-    """Return whether JSON begins as COCO's results, or as a set of it whose keypoints come soon.
+    """Return whether JSON starts like COCO's results, or like a data set of COCO.
 
-    Of a whole set that begins with its images, the first and the last bytes together tell.
+    For data sets that begin with their images, ``head`` includes the last bytes of the file.
     """
     return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
 
 
 def begins_mmpose(head: bytes) -> bool:
-    """Return whether JSON begins as MMPose's predictions."""
+    """Return whether JSON starts like MMPose's predictions."""
     return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
 
 
 def begins_mediapipe(head: bytes) -> bool:
-    """Return whether JSON begins with somebody's landmarks."""
+    """Return whether JSON starts like landmarks."""
     return b'landmarks":' in head.lower().replace(b" ", b"")
 
 
 def begins_ultralytics(head: bytes) -> bool:
-    """Return whether JSON begins as a list of frames that list people with boxes."""
+    """Return whether JSON starts like a list of frames with lists of people with boxes."""
     return _FRAMES.match(head) is not None and b'"box"' in head
 
 

@@ -1,24 +1,23 @@
-"""Tables of poses, as `kineme pose` leaves them: Parquet, a row for each person in each frame.
+"""Read and write tables of poses of `kineme pose`: Parquet, a row for each person in each frame.
 
 The columns are ``time`` in seconds from the first frame, ``person``, a number for each person, and
 for each keypoint
 
 - ``NAME_u`` and ``NAME_v``: pixels from the left and from the top of the picture;
-- ``NAME_x``, ``NAME_y`` and ``NAME_z``, where the estimator gives depth: metres from the middle of
+- ``NAME_x``, ``NAME_y`` and ``NAME_z``, if the estimator computes depth: metres from the middle of
   the hips, to the right of the picture, up, and towards the camera;
 - ``NAME_confidence``: 0 to 1.
 
-A frame in which nobody was found has no row. The metadata of the table holds a JSON object under
+A frame without people has no row. The metadata of the table hold a JSON object under
 ``kineme.poses``: the estimator, the keypoints, the SHA-256 of the video, its width and height, the
-frames that were looked at, their rate, the seconds from the first to the last, and the second of
-the video (``start``) at which the first is shown.
+number of processed frames, their rate, the seconds from the first to the last, and the second of
+the video (``start``) of the first.
 
-Frames are those of an even rate: each row belongs to the one that is nearest to its time. A
-keypoint of low confidence is drawn to where it is surer within a tenth of a second. The recording
-is split where the camera cuts: where most keypoints jump at once, or jump a little while the
-colours of the picture change (``changes`` in the metadata has the seconds). The positions are
-smoothed by a Butterworth low-pass filter of second order, forwards and backwards,
-with its cutoff at `CUTOFF` hertz.
+Reading gives frames at an even rate: each row belongs to the nearest frame. Keypoints of low
+confidence are averaged with more certain ones within a tenth of a second. The recording is split at
+cuts of the camera: where most keypoints jump at once, or jump a little while the colours of the
+picture change (``changes`` in the metadata lists these seconds). Positions are smoothed forwards
+and backwards by a Butterworth low-pass filter of second order with a cutoff of `CUTOFF` hertz.
 
 Source of the filter: D. A. Winter, Biomechanics and Motor Control of Human Movement, 2009, ch. 3.
 """
@@ -44,49 +43,50 @@ from kineme.formats.channels.parquet import open_parquet, read_parquet_columns
 from kineme.formats.files import FileContent, load
 from kineme.formats.gaps import mark_gaps, split_at
 from kineme.formats.keypoints.people import Detections, track_people
-from kineme.formats.keypoints.video import MOST_FRAMES_MORE, Person, Video, video_to_motion
+from kineme.formats.keypoints.video import MAX_FRAMES_RATIO, Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion, Note
 from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import place_rows
 
 KEY = b"kineme.poses"
-"""Of the metadata."""
+"""Key of the JSON object in the table's metadata."""
 CUTOFF = 6.0
-"""Hertz: movement of people is slower than that, jitter of keypoints is faster."""
-SURE, NEAR_S = 0.5, 0.1
-"""Confidence from which a keypoint stays where it is; deviation of the normal curve, in seconds, of
-the weights by which others are averaged."""
+"""Hertz: movement of people is slower, jitter of keypoints is faster."""
+SURE, SMOOTHING_S = 0.5, 0.1
+"""Confidence from which a keypoint is not averaged with others; standard deviation in seconds of
+the Gaussian weights of the average.
+"""
 LEAP = 8.0
-"""Body heights a second: what most keypoints do not do at once but in a cut."""
+"""Body heights per second; faster movement of most keypoints is a cut."""
 CHANGE = 0.4
-"""Share of a picture whose colours are others than in the one before, in a cut."""
+"""Fraction of the picture whose colours change at a cut."""
 NOBODY = -1
-"""Number of the person in a row of a frame without one."""
+"""Person number of a row for a frame without people."""
 
 Rows = NDArray[np.void]
-"""Poses in the order of time, see `make_row_type`."""
+"""Poses in order of time, see `make_row_type`."""
 Head = Mapping[str, Any]
-"""What holds for all rows, as JSON has it."""
+"""Metadata of all rows, as in JSON."""
 
 
 @dataclass(frozen=True)
 class Poses:
-    """Poses of the people in a video, as a file has them."""
+    """Poses of the people in a video, as stored in a file."""
 
     head: Head
     rows: Rows
 
     @property
     def seen(self) -> int:
-        """Return the number of frames in which somebody was found."""
+        """Number of frames in which a person was found."""
         return len(np.unique(self.rows["time"]))
 
 
 def make_row_type(keypoints: int) -> np.dtype[np.void]:
     """Return the type of a row: time, person, and image, metres and confidence of each keypoint.
 
-    ``change`` is the share of the picture whose colours are others than in the one before.
+    ``change`` is the fraction of the picture whose colours differ from the previous frame.
     """
     return np.dtype(
         [
@@ -101,53 +101,53 @@ def make_row_type(keypoints: int) -> np.dtype[np.void]:
 
 
 def write_poses(path: Path, head: Head, rows: Rows) -> None:
-    """Write the rows of all frames, those without anybody among them, as a table of poses.
+    """Write the rows of all frames, including those without people, as a table of poses.
 
-    Who is who from frame to frame is told by the smallest distance between keypoints; one person in
-    each frame is the same, wherever they are.
+    People are tracked by the smallest distance between keypoints. If each frame has at most one
+    person, it is the same one.
     """
     with require_extra("pyarrow", "video"):
         import pyarrow as pa
         from pyarrow import parquet
 
     times = np.unique(rows["time"])
-    found = rows[rows["person"] != NOBODY]
-    frames = np.searchsorted(times, found["time"])
-    points = np.pad(found["image"].astype(np.float64), ((0, 0), (0, 0), (0, 1)))
-    person = [0] * len(found)
+    person_rows = rows[rows["person"] != NOBODY]
+    frames = np.searchsorted(times, person_rows["time"])
+    points = np.pad(person_rows["image"].astype(np.float64), ((0, 0), (0, 0), (0, 1)))
+    person = [0] * len(person_rows)
     if len(np.unique(frames)) < len(frames):
-        person = track_people(Detections(frames, points, [None] * len(found)))
+        person = track_people(Detections(frames, points, [None] * len(person_rows)))
     columns: dict[str, Any] = {
-        "time": found["time"] - times[0],
+        "time": person_rows["time"] - times[0],
         "person": pa.array(person, "int32"),
     }
-    told = {
+    metadata = {
         **head,
-        "depth": bool(np.isfinite(found["metres"]).any()),
+        "depth": bool(np.isfinite(person_rows["metres"]).any()),
         "frames": len(times),
         "fps": round(place_rows(times).fps, 3) if len(times) > 1 else 1.0,
         "start": float(times[0]) - float(head.get("begins", 0.0)),
         "duration": float(times[-1] - times[0]),
         "changes": np.unique(rows["time"][rows["change"] >= CHANGE] - times[0]).tolist(),
     }
-    for column, (field, k, axis) in _list_columns(told).items():
-        values = found[field][:, k] if axis is None else found[field][:, k, axis]
+    for column, (field, k, axis) in _list_columns(metadata).items():
+        values = person_rows[field][:, k] if axis is None else person_rows[field][:, k, axis]
         columns[column] = np.ascontiguousarray(values)
-    table = pa.table(columns).replace_schema_metadata({KEY: json.dumps(told).encode()})
+    table = pa.table(columns).replace_schema_metadata({KEY: json.dumps(metadata).encode()})
     with atomic_write(path) as draft:
         parquet.write_table(table, draft)
 
 
 def find_poses(video: Path, digest: str) -> Path:
-    """Return where the poses of a video are kept, or will be: beside it, else in the cache."""
-    beside = video.with_name(video.name + POSES)
-    if beside.exists() or os.access(video.parent, os.W_OK):
-        return beside
+    """Return the path for the poses of a video: next to it, else in the user's cache."""
+    sibling = video.with_name(video.name + POSES)
+    if sibling.exists() or os.access(video.parent, os.W_OK):
+        return sibling
     return find_user_cache() / "kineme" / "poses" / f"{digest}{POSES}"
 
 
 def read_poses(path: Path) -> Poses:
-    """Return the poses in a Parquet file; ReadError where it is no table of poses."""
+    """Return the poses in a Parquet file; raise ReadError if it is not a table of poses."""
     content = load(path)
     return parse_poses(content, open_parquet(content))
 
@@ -158,12 +158,12 @@ def holds_poses(file: Any) -> bool:
 
 
 def parse_head(content: FileContent, file: Any) -> Head:
-    """Return what an open Parquet file tells of its poses; ReadError where it holds none."""
+    """Return the metadata of poses in an open Parquet file; raise ReadError if it has none."""
     if not holds_poses(file):
         raise content.error("is no table of poses")
     try:
         head: Head = json.loads(file.schema_arrow.metadata[KEY])
-        frames, most = head["fps"] * head["duration"], MOST_FRAMES_MORE * (head["frames"] + 1)
+        frames, most = head["fps"] * head["duration"], MAX_FRAMES_RATIO * (head["frames"] + 1)
         is_whole = head["fps"] > 0 and 0 <= frames < most and bool(_list_columns(head))
         is_whole = is_whole and {"estimator", "limit"} <= head.keys()
     except (ValueError, TypeError, LookupError):
@@ -174,7 +174,7 @@ def parse_head(content: FileContent, file: Any) -> Head:
 
 
 def parse_poses(content: FileContent, file: Any) -> Poses:
-    """Return the poses in an open Parquet file; ReadError where it is damaged."""
+    """Return the poses in an open Parquet file; raise ReadError if it is damaged."""
     head = parse_head(content, file)
     columns, keypoints = _list_columns(head), len(head["keypoints"])
     table = read_parquet_columns(content, file, ["time", "person", *columns])
@@ -191,24 +191,24 @@ def parse_poses(content: FileContent, file: Any) -> Poses:
 
 
 def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) -> Motion:
-    """Return the motion of one person, in metres where there are any, else from the picture.
+    """Return the motion of one person, in metres if available, else from the picture.
 
-    ReadError where nobody was found. A frame without the person is a gap.
+    Raise ReadError if there is no person. Frames without the person are gaps.
     """
     head, rows = poses.head, poses.rows
     fps = float(options.fps or head["fps"])
     numbers = np.rint(rows["time"] * float(head["fps"])).astype(np.int64)
     field = "metres" if head["depth"] else "image"
-    steadied = np.array(rows[field], np.float64)
-    for each in np.unique(rows["person"]):
-        mine = rows["person"] == each
-        steadied[mine] = _steady_points(
-            steadied[mine], rows["confidence"][mine], float(head["fps"])
+    steady_points = np.array(rows[field], np.float64)
+    for person in np.unique(rows["person"]):
+        is_person = rows["person"] == person
+        steady_points[is_person] = _steady_points(
+            steady_points[is_person], rows["confidence"][is_person], float(head["fps"])
         )
     unit, up = ("m", "y") if head["depth"] else ("pixel", "-y")
     people = [
         Person(number, points, row["confidence"], str(row["person"]))
-        for number, points, row in zip(numbers.tolist(), steadied, rows, strict=True)
+        for number, points, row in zip(numbers.tolist(), steady_points, rows, strict=True)
     ]
     frames = range(round(float(head["duration"]) * float(head["fps"])) + 1)
     notes = ["the place in the room is not known: metres from the middle of the hips"]
@@ -221,46 +221,48 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     frames_cut = [round(cut * float(head["fps"])) for cut in cuts]
     motion = split_at(motion, [(n, n + 1) for n in frames_cut if 0 < n < motion.n_frames - 1])
     if cuts:
-        at = join_names([f"{cut:.1f} s" for cut in cuts])
-        motion = motion.noted(Note(f"the camera cuts at {at}: it is split there", "warning"))
+        cut_times = join_names([f"{cut:.1f} s" for cut in cuts])
+        motion = motion.noted(Note(f"the camera cuts at {cut_times}: it is split there", "warning"))
     return _smooth(motion)
 
 
 def find_cuts(rows: Rows, head: Head) -> list[float]:
     """Return the seconds of the first frames after cuts, from the rows of one person.
 
-    Most keypoints are farther from where they were in the frame before than a body goes.
+    At a cut most keypoints jump farther than a body can move.
     """
     if len(rows) < 2:
         return []
     image = rows["image"].astype(np.float64)
     height = float(np.median(np.ptp(image, axis=1).max(axis=1))) or 1.0
     steps = np.diff(rows["time"])
-    # The median over keypoints: half of them went at least so far, in body heights.
+    # Median over keypoints, in body heights: half of them moved at least this far.
     jumps = np.median(np.linalg.norm(np.diff(image, axis=0), axis=2), axis=1) / height
+    # Above 30 Hz the limit per frame stays that of 30 Hz.
     limits = np.maximum(LEAP * steps, LEAP / 30)
     changed = np.isin(rows["time"][1:], head.get("changes", []))
     is_next = steps < 2 / float(head["fps"])  # otherwise there is a gap already
-    cut = is_next & ((jumps > limits) | (changed & (jumps > limits / 4)))
-    found: list[float] = rows["time"][1:][cut].tolist()
-    return found
+    is_cut = is_next & ((jumps > limits) | (changed & (jumps > limits / 4)))
+    seconds: list[float] = rows["time"][1:][is_cut].tolist()
+    return seconds
 
 
 def _steady_points(points: Floats, confidence: Floats, fps: float) -> Floats:
-    """Return a person's points (rows, keypoints, axes), the unsure drawn to surer ones nearby."""
+    """Return a person's points (rows, keypoints, axes), averaged over time if uncertain."""
     from scipy.ndimage import gaussian_filter1d
 
+    # Weights fall linearly below the sure confidence and never reach 0.
     weights = np.clip(confidence / SURE, 1e-3, 1.0).astype(np.float64)[..., None]
     if weights.min() == 1.0:
         return points
-    width = NEAR_S * fps
+    width = SMOOTHING_S * fps
     total = gaussian_filter1d(weights, width, axis=0, mode="nearest")
     mean = gaussian_filter1d(weights * points, width, axis=0, mode="nearest") / total
     return np.asarray(weights * points + (1 - weights) * mean)
 
 
 def _list_columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
-    """Return for each column of keypoints its field, keypoint and axis in a row."""
+    """Return the field, keypoint and axis of each column of keypoints."""
     columns: dict[str, tuple[str, int, int | None]] = {}
     for k, name in enumerate(head["keypoints"]):
         columns |= {f"{name}_{axis}": ("image", k, i) for i, axis in enumerate("uv")}
@@ -271,11 +273,12 @@ def _list_columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
 
 
 def _smooth(motion: Motion) -> Motion:
-    """Return the motion without jitter; each span between gaps is filtered by itself."""
+    """Return the motion without jitter; each span between gaps is filtered separately."""
     if motion.fps <= 2 * CUTOFF:
         return motion.noted(f"not smoothed: {motion.fps:g} Hz are too few for {CUTOFF:g} Hz")
     positions = motion.positions.copy()
     for start, stop in find_spans(~np.array(mark_gaps(motion))).tolist():
+        # The filter needs fewer padding frames than the span has.
         padding = min(round(motion.fps), stop - start - 2)
         if padding > 0:
             flat = positions[start:stop].reshape(stop - start, -1)

@@ -1,12 +1,12 @@
-"""SLEAP: its analysis files in HDF5, and its tables; why its own projects are not read.
+"""Read SLEAP: its analysis files in HDF5, and its tables, but not its projects.
 
-``tracks`` (tracks, 2, nodes, frames), or (frames, tracks, nodes, 2) in newer files,
-are pixels; ``node_names``, ``track_names`` and ``point_scores`` lie beside them. Nodes
-less sure than 0.2, SLEAP's own limit for peaks, count as not seen. Of several
-tracks ``person`` names one. There is no frame rate in the file: ``fps`` gives it.
+``tracks`` (tracks, 2, nodes, frames), or (frames, tracks, nodes, 2) in newer files, are pixels;
+``node_names``, ``track_names`` and ``point_scores`` accompany them. Nodes with a score below 0.2,
+SLEAP's limit for peaks, count as not seen. ``person`` selects one of several tracks. The file has
+no frame rate: ``fps`` is required.
 
-Tables have ``track``, ``frame_idx``, ``instance.score`` and ``NODE.x NODE.y NODE.score``, a row
-for each animal in a frame.
+Tables have ``track``, ``frame_idx``, ``instance.score`` and ``NODE.x NODE.y NODE.score``, with a
+row for each animal in a frame.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ LIMIT = 0.2
 
 
 def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
-    """Return the motion of one animal in an analysis file of SLEAP's."""
-    found = parse_hdf5(content)
-    tracks, nodes = found.get("tracks"), collect_texts(found.get("node_names"))
+    """Return the motion of one animal in SLEAP's analysis file."""
+    variables = parse_hdf5(content)
+    tracks, nodes = variables.get("tracks"), collect_texts(variables.get("node_names"))
     if not isinstance(tracks, np.ndarray) or tracks.ndim != 4 or not nodes:
         raise content.error(
             f"is HDF5, but no analysis file of SLEAP: no 'tracks' and 'node_names' among "
-            f"{', '.join(list(found)[:8]) or 'nothing'}; give an analysis file, or a CSV"
+            f"{', '.join(list(variables)[:8]) or 'nothing'}; give an analysis file, or a CSV"
         )
-    names = collect_texts(found.get("track_names"))
+    names = collect_texts(variables.get("track_names"))
     # Old files have tracks, axes, nodes, frames; new ones frames, tracks, nodes, axes.
-    old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
-    if not old and tracks.shape[2:] != (len(nodes), 2):
+    is_old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
+    if not is_old and tracks.shape[2:] != (len(nodes), 2):
         raise content.error(f"tracks of shape {tracks.shape} do not go with {len(nodes)} nodes")
-    positions, confidence = _arrange(content, tracks, found.get("point_scores"), old=old)
+    positions, confidence = _arrange(content, tracks, variables.get("point_scores"), old=is_old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
     # Frames in which at least one node of the track was found.
@@ -58,7 +58,7 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of one animal in a table of SLEAP's."""
+    """Return the motion of one animal in SLEAP's table."""
     names, content = list(table.names), table.content
     nodes = [name[:-2] for name in names if name.endswith(".x") and f"{name[:-2]}.y" in names]
     if not nodes:
@@ -71,17 +71,17 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
     points = rows[:, 1 : 1 + 2 * k].reshape(-1, k, 2)
     frames = to_frame_numbers(content, rows[:, 0]).tolist()
     tracks = table.texts(names.index("track")) if "track" in names else []
-    tracked = any(tracks)
+    has_tracks = any(tracks)
     people = [
-        Person(frame, points[i], confidence[i], tracks[i] if tracked else None)
+        Person(frame, points[i], confidence[i], tracks[i] if has_tracks else None)
         for i, frame in enumerate(frames)
     ]
-    start = [0] if 0 <= min(frames) < len(frames) else []  # where the video starts
+    start = [0] if 0 <= min(frames) < len(frames) else []  # include the start of the video
     return video_to_motion(content, Video("SLEAP", nodes, people, LIMIT, frames=start), options)
 
 
 def _arrange(content: FileContent, tracks: Any, scores: Any, *, old: bool) -> tuple[Floats, Floats]:
-    """Positions (tracks, frames, nodes, 2) and how sure they are (tracks, frames, nodes)."""
+    """Return positions (tracks, frames, nodes, 2) and confidences (tracks, frames, nodes)."""
     if tracks.dtype.kind not in "iuf":
         raise content.error(f"tracks hold {tracks.dtype}, not numbers")
     positions = tracks.transpose((0, 3, 2, 1) if old else (1, 0, 2, 3))

@@ -1,7 +1,7 @@
-"""Ultralytics: results of a pose model as JSON, a list of frames that list their people.
+"""Read Ultralytics: results of a pose model as JSON, a list of frames with lists of people.
 
-Each person has ``keypoints`` with lists ``x``, ``y`` and, as a confidence, ``visible``. People are
-told apart by ``track_id`` where all have one. Keypoints less sure than 0.3 count as not seen.
+Each person has ``keypoints`` with lists ``x``, ``y`` and confidences ``visible``. People are
+identified by ``track_id`` if all have one. Keypoints with a confidence below 0.3 count as not seen.
 
 Source: Ultralytics' reference of ``Results.summary`` and ``Results.to_json``.
 """
@@ -20,27 +20,31 @@ from kineme.recordings import Motion
 
 
 def is_ultralytics(data: Any) -> bool:
-    """Return whether JSON of this content is a list of Ultralytics' frames."""
+    """Return whether JSON data is a list of Ultralytics' frames."""
     return isinstance(data, list) and any(_list_people(frame) for frame in data)
 
 
 def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> Motion:
-    """Read the motion of one person in Ultralytics' results."""
-    found = [(number, each) for number, frame in enumerate(data) for each in _list_people(frame)]
-    width = max(len(each["keypoints"]["x"]) for _, each in found)
+    """Return the motion of one person in Ultralytics' results."""
+    people_found = [
+        (number, detection)
+        for number, frame in enumerate(data)
+        for detection in _list_people(frame)
+    ]
+    width = max(len(detection["keypoints"]["x"]) for _, detection in people_found)
     names = COCO if width == len(COCO) else tuple(f"point{i + 1}" for i in range(width))
-    tracked = all(each.get("track_id") is not None for _, each in found)
+    has_ids = all(detection.get("track_id") is not None for _, detection in people_found)
     people = []
-    for number, each in found:
-        points = each["keypoints"]
+    for number, detection in people_found:
+        points = detection["keypoints"]
         x, y = points["x"], points["y"]
         if len(x) != len(y):
             raise content.error(f"frame {number} has {len(x)} x and {len(y)} y of keypoints")
-        who = str(each["track_id"])[:40] if tracked else None
+        person = str(detection["track_id"])[:40] if has_ids else None
         pairs = list(zip(x, y, strict=True))
-        # what was not found at all stands at the corner of the image
-        sure = points.get("visible") or [float(any(pair)) for pair in pairs]
-        people.append(Person(number, pairs, sure, who))
+        # Keypoints that were not found are at the corner of the image.
+        confidence = points.get("visible") or [float(any(pair)) for pair in pairs]
+        people.append(Person(number, pairs, confidence, person))
     video = Video("Ultralytics", names, people, LIMIT, frames=range(len(data)))
     return video_to_motion(content, video, options)
 
@@ -48,10 +52,10 @@ def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> M
 def _list_people(frame: Any) -> list[Mapping[str, Any]]:
     """Return the people of a frame that have keypoints."""
     return [
-        each
-        for each in (frame if isinstance(frame, list) else [])
-        if isinstance(each, Mapping)
-        and isinstance(each.get("keypoints"), Mapping)
-        and all(isinstance(each["keypoints"].get(axis), list) for axis in "xy")
-        and each["keypoints"]["x"]
+        person
+        for person in (frame if isinstance(frame, list) else [])
+        if isinstance(person, Mapping)
+        and isinstance(person.get("keypoints"), Mapping)
+        and all(isinstance(person["keypoints"].get(axis), list) for axis in "xy")
+        and person["keypoints"]["x"]
     ]

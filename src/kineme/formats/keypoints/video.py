@@ -1,9 +1,9 @@
-"""Keypoints of pose estimators: from the people found in the frames of a video to a motion.
+"""Convert the people that a pose estimator found in the frames of a video to a motion.
 
-A keypoint less sure than its format's limit counts as not seen, and so does all
-of a person who was not found in a frame. Keypoints in an image are measured in
-pixels, whose rows count downwards; the body's larger side is taken as a
-person's height. There is no frame rate in most of these files: ``fps`` gives it.
+A keypoint with a confidence below its format's limit counts as not seen, as do all keypoints of a
+person not found in a frame. Keypoints in an image are measured in pixels with y down; the larger
+side of the body is scaled to a person's height. Most of these files have no frame rate: ``fps`` is
+required.
 """
 
 from __future__ import annotations
@@ -25,30 +25,30 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion
 
-MOST_FRAMES_MORE = 20
-"""Frames per frame in which somebody was found, at most; beyond that the numbers are wrong."""
+MAX_FRAMES_RATIO = 20
+"""Maximum number of frames per frame with a person; above it the numbers are wrong."""
 
 
 @dataclass(frozen=True)
 class Person:
-    """Someone found in a frame."""
+    """A person found in a frame."""
 
-    frame: int  # counted from any number
+    frame: int  # number with any start
     points: Sequence[Sequence[float]] | Floats  # (keypoints, 2 or 3)
     confidence: Sequence[float] | Floats  # (keypoints,)
-    who: str | None = None  # how the file calls this person, if it does
+    who: str | None = None  # name or number in the file
 
 
 @dataclass(frozen=True)
 class Video:
-    """What a pose estimator left; unit and axis as in `Points`."""
+    """The result of a pose estimator; unit and axis as in `Points`."""
 
     format: str
-    names: Sequence[str]  # of the keypoints
+    names: Sequence[str]  # keypoints
     people: Sequence[Person]  # in any order
     limit: float  # confidence from which a keypoint counts as seen
-    fps: float | None = None  # where the file tells
-    frames: Sequence[int] = ()  # numbers of all, whether somebody was found in them or not
+    fps: float | None = None  # if stated in the file
+    frames: Sequence[int] = ()  # numbers of all frames, also of those without people
     unit: str | float | None = "pixel"
     up: str | None = "-y"
     notes: Sequence[str] = ()
@@ -57,7 +57,7 @@ class Video:
 def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
     """Return the motion of one person in a video.
 
-    ReadError where nothing tells which one, or the rate.
+    Raise ReadError if the person or the frame rate is unknown.
     """
     fps = options.fps or video.fps
     if not fps:
@@ -70,26 +70,27 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     content.require_memory(size, f"{len(video.names)} keypoints in {n_frames} frames")
     points, confidence = _stack_people(content, people, len(video.names))
     limit = video.limit if options.confidence is None else options.confidence
-    # Not `<`, so that nan counts as unsure, too.
-    unsure = ~(confidence >= limit)
-    points[unsure] = np.nan
+    # Not `<`, so that NaN counts as not seen.
+    is_unsure = ~(confidence >= limit)
+    points[is_unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
-    found = Detections(frames, points, [person.who for person in people])
-    rows, name, others, notes = select_person(content, found, options.person)
+    detections = Detections(frames, points, [person.who for person in people])
+    rows, name, all_people, notes = select_person(content, detections, options.person)
     positions = np.full((n_frames, len(video.names), 3), np.nan)
     positions[frames[rows]] = points[rows]
-    if unsure[rows].any():
-        notes.append(
-            f"{format_count(int(unsure[rows].sum()), 'position')} less sure than {limit:g} not used"
-        )
+    if is_unsure[rows].any():
+        n_unsure = int(is_unsure[rows].sum())
+        notes.append(f"{format_count(n_unsure, 'position')} less sure than {limit:g} not used")
     notes += [*video.notes, *_note_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
-    found_in = Points(video.names, positions, fps, unit, up)
-    return to_motion(found_in, content.provenance(video.format, notes).of_person(name, others))
+    named_points = Points(video.names, positions, fps, unit, up)
+    return to_motion(
+        named_points, content.provenance(video.format, notes).of_person(name, all_people)
+    )
 
 
 def parse_json(content: FileContent) -> Any:
-    """Return what a JSON file holds; ReadError where it breaks off or is none."""
+    """Return the content of a JSON file; raise ReadError if it is invalid."""
     try:
         return json.loads(content.text)
     except json.JSONDecodeError as error:
@@ -100,14 +101,14 @@ def parse_json(content: FileContent) -> Any:
 
 
 def order_by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
-    """Frames that JSON holds by their numbers, in this order; empty where it holds others."""
+    """Return the frames of a JSON object ordered by their numeric keys; empty for other keys."""
     if not all(isinstance(key, str) and key.isdecimal() and len(key) < 19 for key in frames):
         return []
     return sorted(((int(key), frame) for key, frame in frames.items()), key=itemgetter(0))
 
 
 def split_groups(content: FileContent, values: Any, width: int) -> Floats:
-    """(keypoints, width): a flat list of numbers, as OpenPose and COCO store them."""
+    """Return a flat list of numbers, as OpenPose and COCO store, as (keypoints, width)."""
     try:
         flat = np.asarray(values, np.float64).ravel()
     except (ValueError, TypeError, OverflowError):
@@ -118,47 +119,47 @@ def split_groups(content: FileContent, values: Any, width: int) -> Floats:
 
 
 def to_frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
-    """Return the numbers of frames as such; ReadError where they are none."""
+    """Return frame numbers as integers; raise ReadError if they are not."""
     if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
         raise content.error("the frames have no whole numbers")
     return np.rint(frames).astype(np.int64)
 
 
 def _number_frames(
-    content: FileContent, video: Video, found: list[int]
+    content: FileContent, video: Video, frames: list[int]
 ) -> tuple[NDArray[np.intp], int]:
-    """Frames counted from 0, and how many there are."""
-    # Numbers of all frames, also of those in which nobody was found.
-    numbers = {*found, *video.frames}
+    """Return frames counted from 0, and the number of frames."""
+    numbers = {*frames, *video.frames}
     first, last = min(numbers), max(numbers)
-    if last - first >= MOST_FRAMES_MORE * (len(numbers) + 1):
+    if last - first >= MAX_FRAMES_RATIO * (len(numbers) + 1):
         raise content.error(
             f"the numbers of {len(numbers)} frames run from {first} to {last}: these are no frame "
             "numbers"
         )
-    return np.array([frame - first for frame in found], np.intp), last - first + 1
+    return np.array([frame - first for frame in frames], np.intp), last - first + 1
 
 
 def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:
-    """(people, keypoints, 3) and (people, keypoints); z is 0 where there is none."""
+    """Return (people, keypoints, 3) and (people, keypoints); a missing z is 0."""
     points, confidence = [], []
     for person in people:
         try:
             pose = np.asarray(person.points, np.float64)
-            trust = np.asarray(person.confidence, np.float64)
+            scores = np.asarray(person.confidence, np.float64)
         except (ValueError, TypeError, OverflowError):
             raise content.error(f"frame {person.frame} has keypoints that are no numbers") from None
-        if pose.ndim != 2 or pose.shape[1] not in (2, 3) or not k == len(pose) == trust.size:
+        if pose.ndim != 2 or pose.shape[1] not in (2, 3) or not k == len(pose) == scores.size:
             raise content.error(
                 f"frame {person.frame} has keypoints of shape {pose.shape}, where {k} are expected"
             )
         # Two-dimensional keypoints get a third coordinate of 0.
         points.append(np.pad(pose, ((0, 0), (0, 3 - pose.shape[1]))))
-        confidence.append(trust.ravel())
+        confidence.append(scores.ravel())
     return np.stack(points), np.stack(confidence)
 
 
 def _note_flatness(points: Floats, unit: str | float | None) -> list[str]:
+    """Return a note if the points are two-dimensional."""
     if unit == "pixel" and np.nanmax(np.abs(points[..., 2]), initial=0.0) == 0:
         return ["two-dimensional: z is 0, and image rows count downwards"]
     return []

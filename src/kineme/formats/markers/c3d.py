@@ -1,21 +1,18 @@
-"""C3D: markers of an optical motion capture, with events and analog channels.
+"""Read C3D: markers of optical motion capture, with events and analog channels.
 
-Unit, rate and up axis (``POINT:Y_SCREEN``) are the file's own; where it has
-none they are inferred and said. Results of a model that are stored as if they
-were markers (angles, forces, torques, powers: the groups that
-``POINT:TYPE_GROUPS`` and their own parameters name) and markers without a name
-are left out. Events and the number of the first frame go into the provenance.
+Unit, rate and up axis (``POINT:Y_SCREEN``) come from the file; if they are missing they are
+inferred and noted. Model outputs stored as points (angles, forces, torques, powers: the groups
+listed in ``POINT:TYPE_GROUPS`` and their parameters) and markers without a name are left out. The
+provenance records events and the number of the first frame.
 
-Times count from the file's first frame, not from the start of the capture.
-Analog channels are no part of a motion: they are read as signals where they are
-asked for: those named, those of muscles, or all.
+Times count from the file's first frame, not from the start of the capture. Analog channels are not
+part of a motion. They are read as signals if requested: by name, those of muscles, or all.
 
-A laboratory's amplifier takes everything: force plates, switches, accelerometers and
-electrodes stand side by side. A channel is a muscle's if its label or description says
-so, by ``EMG`` or the name of a muscle, or if it is in milli- or microvolts; in volts,
-the abbreviation of a muscle will do (``LTA``, ``R_GM``). None is if
-``FORCE_PLATFORM:CHANNEL`` names it, if its unit is that of something else, or if its
-label says what it is: the accelerometer of an electrode carries the muscle's name, too.
+The analog channels mix force plates, switches, accelerometers and electrodes. A channel is a
+muscle's if its label or description contains ``EMG`` or the name of a muscle, or if its unit is
+milli- or microvolts. For volts the abbreviation of a muscle is sufficient (``LTA``, ``R_GM``). A
+channel is not a muscle's if ``FORCE_PLATFORM:CHANNEL`` lists it, or if its unit or label states
+another quantity: the accelerometer of an electrode also carries the muscle's name.
 """
 
 from __future__ import annotations
@@ -66,7 +63,7 @@ _NO_UNIT = frozenset({"", "d.u.", "du", "bits", "bit", "counts", "n/a", "%"})
 def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the motion of the markers in a C3D file, or its analog channels.
 
-    Those are given where they are asked for, and where there are no points at all.
+    Channels are returned if they are requested, or if there are no points.
     """
     file = parse_c3d(content)
     if options.channels or (file.analog.size and not file.labels):
@@ -105,14 +102,15 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 
 def _find_markers(file: C3D) -> tuple[list[int], int]:
-    """Indices of the points that are markers, and how many are not."""
+    """Return the indices of the points that are markers, and the number of other points."""
     parameters = file.parameters
+    # Each group lists its labels in a parameter of the same name.
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}
     modelled = {label for group in groups for label in parameters.strings("POINT", group)}
-    kept = [
+    markers = [
         i for i, label in enumerate(file.labels) if label not in modelled and not is_nameless(label)
     ]
-    return kept, len(file.labels) - len(kept)
+    return markers, len(file.labels) - len(markers)
 
 
 def _find_unit(file: C3D) -> str | None:
@@ -127,7 +125,7 @@ def _find_up_axis(file: C3D) -> str | None:
 def read_analog(content: FileContent, options: ReadOptions) -> Signals:
     """Return the analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
 
-    ReadError where it has none, or not those that were asked for.
+    Raise ReadError if it has none, or not the requested ones.
     """
     return _read_channels(content, parse_c3d(content), options)
 
@@ -147,18 +145,19 @@ def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Sig
 
 
 def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
-    """Return the names of the channels that are muscles', and a sentence on what was taken."""
+    """Return the names of the muscles' channels, and a note."""
     names = make_unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
-    described = file.parameters.strings("ANALOG", "DESCRIPTIONS")
-    described = [*described, *[""] * len(names)]
-    # Channels of force plates count from 1.
+    descriptions = file.parameters.strings("ANALOG", "DESCRIPTIONS")
+    # Descriptions may be missing or fewer than the channels.
+    descriptions = [*descriptions, *[""] * len(names)]
+    # Force plates refer to channels by numbers from 1.
     muscles = [
         name
-        for number, (name, label, text, unit) in enumerate(
-            zip(names, file.analog_labels, described, file.analog_units, strict=False), 1
+        for number, (name, label, description, unit) in enumerate(
+            zip(names, file.analog_labels, descriptions, file.analog_units, strict=False), 1
         )
-        if number not in plates and is_muscle(label, text, unit)
+        if number not in plates and is_muscle(label, description, unit)
     ]
     if not muscles:
         raise content.error(
@@ -166,19 +165,19 @@ def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
             f"--columns (columns=), of {', '.join(names)}"
         )
     others = [name for name in names if name not in muscles]
-    left = f"; left out: {', '.join(others)}" if others else ""
-    return muscles, f"channels taken for muscles: {', '.join(muscles)}{left}"
+    suffix = f"; left out: {', '.join(others)}" if others else ""
+    return muscles, f"channels taken for muscles: {', '.join(muscles)}{suffix}"
 
 
 def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
-    """Return whether an analog channel is a muscle's, as far as its own words tell.
+    """Return whether an analog channel is a muscle's, judging by label, description and unit.
 
     Examples
     --------
     >>> is_muscle("L Tibialis", unit="V"), is_muscle("L Tibialis: ACC X", unit="g")
     (True, False)
     """
-    # A unit of something else, such as g or N, or a word such as `acc`, rules a muscle out.
+    # Units of other quantities (g, N) or words such as `acc` rule out a muscle.
     unit = unit.strip().lower()
     words = _split_words(f"{label} {description}")
     if unit not in _VOLTS | _SMALL_VOLTS | _NO_UNIT or any(map(_OTHER.fullmatch, words)):
@@ -190,6 +189,7 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
 
 def _split_words(text: str) -> list[str]:
     """Return the words of a name: ``RTibialisAnt.EMG1`` has four."""
+    # Split at changes of case (`RTib` -> `R Tib`) and at other characters.
     return re.findall(
         r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)
     )

@@ -1,25 +1,22 @@
-"""Layout of C3D files: header, parameters, then points and analog samples frame by frame.
+"""Parse C3D files: header, parameters, then points and analog samples frame by frame.
 
-Blocks are of 512 bytes. Integers and floats are those of the processor that the
-parameter section names: Intel, DEC or MIPS (SGI). A frame holds four numbers
-for each point, x, y, z and its residual (below zero: not seen), and then
-the analog samples; all are 16-bit integers to be scaled, or floats where the
-scale is below zero. A point exactly at the origin was not seen either: programs
-without residuals write that.
+Blocks have 512 bytes. Integers and floats have the format of the processor named in the parameter
+section: Intel, DEC or MIPS (SGI). A frame holds four numbers for each point, x, y, z and its
+residual (negative: not seen), followed by the analog samples. All are 16-bit integers that need
+scaling, or floats if the scale is negative. A point exactly at the origin was not seen either:
+programs without residuals store it so.
 
-Counts that outgrow 16 bits stand in several places, of which any may be wrong
-or saturated. Frames: the largest of the counts given that the file has room
-for. Labels beyond the 255th: in LABELS2, LABELS3 and so on. A parameter may be
-an integer where the manual has a float, and the other way round.
+Counts that exceed 16 bits are stored in several places, and any of them may be wrong or saturated.
+The number of frames is the largest of the stored counts for which the file has enough bytes. Labels
+beyond the 255th are in LABELS2, LABELS3 and so on. A parameter may be an integer where the manual
+specifies a float, and vice versa.
 
-A record of the parameter section is the length of its name, the number of its group (negative:
-it is the group), the name, the distance to the next record, and for a parameter its type,
-dimensions and values. Values are looked at when they are asked for.
+A record of the parameter section consists of the length of its name, the number of its group
+(negative if the record is the group), the name, the distance to the next record, and for parameters
+type, dimensions and values. Values are parsed on demand.
 
-Nothing is allocated that the file does not hold.
-
-Why this is no wrapper of ezc3d, with which the tests compare it: a damaged
-file makes that library end the whole process, and it does not read MIPS files.
+No more memory is allocated than the file holds. The tests compare the results with ezc3d. It is not
+used because damaged files crash the process, and it does not read MIPS files.
 
 Source: Motion Lab Systems, "The C3D file format: a technical user guide" (2021).
 """
@@ -43,33 +40,30 @@ Stored = NDArray[Any]
 
 BLOCK = 512
 INTEL, DEC, MIPS = 84, 85, 86
-_HEADER_EVENTS = 12345  # marks a header whose events have labels of four letters
+_HEADER_EVENTS = 12345  # value that marks headers whose events have labels of four letters
 
 
 @dataclass(frozen=True)
 class C3D:
-    """What a C3D file holds."""
+    """Contents of a C3D file."""
 
     labels: list[str]  # one per point
     points: Floats  # (frames, points, 3) in the file's unit, NaN where not seen
     rate: float  # frames per second, 0 if the file has none
-    first_frame: int  # its number, counted from 1
+    first_frame: int  # number in the capture, counted from 1
     analog: Floats  # (samples, channels), scaled
     analog_labels: list[str]
     analog_units: list[str]
     analog_rate: float  # samples per second
-    events: tuple[tuple[float, str], ...]  # second from the first frame, and label
+    events: tuple[tuple[float, str], ...]  # seconds from the first frame, and label
     parameters: Parameters
 
 
 def parse_c3d(content: FileContent) -> C3D:
-    """Return the contents of a C3D file.
-
-    ReadError where it is none, or holds less than one frame.
-    """
+    """Return the contents of a C3D file; raise ReadError if it is invalid or has no whole frame."""
     parameters = read_parameters(content)
     file = Layout(content, parameters, read_header(content, parameters))
-    # One row for each frame: points first, then analog samples.
+    # One row per frame: points first, then analog samples.
     raw = file.frames()
     n = file.n_points
     points, visible = _scale_points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
@@ -90,16 +84,15 @@ def parse_c3d(content: FileContent) -> C3D:
 
 
 def _scale_analog(file: Layout, raw: Stored) -> Floats:
-    """(samples, channels): what follows the points in each frame, scaled."""
+    """Return the scaled analog samples (samples, channels), empty if the counts do not fit."""
     total = raw.shape[1]
     per_frame = file.header.samples_per_frame or 1
     channels = int(file.parameters.number("ANALOG", "USED", total // per_frame))
     if channels <= 0 or total % channels:
-        # The samples cannot be divided among the channels.
         return np.empty((0, 0))
     values = raw.reshape(-1, channels)
     if "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
-        # The same bytes, seen as unsigned.
+        # Reinterpret the bytes as unsigned.
         values = values.view(values.dtype.str.replace("i", "u"))
     scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
@@ -108,19 +101,20 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
     return np.asarray(scaled, np.float64)
 
 
-def _repeat_per_channel(parameters: Parameters, name: str, channels: int, usual: float) -> Floats:
+def _repeat_per_channel(parameters: Parameters, name: str, channels: int, default: float) -> Floats:
+    """Return a value for each channel, ``default`` where missing."""
     values = parameters.numbers("ANALOG", name, signed=True)[:channels]
-    return np.array(values + [usual] * (channels - len(values)))
+    return np.array(values + [default] * (channels - len(values)))
 
 
 def _read_events(file: Layout) -> tuple[tuple[float, str], ...]:
-    """Those of the EVENT group, else those of the header; times count from frame 1."""
+    """Return events of the EVENT group, else of the header, as seconds from the first frame."""
     if file.rate == 0:
         return ()
-    # Times of events count from frame 1 of the capture, which may be cut off.
-    skipped = (file.first_frame - 1) / file.rate
-    found = _read_group_events(file.parameters) or read_header_events(file)
-    return tuple(sorted((round(t - skipped, 6), label) for t, label in found if np.isfinite(t)))
+    # Stored times count from frame 1 of the capture, which may precede the file's first frame.
+    start = (file.first_frame - 1) / file.rate
+    events = _read_group_events(file.parameters) or read_header_events(file)
+    return tuple(sorted((round(t - start, 6), label) for t, label in events if np.isfinite(t)))
 
 
 def _read_group_events(parameters: Parameters) -> list[tuple[float, str]]:
@@ -128,18 +122,18 @@ def _read_group_events(parameters: Parameters) -> list[tuple[float, str]]:
     times = parameters.numbers("EVENT", "TIMES")
     labels = parameters.strings("EVENT", "LABELS")
     contexts = _pad(parameters.strings("EVENT", "CONTEXTS"), len(labels))
-    names = [f"{who} {label}".strip() for who, label in zip(contexts, labels, strict=False)]
-    # Minutes and seconds alternate.
+    names = [f"{side} {label}".strip() for side, label in zip(contexts, labels, strict=False)]
+    # Times are pairs of minutes and seconds.
     minutes = zip(times[::2], times[1::2], strict=False)
     return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
 
 
 def read_header_events(file: Layout) -> list[tuple[float, str]]:
-    """Second from frame 1, and label, of the events in the first block."""
+    """Return seconds from frame 1 and label of the events in the first block."""
     data, kind = file.content.data, file.parameters.processor
-    # Word 150 of the header marks labels of four letters; the next word is their number.
-    marker, n = np.frombuffer(data, get_number_type(kind, real=False), 2, 2 * 149).tolist()
-    if marker != _HEADER_EVENTS:
+    # Word 150 of the header marks labels of four letters; the next word is their count.
+    magic, n = np.frombuffer(data, get_number_type(kind, real=False), 2, 2 * 149).tolist()
+    if magic != _HEADER_EVENTS:
         return []
     # Times begin at word 153 and labels at word 199, 18 at most.
     words = np.frombuffer(data, get_number_type(kind, real=True), 18, 2 * 152)
@@ -148,24 +142,24 @@ def read_header_events(file: Layout) -> list[tuple[float, str]]:
     return list(zip(times, labels, strict=True))[: max(n, 0)]
 
 
-def _scale_points(quads: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
-    """Positions (frames, points, 3), and where they were seen."""
-    positions = quads[:, :, :3].astype(np.float64)
-    if quads.dtype.kind == "i":
+def _scale_points(stored: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return positions (frames, points, 3), and a mask of those that were seen."""
+    positions = stored[:, :, :3].astype(np.float64)
+    if stored.dtype.kind == "i":
         positions *= scale
-    # A negative residual is a point not seen.
-    visible = (quads[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
+    # A negative residual marks a point that was not seen.
+    visible = (stored[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
     return positions, visible & positions.any(axis=2)
 
 
-def _read_labels(parameters: Parameters, group: str, n: int, usual: str) -> list[str]:
+def _read_labels(parameters: Parameters, group: str, n: int, default: str) -> list[str]:
     labels = list(parameters.strings(group, "LABELS"))
     for number in count(2):
         more = parameters.strings(group, f"LABELS{number}")
         if not more or len(labels) >= n:
             break
         labels += more
-    return [label or f"{usual}{i}" for i, label in enumerate(_pad(labels, n), 1)]
+    return [label or f"{default}{i}" for i, label in enumerate(_pad(labels, n), 1)]
 
 
 def _pad(labels: list[str], n: int) -> list[str]:
@@ -174,7 +168,7 @@ def _pad(labels: list[str], n: int) -> list[str]:
 
 @dataclass(frozen=True)
 class Header:
-    """First block, as far as it is used."""
+    """The used fields of the first block."""
 
     points: int
     analog_per_frame: int
@@ -190,7 +184,7 @@ def read_header(content: FileContent, parameters: Parameters) -> Header:
     """Return the header, in the numbers of the processor that the parameters name."""
     kind = parameters.processor
     words = np.frombuffer(content.data, get_number_type(kind, real=False), 12)
-    # Counts are unsigned, or those beyond 32767 would be negative.
+    # Counts above 32767 need unsigned integers.
     words = words.view(words.dtype.str.replace("i", "u"))
     reals = np.frombuffer(content.data, get_number_type(kind, real=True), 6)
     # The scale is the fourth real of the header, the rate the sixth.
@@ -201,7 +195,7 @@ def read_header(content: FileContent, parameters: Parameters) -> Header:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where frames stand in a file, and how many; see `kineme.formats.markers.c3d_file`."""
+    """Positions and counts of the data in a file, see `kineme.formats.markers.c3d_file`."""
 
     content: FileContent
     parameters: Parameters
@@ -213,10 +207,10 @@ class Layout:
 
     @cached_property
     def counts(self) -> tuple[int, int]:
-        """Points and analog samples of a frame.
+        """Number of points and analog samples in a frame.
 
-        The header and the parameters count both. Where they differ, the counts hold with
-        which the declared frames fill the file, whose last block may be padded.
+        Header and parameters state both. If they differ, the counts are used for which the declared
+        frames fill the file up to its last block, which may be padded.
         """
         header = (self.header.points, self.header.analog_per_frame)
         used = int(self.parameters.number("POINT", "USED", header[0]))
@@ -225,31 +219,31 @@ class Layout:
         samples = channels * per_frame if channels >= 0 else header[1]
         if used == header[0] and samples == header[1]:
             return header
-        # All combinations of the two sources.
+        # Try all combinations of the two sources.
         pairs = dict.fromkeys((n, m) for n in (used, header[0]) for m in (header[1], samples))
         fitting = [pair for pair in pairs if any(pair) and self._fills(*pair)]
         remark = (
             f"the header counts {header[0]} points and {header[1]} analog samples in a frame, "
             f"the parameters {used} and {samples}"
         )
-        # Numbers of a frame: pairs of equal width are the same layout.
+        # Pairs with equally many numbers per frame have the same layout.
         widths = {4 * n + m for n, m in fitting}
         if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
             n, m = fitting[0]
             self.content.warn(f"{remark}: {n} and {m} are taken, which fit the length of the file")
             return fitting[0]
-        if used == header[0] and not fitting:  # as header and length of a cut file would
+        if used == header[0] and not fitting:  # the file may be truncated
             self.content.warn(f"{remark}: those of the header are taken")
             return header
         fit = "either fits" if fitting else "neither fits"
         raise self.content.error(f"{remark}, and {fit} the length of the file: it is damaged")
 
     def _fills(self, n_points: int, per_frame: int) -> bool:
-        """Whether a declared number of frames, so wide, ends in the last block of the file."""
+        """Return whether one of the declared numbers of frames ends in the file's last block."""
         width = (4 * n_points + per_frame) * self._kind.itemsize
         size = len(self.content.data) - self.start
         ends = (frames * width for frames in self._declared_frames())
-        # The end must lie in the last block; one more block of padding is common.
+        # The end must be in the last block; one additional block of padding is common.
         return any(end <= size < (end // BLOCK + 2) * BLOCK for end in ends if end)
 
     @cached_property
@@ -258,7 +252,7 @@ class Layout:
 
     @cached_property
     def start(self) -> int:
-        """Where the data begin, in bytes."""
+        """Offset of the data in bytes."""
         block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
         if block < 2:
             raise self.content.error("the header names no place for the data, or no points in it")
@@ -278,15 +272,15 @@ class Layout:
         return self._long("ACTUAL_START_FIELD") or self.header.first_frame
 
     def frames(self) -> Stored:
-        """(frames, numbers): the data section as stored."""
+        """Return the stored data section (frames, numbers)."""
         start, kind = self.start, self._kind
         width = 4 * self.n_points + self.counts[1]
         if width == 0:
             raise self.content.error("the header names no place for the data, or no points in it")
-        room = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
+        available = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
         declared = self._declared_frames()
-        # The largest declared count that fits; if none does, all that there is.
-        n = max((frames for frames in declared if 0 < frames <= room), default=room)
+        # Use the largest declared count that fits, else all complete frames.
+        n = max((frames for frames in declared if 0 < frames <= available), default=available)
         if n == 0:
             raise self.content.error(
                 f"less than one frame of {self.n_points} points: the file is truncated"
@@ -307,21 +301,20 @@ class Layout:
         return {frames for frames in counts if frames > 0} or {0}
 
     def _long(self, name: str) -> int:
-        """Return a count in two words, the low one first; 0 if there is none."""
+        """Return a 32-bit count stored as two words, the low one first; 0 if it is missing."""
         low, *high = self.parameters.numbers("TRIAL", name)[:2] or [0.0]
-        # Two words of 16 bits.
         return int(low) + (int(high[0]) << 16 if high else 0)
 
 
 @dataclass(frozen=True)
 class Record:
-    """Where a group or a parameter stands in a C3D file, in bytes."""
+    """Position of a group or parameter in a C3D file, in bytes."""
 
-    number: int  # of its group; negative: it is the group
+    number: int  # number of its group, negative if the record is the group
     name: str  # in upper case
     start: int
-    values: int  # type, dimensions and values, or what describes a group
-    stop: int | None  # where the next record begins; the last one need not tell it
+    values: int  # position of type, dimensions and values, or of a group's description
+    stop: int | None  # start of the next record; may be missing in the last one
 
 
 @dataclass(frozen=True)
@@ -330,28 +323,28 @@ class Parameters:
 
     content: FileContent
     processor: int
-    start: int  # byte at which they begin
+    start: int  # first byte of the section
     records: list[Record]
 
     @cached_property
     def places(self) -> dict[tuple[str, str], int]:
-        """Where the values of each parameter stand."""
-        groups = {-each.number: each.name for each in self.records if each.number < 0}
+        """Offset of the values of each parameter."""
+        groups = {-record.number: record.name for record in self.records if record.number < 0}
         return {
-            (groups.get(each.number, ""), each.name): each.values
-            for each in self.records
-            if each.number > 0
+            (groups.get(record.number, ""), record.name): record.values
+            for record in self.records
+            if record.number > 0
         }
 
-    def number(self, group: str, name: str, usual: float) -> float:
-        """Return the first of the values as a finite number, ``usual`` if there is none."""
+    def number(self, group: str, name: str, default: float) -> float:
+        """Return the first value as a finite number, ``default`` if there is none."""
         values = self.numbers(group, name)
-        return values[0] if values and np.isfinite(values[0]) else usual
+        return values[0] if values and np.isfinite(values[0]) else default
 
     def numbers(self, group: str, name: str, *, signed: bool = False) -> list[float]:
         """Return the values as numbers, none if they are text.
 
-        Integers are counts unless signed.
+        Integers are unsigned counts unless ``signed``.
         """
         kind, _, data = self.stored(group, name)
         if kind == 4:
@@ -363,7 +356,7 @@ class Parameters:
             data, "i1" if kind == 1 else get_number_type(self.processor, real=False)
         )
         if not signed:
-            # The same bytes, seen as unsigned.
+            # Reinterpret the bytes as unsigned.
             integers = integers.view(integers.dtype.str.replace("i", "u"))
         return list(map(float, integers))
 
@@ -372,7 +365,7 @@ class Parameters:
         return [decode_text(text) for text in self.texts(group, name)]
 
     def texts(self, group: str, name: str) -> list[bytes]:
-        """Return the same as they are stored."""
+        """Return the values as bytes, none if they are numbers."""
         kind, shape, data = self.stored(group, name)
         width = shape[0] if shape else 1
         if kind != -1 or width == 0:
@@ -380,16 +373,16 @@ class Parameters:
         return [data[at : at + width] for at in range(0, len(data), width)]
 
     def stored(self, group: str, name: str) -> tuple[int, list[int], bytes]:
-        """Type, dimensions and bytes of a parameter; nothing where it is not whole."""
-        at = self.places.get((group, name))
+        """Return type, dimensions and bytes of a parameter; empty if it is missing or truncated."""
+        offset = self.places.get((group, name))
         data = self.content.data
-        if at is None or at + 2 > len(data):
+        if offset is None or offset + 2 > len(data):
             return 0, [], b""
-        kind = int.from_bytes(data[at : at + 1], signed=True)
-        # A count of dimensions, then as many dimensions of a byte each.
-        shape = list(data[at + 2 : at + 2 + data[at + 1]])
-        start = at + 2 + data[at + 1]
-        # The type is the size of a value; -1 is text.
+        kind = int.from_bytes(data[offset : offset + 1], signed=True)
+        # The number of dimensions, then one byte for each.
+        shape = list(data[offset + 2 : offset + 2 + data[offset + 1]])
+        start = offset + 2 + data[offset + 1]
+        # The type is the size of a value in bytes; -1 is text.
         size = abs(kind) * prod(shape)
         if start + size > len(data):
             return 0, [], b""
@@ -397,7 +390,7 @@ class Parameters:
 
 
 def read_parameters(content: FileContent) -> Parameters:
-    """Where each parameter of the file is; ReadError where there are none of a known processor."""
+    """Return the parameters; raise ReadError if the section is missing or its processor unknown."""
     data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0
     if len(data) < max(start + 4, BLOCK):
@@ -410,40 +403,40 @@ def read_parameters(content: FileContent) -> Parameters:
         )
     order = "big" if processor == MIPS else "little"
     records: list[Record] = []
-    at = start + 4
-    while at + 2 <= len(data):
-        length = abs(int.from_bytes(data[at : at + 1], signed=True))
-        group = int.from_bytes(data[at + 1 : at + 2], signed=True)
-        after = at + 2 + length
-        # The distance to the next record is counted from its own place.
+    offset = start + 4
+    while offset + 2 <= len(data):
+        length = abs(int.from_bytes(data[offset : offset + 1], signed=True))
+        group = int.from_bytes(data[offset + 1 : offset + 2], signed=True)
+        after = offset + 2 + length
+        # The distance to the next record counts from its own position.
         step = int.from_bytes(data[after : after + 2], order)  # type: ignore[arg-type]
         if length == 0 or group == 0:
             break
-        name = decode_text(data[at + 2 : after]).upper()
-        records.append(Record(group, name, at, after + 2, after + step if step else None))
+        name = decode_text(data[offset + 2 : after]).upper()
+        records.append(Record(group, name, offset, after + 2, after + step if step else None))
         if step == 0:
             break
-        at = after + step
+        offset = after + step
     return Parameters(content, processor, start, records)
 
 
 def get_number_type(processor: int, *, real: bool) -> np.dtype[Any]:
-    """How a number is stored; DEC's floats need `as_float32` besides."""
+    """Return the stored type of a number; DEC's floats additionally need `as_float32`."""
     return np.dtype((">" if processor == MIPS else "<") + ("f4" if real else "i2"))
 
 
 def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
-    """Return values, with DEC's floats (words exchanged, exponents larger by two) made IEEE's."""
+    """Return the values with DEC's floats converted to IEEE's."""
     if processor != DEC:
         return values
-    # The two words of a float are exchanged, and the exponent is larger by two: a factor of 4.
+    # DEC swaps the two words of a float; its exponent is larger by two, a factor of 4.
     words = np.ascontiguousarray(values).view("<u2")
     exchanged = words.reshape(-1, 2)[:, ::-1].copy().view("<f4").reshape(values.shape)
     return np.asarray(exchanged / 4, np.float32)
 
 
 def decode_text(data: bytes) -> str:
-    """Text padded with blanks or zeros; UTF-8, else Latin-1 as older programs write."""
+    """Return text without padding blanks or zeros; UTF-8, else Latin-1 of older programs."""
     data = data.partition(b"\0")[0]
     try:
         return data.decode().strip()

@@ -1,14 +1,14 @@
-"""A C3D file with more events: parameters of the group EVENT made anew, all else byte for byte.
+"""Add events to a C3D file: rewrite the parameters of the group EVENT, copy all other bytes.
 
-The parameter section is a list of records, of which each tells how far the next one is. Those
-of other groups stay as they are, and so do points and analog samples. Where the section needs more
-blocks, what follows moves down, and the three places that say where it begins are told: the
-header's pointer to the data, POINT:DATA_START, and the header's pointer to labels and ranges.
+The parameter section is a list of records, each with the distance to the next one. Records of other
+groups, points and analog samples stay unchanged. If the section needs more blocks, the data move
+down and three pointers are updated: the header's pointer to the data, POINT:DATA_START, and the
+header's pointer to labels and ranges.
 
-Text, integers and floats are those of the file's processor. An event has a side (CONTEXTS), a name
-(LABELS), minutes and seconds (TIMES, counted from frame 1), an icon, and whose it is (SUBJECTS).
-Events of the header, as older programs write them, go into the group as well, since readers
-look there first; in the header they stay.
+Text, integers and floats have the format of the file's processor. An event has a side (CONTEXTS), a
+name (LABELS), minutes and seconds (TIMES, counted from frame 1), an icon, and a subject (SUBJECTS).
+Events in the header, as older programs write them, are copied to the group, since readers look
+there first; they also stay in the header.
 
 Source: Motion Lab Systems, "The C3D file format: a technical user guide" (2021); icons and
 descriptions are those of Vicon Nexus.
@@ -40,28 +40,28 @@ from kineme.formats.markers.c3d_file import (
 )
 
 RawRecord = tuple[int, str, bytes]
-"""Number of its group (negative: it is the group), its name in upper case, its bytes."""
+"""Number of its group (negative if it is the group), name in upper case, and bytes."""
 
 EVENT = "EVENT"
 PER_EVENT = ("USED", "CONTEXTS", "LABELS", "DESCRIPTIONS", "TIMES", "SUBJECTS", "ICON_IDS",
              "GENERIC_FLAGS")  # fmt: skip
-"""Parameters with a value for each event, which are made anew."""
-MOST = 255
-"""Events: a dimension is one byte."""
+"""Parameters with one value per event, which are rewritten."""
+MAX_EVENTS = 255
+"""Maximum number of events: a dimension is one byte."""
 ICONS = {
     "Foot Strike": (1, "The instant the heel strikes the ground"),
     "Foot Off": (2, "The instant the toe leaves the ground"),
 }
 """Icon and description by the label of an event."""
 _LABELS_AND_RANGES = 12345
-"""Marks a header that names the block of labels and ranges."""
+"""Value that marks headers with a pointer to the block of labels and ranges."""
 
 
 @dataclass(frozen=True)
 class C3DEvent:
-    """One event: seconds from the first frame of the file, and a label such as ``Foot Strike``.
+    """An event: seconds from the first frame of the file, and a label such as ``Foot Strike``.
 
-    The side is ``Left``, ``Right``, ``General``, or empty where nobody says it.
+    The side is ``Left``, ``Right``, ``General``, or empty if unknown.
     """
 
     seconds: float
@@ -70,17 +70,17 @@ class C3DEvent:
 
 
 def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
-    """Return the bytes of a C3D file that has these events besides its own."""
+    """Return the bytes of a C3D file with these events in addition to its own."""
     parameters = read_parameters(content)
     layout = Layout(content, parameters, read_header(content, parameters))
-    layout.frames()  # ReadError where the data are not there
+    layout.frames()  # raises ReadError if the data are missing
     if not layout.rate:
         raise content.error("has no frame rate, which the times of events need")
     table = _collect_events(layout, events)
-    if len(table["LABELS"]) > MOST:
+    if len(table["LABELS"]) > MAX_EVENTS:
         raise WriteError(
             content.path,
-            f"cannot take {len(table['LABELS'])} events: a C3D file holds {MOST} at most",
+            f"cannot take {len(table['LABELS'])} events: a C3D file holds {MAX_EVENTS} at most",
         )
     if not events:
         return content.data
@@ -91,42 +91,42 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
 
 
 def _is_kept(before: Parameters, after: Parameters, table: dict[str, list[Any]]) -> bool:
-    """Return whether a file has the parameters that it had, and these events."""
-    # `DATA_START` is the one other parameter that may change.
-    others = (
-        place
-        for place in before.places
-        if place[0] != EVENT or place[1] not in PER_EVENT
-        if place != ("POINT", "DATA_START")
+    """Return whether a file still has its parameters, and has these events."""
+    # Besides the events only `DATA_START` may change.
+    unchanged = (
+        key
+        for key in before.places
+        if key[0] != EVENT or key[1] not in PER_EVENT
+        if key != ("POINT", "DATA_START")
     )
     return (
-        all(before.stored(*place) == after.stored(*place) for place in others)
+        all(before.stored(*key) == after.stored(*key) for key in unchanged)
         and int(after.number(EVENT, "USED", 0)) == len(table["LABELS"])
         and len(after.numbers(EVENT, "TIMES")) == 2 * len(table["LABELS"])
     )
 
 
 def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, list[Any]]:
-    """By parameter the values of all events: those of the file first, in its order."""
+    """Return the values of all events by parameter: those of the file first."""
     parameters, first = layout.parameters, (layout.first_frame - 1) / layout.rate
-    # An event without a label is none for the reader either.
+    # The reader ignores events without a label, too.
     used = min(int(parameters.number(EVENT, "USED", 0)), len(parameters.texts(EVENT, "LABELS")))
     times = parameters.numbers(EVENT, "TIMES")
     pairs = list(zip(times[::2], times[1::2], strict=False))[:used]
     table: dict[str, list[Any]] = {"TIMES": pairs}
-    for name, usual in (("CONTEXTS", b""), ("LABELS", b""), ("DESCRIPTIONS", b""),
+    for name, default in (("CONTEXTS", b""), ("LABELS", b""), ("DESCRIPTIONS", b""),
                         ("SUBJECTS", b""), ("ICON_IDS", 0), ("GENERIC_FLAGS", 0)):  # fmt: skip
         stored = (
             parameters.texts(EVENT, name)
-            if usual == b""
-            else [int(each) for each in parameters.numbers(EVENT, name, signed=True)]
+            if default == b""
+            else [int(value) for value in parameters.numbers(EVENT, name, signed=True)]
         )[: len(pairs)]
-        table[name] = [*stored, *([usual] * (len(pairs) - len(stored)))]
+        table[name] = [*stored, *([default] * (len(pairs) - len(stored)))]
     subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
-    more = (
+    header_events = (
         [] if pairs else [C3DEvent(at - first, "", name) for at, name in read_header_events(layout)]
     )
-    for event in [*more, *events]:
+    for event in [*header_events, *events]:
         minutes, seconds = divmod(event.seconds + first, 60)
         icon, description = ICONS.get(event.label, (0, ""))
         table["TIMES"].append((minutes, seconds))
@@ -135,65 +135,67 @@ def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, lis
         table["DESCRIPTIONS"].append(description.encode())
         table["SUBJECTS"].append(subject)
         table["ICON_IDS"].append(icon)
-        table["GENERIC_FLAGS"].append(1)  # found, not marked by a person
+        table["GENERIC_FLAGS"].append(1)  # detected, not marked manually
     return table
 
 
 def _replace_event_records(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord]:
-    """Return all records, those of events made anew, at the end."""
+    """Return all records, with rewritten records of events at the end."""
     parameters = layout.parameters
     records = _read_records(parameters)
     groups = {-number: name for number, name, _ in records if number < 0}
     number = next((each for each, name in groups.items() if name == EVENT), 0)
-    kept = [each for each in records if not (each[0] == number > 0 and each[1] in PER_EVENT)]
-    # The first number of a group that is free.
+    result = [each for each in records if not (each[0] == number > 0 and each[1] in PER_EVENT)]
+    # Use the first free number of a group.
     if not number:
         number = next((n for n in range(1, 128) if n not in groups), 0)
         if not number:
             raise layout.content.error("has 127 groups of parameters, and no room for its events")
-        kept.append((-number, EVENT, _encode_record(-number, EVENT, b"\0", parameters.processor)))
+        result.append((-number, EVENT, _encode_record(-number, EVENT, b"\0", parameters.processor)))
     n = len(table["LABELS"])
     times = np.array(table["TIMES"], np.float32)
-    made: list[tuple[str, int, list[int], bytes]] = [
+    new_records: list[tuple[str, int, list[int], bytes]] = [
         ("USED", 2, [], _encode_integers([n], parameters.processor)),
         ("TIMES", 4, [2, n], _encode_reals(times, parameters.processor)),
         ("ICON_IDS", 2, [n], _encode_integers(table["ICON_IDS"], parameters.processor)),
         ("GENERIC_FLAGS", 1, [n], bytes(each & 255 for each in table["GENERIC_FLAGS"])),
     ]
     for name in ("CONTEXTS", "LABELS", "DESCRIPTIONS", "SUBJECTS"):
-        # Texts of one parameter have one width, padded with blanks.
+        # All texts of a parameter have the same width, padded with blanks.
         width = max(1, *map(len, table[name]))
-        made.append((name, -1, [width, n], b"".join(each.ljust(width) for each in table[name])))
-    for name, kind, shape, values in sorted(made, key=lambda each: PER_EVENT.index(each[0])):
+        new_records.append(
+            (name, -1, [width, n], b"".join(each.ljust(width) for each in table[name]))
+        )
+    for name, kind, shape, values in sorted(new_records, key=lambda each: PER_EVENT.index(each[0])):
         body = bytes([kind & 255, len(shape), *shape]) + values + b"\0"  # without a description
-        kept.append((number, name, _encode_record(number, name, body, parameters.processor)))
-    return kept
+        result.append((number, name, _encode_record(number, name, body, parameters.processor)))
+    return result
 
 
 def _read_records(parameters: Parameters) -> list[RawRecord]:
-    """Return records as stored, each from the length of its name to where the next one begins."""
+    """Return the stored records, each from the length of its name to the start of the next one."""
     data, records = parameters.content.data, []
-    for each in parameters.records:
-        stop = each.stop
-        if stop is None:  # the last one does not tell where it ends
-            stop = _find_end(data, each.number, each.values)
-        raw = bytearray(data[each.start : stop])
-        # The distance is set anew: it is 0 in what used to be the last record.
-        raw[each.values - 2 - each.start : each.values - each.start] = _encode_distance(
-            stop - (each.values - 2), parameters.processor
+    for record in parameters.records:
+        stop = record.stop
+        if stop is None:  # the last record may not state its end
+            stop = _find_end(data, record.number, record.values)
+        raw = bytearray(data[record.start : stop])
+        # Rewrite the distance: it was 0 in the last record.
+        raw[record.values - 2 - record.start : record.values - record.start] = _encode_distance(
+            stop - (record.values - 2), parameters.processor
         )
-        records.append((each.number, each.name, bytes(raw)))
+        records.append((record.number, record.name, bytes(raw)))
     return records
 
 
 def _find_end(data: bytes, number: int, values: int) -> int:
-    """Where a record ends whose values, or for a group its description, begin at a byte."""
+    """Return the end of a record whose values or group description start at byte ``values``."""
     if number > 0:
-        # Type, number of dimensions, the dimensions, and then the values.
+        # Type, number of dimensions, dimensions, values.
         shape = data[values + 2 : values + 2 + data[values + 1]]
         kind = int.from_bytes(data[values : values + 1], signed=True)
         values += 2 + len(shape) + abs(kind) * prod(shape)
-    # After the values comes a description, its length first.
+    # A description follows, its length first.
     return values + 1 + (data[values] if values < len(data) else 0)
 
 
@@ -207,18 +209,18 @@ def _encode_distance(length: int, processor: int) -> bytes:
 
 
 def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
-    """Return the file with these records as its parameters."""
+    """Return the bytes of the file with these records as its parameters."""
     content, parameters = layout.content, layout.parameters
     data, kind = content.data, parameters.processor
     start = parameters.start
-    room = layout.start - start
-    if room <= 0:
+    available = layout.start - start
+    if available <= 0:
         raise content.error("has its data before its parameters, which cannot grow there")
-    read = max((each.start for each in parameters.records), default=start)
-    # The third byte says how many blocks the section has.
+    last_record = max((record.start for record in parameters.records), default=start)
+    # The third byte is the number of blocks of the section.
     size = data[start + 2] * BLOCK
-    if not read - start < size <= room:  # a count that is not true
-        size = room
+    if not last_record - start < size <= available:  # the count is wrong
+        size = available
     # Two zero bytes end the list of records.
     body = b"".join(raw for _, _, raw in records) + bytes(2)
     # Rounded up to whole blocks; the section never shrinks.
@@ -229,40 +231,40 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     section = bytearray((head + body).ljust(blocks * BLOCK, b"\0"))
     grown = blocks - size // BLOCK
     header = bytearray(data[:start])
-    # All that follows moves down by so many blocks, so pointers to it grow.
+    # The data move down, so pointers to them grow.
     if grown:
         _move_pointer(header, 2 * 8, kind, grown)
         if header[2 * 147 : 2 * 148] == _encode_integers([_LABELS_AND_RANGES], kind):
             _move_pointer(header, 2 * 148, kind, grown)
         points = {-number for number, name, _ in records if number < 0 and name == "POINT"}
-        at = 4
+        offset = 4
         for number, name, raw in records:
             if name == "DATA_START" and number in points:
-                # Length, group and distance stand before the type.
+                # Length, group and distance precede the type.
                 length = abs(int.from_bytes(raw[:1], signed=True))
-                _move_value(section, at + 4 + length, kind, grown)
-            at += len(raw)
+                _move_value(section, offset + 4 + length, kind, grown)
+            offset += len(raw)
     return bytes(header + section) + data[start + size :]
 
 
 def _move_value(section: bytearray, values: int, processor: int, by: int) -> None:
-    """Add blocks to a parameter whose type stands at a byte of the section."""
-    place = values + 2 + section[values + 1]
+    """Add ``by`` blocks to a parameter whose type is at byte ``values`` of the section."""
+    offset = values + 2 + section[values + 1]
     if section[values] == 2:
-        _move_pointer(section, place, processor, by)
+        _move_pointer(section, offset, processor, by)
     elif section[values] == 4:
         kind = get_number_type(processor, real=True)
-        stored = np.frombuffer(bytes(section[place : place + 4]), kind)
-        moved = as_float32(stored, processor) + by
-        section[place : place + 4] = _encode_reals(moved, processor)
+        stored = np.frombuffer(bytes(section[offset : offset + 4]), kind)
+        new_value = as_float32(stored, processor) + by
+        section[offset : offset + 4] = _encode_reals(new_value, processor)
 
 
-def _move_pointer(data: bytearray, place: int, processor: int, by: int) -> None:
-    """Add blocks to a pointer of two bytes; one that is 0 points nowhere."""
+def _move_pointer(data: bytearray, offset: int, processor: int, by: int) -> None:
+    """Add ``by`` blocks to a pointer of two bytes, unless it is 0 (null)."""
     order: Any = "big" if processor == MIPS else "little"
-    block = int.from_bytes(data[place : place + 2], order)
+    block = int.from_bytes(data[offset : offset + 2], order)
     if block:
-        data[place : place + 2] = (block + by).to_bytes(2, order)
+        data[offset : offset + 2] = (block + by).to_bytes(2, order)
 
 
 def _encode_integers(values: Sequence[int], processor: int) -> bytes:
@@ -270,7 +272,7 @@ def _encode_integers(values: Sequence[int], processor: int) -> bytes:
 
 
 def _encode_reals(values: NDArray[np.float32], processor: int) -> bytes:
-    """Floats as a processor has them; DEC's have exponents larger by two, and words exchanged."""
+    """Return floats in the processor's format; DEC has larger exponents and swapped words."""
     if processor != DEC:
         return values.astype(get_number_type(processor, real=True)).tobytes()
     words = (values * np.float32(4)).astype("<f4").view("<u2").reshape(-1, 2)[:, ::-1]

@@ -1,19 +1,19 @@
-"""Tables as capture programs write them: Vicon's Nexus, OptiTrack's Motive, Qualisys' QTM.
+"""Read tables of capture programs: Vicon's Nexus, OptiTrack's Motive, Qualisys' QTM.
 
-One name stands for three columns ``X,Y,Z``.
+Each name stands above three columns ``X,Y,Z``.
 
-- Nexus: a line ``Trajectories``, the rate, names as ``Ann:LASI``, ``Frame,Sub Frame,X,Y,Z,…``,
-  the units, then a row per frame up to a blank line. Devices and model outputs stand in chapters
-  of their own, which are passed over.
-- Motive: a line ``Format Version,…`` of facts, the rate and the unit among them; below it what
-  the columns are of (markers, bones, rigid bodies), their names, perhaps more, and whether they
-  are positions or rotations. Markers are taken where as many are named as there are bones or rigid
-  bodies; else these.
-- QTM: lines ``NO_OF_FRAMES``, ``FREQUENCY``, ``MARKER_NAMES`` and more, each with what it names
-  behind a tab; then perhaps a line ``Frame, Time, LASI X, …``, and rows of millimetres. A marker
-  that is exactly at the origin was not seen.
+- Nexus: a line ``Trajectories``, the rate, names such as ``Ann:LASI``, ``Frame,Sub Frame,X,Y,Z,…``,
+  the units, then a row per frame up to a blank line. Devices and model outputs are in sections of
+  their own, which are skipped.
+- Motive: a line ``Format Version,…`` with the rate, the unit and other metadata. Below it are the
+  kinds of the columns (markers, bones, rigid bodies), their names, further lines, and whether they
+  are positions or rotations. Markers are read if there are at least as many named ones as bones or
+  rigid bodies, otherwise those.
+- QTM: lines ``NO_OF_FRAMES``, ``FREQUENCY``, ``MARKER_NAMES`` and others, each with its value after
+  a tab; then optionally a line ``Frame, Time, LASI X, …``, and rows in millimetres. A marker
+  exactly at the origin was not seen.
 
-Markers without a name are left out where others have one, and an empty cell is a marker not seen.
+Markers without a name are left out if others have one. An empty cell is a marker not seen.
 """
 
 from __future__ import annotations
@@ -43,18 +43,18 @@ _MARKERS = re.compile(r'[ ",;\t]*trajectories[ ",;\t]*', re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Capture:
-    """Where the columns of a table stand, and what stands above them."""
+    """Positions of the columns of a table, and its metadata."""
 
-    cells: Sequence[str]  # one for each column
-    separator: str  # between cells
-    below: int  # the first row, counted from 0
-    columns: dict[str, int]  # that of x of each point; y and z follow it
+    cells: Sequence[str]  # one per column
+    separator: str
+    first_row: int  # index of a line
+    columns: dict[str, int]  # column of x of each point; y and z follow
     rate: str  # as written
     unit: str  # as written
 
 
 def is_nexus(_: Sequence[str], lines: Sequence[str]) -> bool:
-    """Return whether a file is Nexus's; one of devices alone holds channels as others do."""
+    """Return whether a file is Nexus's with trajectories; tables of devices are ordinary ones."""
     return _find_first_line(lines) in CHAPTERS and any(map(_MARKERS.fullmatch, lines))
 
 
@@ -64,7 +64,7 @@ def is_motive(_: Sequence[str], lines: Sequence[str]) -> bool:
 
 
 def is_qtm(_: Sequence[str], lines: Sequence[str]) -> bool:
-    """Return whether a file is a table of markers of Qualisys'."""
+    """Return whether a file is QTM's table of markers."""
     return _find_first_line(lines).startswith("no_of_frames") and "MARKER_NAMES" in _parse_header(
         lines
     )
@@ -78,25 +78,30 @@ def read_capture(
     look: Callable[[FileContent, Sequence[str]], Capture],
     usual_up: str = "z",
 ) -> Motion:
-    """Return the motion of the markers in a table of a program, once it was looked at."""
+    """Return the motion of the markers in a table, whose structure ``look`` finds."""
     content, lines = table.content, table.lines
     capture = look(content, lines)
     columns = capture.columns
     names = [name for name in columns if not is_nameless(name)] or [*columns]
     chosen = [columns[name] + axis for name in names for axis in range(3)]
-    below = range(capture.below, len(lines))
-    # A blank line ends the chapter.
-    end = next((i for i in below if not lines[i].strip(" ,;\t")), None)
+    rows_below = range(capture.first_row, len(lines))
+    # A blank line ends the section.
+    end = next((i for i in rows_below if not lines[i].strip(" ,;\t")), None)
     rows = DelimitedText(
-        content, lines[:end], capture.cells, capture.below - 1, capture.below, capture.separator
+        content,
+        lines[:end],
+        capture.cells,
+        capture.first_row - 1,
+        capture.first_row,
+        capture.separator,
     )
-    # Frames, markers, axes.
+    # Axes: frames, markers, coordinates.
     values = rows.numbers(chosen).reshape(-1, len(names), 3)
     if program == "QTM":
         values[(values == 0).all(axis=2)] = np.nan
     notes = list(rows.remarks)
-    if left := len(columns) - len(names):
-        notes.append(f"{format_count(left, 'point')} without a name left out")
+    if n_left_out := len(columns) - len(names):
+        notes.append(f"{format_count(n_left_out, 'point')} without a name left out")
     points = Points(
         names,
         values,
@@ -137,69 +142,72 @@ def _parse_motive(content: FileContent, lines: Sequence[str]) -> Capture:
     axes = _find_axis_line(content, lines, 0)
     separator = find_separator(lines[axes])
     above = [split_cells(line, separator) for line in lines[:axes] if line.strip()]
-    # Facts are name and value in turn.
+    # Names and values of the metadata alternate.
     pairs = zip(above[0][::2], above[0][1::2], strict=False)
-    facts = {key.lower(): value for key, value in pairs}
+    metadata = {key.lower(): value for key, value in pairs}
     if len(above) < 4:
         raise content.error("kinds, names and 'Position' expected above the axes", axes + 1)
-    kinds, names, quantities = above[1], above[2], above[-1]
+    kinds, names, quantity_names = above[1], above[2], above[-1]
     kinds = [kind.lower() for kind in kinds]
     points = _find_point_kinds(kinds, names)
     cells = split_cells(lines[axes], separator)
-    places = [
+    position_axes = [
         axis if kind in points and quantity.lower() == "position" else ""
-        for axis, kind, quantity in zip(cells, kinds, quantities, strict=False)
+        for axis, kind, quantity in zip(cells, kinds, quantity_names, strict=False)
     ]
-    columns = _find_columns(content, names, places, axes)
-    rate = facts.get("export frame rate") or facts.get("capture frame rate", "")
-    unit = facts.get("length units", "")
+    columns = _find_columns(content, names, position_axes, axes)
+    rate = metadata.get("export frame rate") or metadata.get("capture frame rate", "")
+    unit = metadata.get("length units", "")
     return Capture(cells, separator, axes + 1, columns, rate, unit)
 
 
 def _find_point_kinds(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
-    """Return the kind of column that holds the body.
+    """Return the kind of columns that hold the body.
 
-    A body has more markers than bones. Fewer are strays, and so are those without a name and the
-    markers of a rigid body, ``Hips:Marker1``, which tell no more than it does.
+    A body has more markers than bones. If there are fewer, they are stray markers. Markers without
+    a name and markers of a rigid body, ``Hips:Marker1``, do not count: they add nothing to it.
     """
-    found: dict[str, set[str]] = {}
+    names_by_kind: dict[str, set[str]] = {}
     for kind, name in zip(kinds, names, strict=False):
-        found.setdefault(kind, set()).add(name)
-    rigid = found.get("rigid body", set())
+        names_by_kind.setdefault(kind, set()).add(name)
+    rigid = names_by_kind.get("rigid body", set())
     markers = {
         name
-        for name in found.get("marker", set())
+        for name in names_by_kind.get("marker", set())
         if not is_nameless(name) and name.rpartition(":")[0] not in rigid
     }
-    solid = next((kind for kind in ("bone", "rigid body") if kind in found), None)
-    if "marker" in found and (solid is None or len(markers) >= len(found[solid])):
+    bone_kind = next((kind for kind in ("bone", "rigid body") if kind in names_by_kind), None)
+    if "marker" in names_by_kind and (
+        bone_kind is None or len(markers) >= len(names_by_kind[bone_kind])
+    ):
         return {"marker"}
-    return {solid} if solid else set(kinds)
+    return {bone_kind} if bone_kind else set(kinds)
 
 
 def _parse_qtm(content: FileContent, lines: Sequence[str]) -> Capture:
-    facts = _parse_header(lines)
-    names = facts["MARKER_NAMES"]
+    metadata = _parse_header(lines)
+    names = metadata["MARKER_NAMES"]
     below = next((i for i, line in enumerate(lines) if is_number(line.split("\t")[0])), len(lines))
     cells = lines[below].split("\t") if below < len(lines) else []
-    # Frame and time take two columns.
-    timed = len(cells) >= 3 * len(names) + 2  # frame and time stand first; a row may end in a tab
-    columns = {name: 3 * i + 2 * timed for i, name in enumerate(names)}
+    has_times = (
+        len(cells) >= 3 * len(names) + 2
+    )  # frame and time come first; a row may end with a tab
+    columns = {name: 3 * i + 2 * has_times for i, name in enumerate(names)}
     if len(cells) < 3 * len(names):
         raise content.error(f"{len(cells)} columns for {len(names)} markers", below + 1)
-    numbered = [str(i) for i in range(3 * len(names) + 2 * timed)]
-    return Capture(numbered, "\t", below, columns, "".join(facts.get("FREQUENCY", [])), "mm")
+    numbered = [str(i) for i in range(3 * len(names) + 2 * has_times)]
+    return Capture(numbered, "\t", below, columns, "".join(metadata.get("FREQUENCY", [])), "mm")
 
 
 def _parse_header(lines: Sequence[str]) -> dict[str, list[str]]:
-    """Return what the lines at the top of a table of Qualisys' name, by what they begin with."""
-    facts: dict[str, list[str]] = {}
+    """Return the values in the lines at the top of QTM's table, by their names."""
+    metadata: dict[str, list[str]] = {}
     for line in lines:
         name, *values = line.rstrip().split("\t")
         if not name.isupper():
             break
-        facts[name] = values
-    return facts
+        metadata[name] = values
+    return metadata
 
 
 def _find_axis_line(content: FileContent, lines: Sequence[str], start: int) -> int:
@@ -212,14 +220,14 @@ def _find_axis_line(content: FileContent, lines: Sequence[str], start: int) -> i
 def _find_columns(
     content: FileContent, names: Sequence[str], axes: Sequence[str], line: int
 ) -> dict[str, int]:
-    """Return the column of x of each point with y and z beside it."""
-    found: dict[str, int] = {}
+    """Return the column of x of each point that is followed by y and z."""
+    columns: dict[str, int] = {}
     for i, name in enumerate(names):
         if name and [cell.lower() for cell in axes[i : i + 3]] == ["x", "y", "z"]:
-            found.setdefault(name, i)
-    if not found:
+            columns.setdefault(name, i)
+    if not columns:
         raise content.error("no name stands above the axes X, Y and Z", line + 1)
-    return found
+    return columns
 
 
 def _parse_rate(content: FileContent, table: Capture) -> float:

@@ -1,10 +1,9 @@
-"""TRC: tables of markers as OpenSim and motion capture programs write them.
+"""Read and write TRC: tables of markers of OpenSim and motion capture programs.
 
-Three lines about the file, two of names, then a line per frame with its number,
-its time and x, y, z of each marker, between tabs or commas. An empty cell is a
-marker not seen. ``DataRate`` is the frame rate; where the column of times says
-otherwise, the times are right, with a warning. A TRC has a unit but no up axis:
-y, OpenSim's, is taken where head and feet do not tell.
+Three lines describe the file, two hold names. Each further line has the number of a frame, its time
+and x, y, z of each marker, separated by tabs or commas. An empty cell is a marker not seen.
+``DataRate`` is the frame rate; if the times contradict it, they are used, with a warning. A TRC has
+a unit but no up axis: OpenSim's y is used if head and feet do not show it.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     names = _name_markers(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
     if not names:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
-    # `x y z` of each marker; the first two columns are frame and time.
+    # Frame and time precede x, y, z of each marker.
     columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
     text = DelimitedText(content, lines, columns, 3, _HEADER_LINES, separator)
     table = text.numbers()
@@ -68,18 +67,17 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def _is_image(content: FileContent, head: dict[str, str], positions: Floats) -> bool:
-    """Return whether positions are pixels: flat, and called so in the header or the file's name.
+    """Return whether positions are pixels: flat, and so named in the header or the file's name.
 
-    Sports2D states metres above pixels, and calls the file ``NAME_px_person00.trc``.
+    Sports2D writes metres above pixels, and names the file ``NAME_px_person00.trc``.
     """
-    # A flat third axis, with pixels in the name.
     is_flat = not np.nanmax(np.abs(positions[..., 2]), initial=0.0)
     words = [head.get("Units", "").lower(), *re.split(r"[\W_]", Path(content.path).stem.lower())]
     return is_flat and not {"px", "pixel", "pixels"}.isdisjoint(words)
 
 
 def write_trc(motion: Motion, path: Path) -> None:
-    """Leave the joints' positions in a TRC file, in millimetres; cells in gaps are empty."""
+    """Write the joints' positions to a TRC file in millimetres; cells in gaps are empty."""
     names = clean_names(path, motion.skeleton.names, format_point_name)
     n, m = motion.n_frames, len(names)
     fps = f"{motion.fps!r}"
@@ -104,13 +102,14 @@ def write_trc(motion: Motion, path: Path) -> None:
 def _name_markers(cells: list[str], width: int) -> list[str]:
     """Return one name for each three of the ``width`` columns of coordinates.
 
-    Programs leave a varying number of tabs between names. Where there is a name for every marker,
-    their order tells the columns; else every third cell has a name or stands for a nameless marker.
+    Programs write a varying number of tabs between names. If there is a name for every marker,
+    their order assigns them; otherwise every third cell has a name, or is blank for a nameless
+    marker.
     """
-    given = [cell.strip() for cell in cells if cell.strip()]
-    if given and 0 <= width - 3 * len(given) <= 1:  # a row may end in one more separator
-        return given
-    # Every third cell, with blank ones at the end left out.
+    names = [cell.strip() for cell in cells if cell.strip()]
+    if names and 0 <= width - 3 * len(names) <= 1:  # a row may end with a separator
+        return names
+    # Use every third cell, without blank ones at the end.
     triples = [cells[i].strip() for i in range(0, len(cells), 3)]
     while triples and not triples[-1]:
         triples.pop()
@@ -135,7 +134,7 @@ def _find_timing(
         return Timing(declared)
     timing = find_timing(content, times)
     fps = timing.fps
-    # The declared rate is taken where the times agree up to rounding.
+    # Prefer the declared rate if the times agree up to rounding.
     if abs(fps - declared) <= 0.005 * fps:
         return replace(timing, fps=declared) if timing.order is None else timing
     if declared > 0:

@@ -1,17 +1,17 @@
-"""From the transforms of a scene's nodes to a motion in metres with y up.
+"""Combine the transforms of a scene's nodes into a motion in metres with y up.
 
-A node's transform in its parent's frame is a translation, a rotation and a scale::
+The transform of a node relative to its parent is a translation, a rotation and a scale::
 
     x -> t + R S x
 
-A motion has no scales: they are multiplied out. Where they are one constant, positive number
-for each node, which is nearly always so, the rotations of the nodes are those of the motion, and
-bones become as much longer. Else positions and axes are those of the products of the matrices
-(a sheared one's are made orthogonal, the first axis kept), and joints slide.
+A motion has no scales, so they are multiplied out. Usually each node has one constant, positive
+scale: then rotations stay unchanged and bone lengths are scaled. Otherwise positions and axes come
+from the products of the matrices. Sheared axes are made orthogonal, keeping the first one, and
+joints get varying offsets.
 
-How scales are inherited is that of FBX, whose names say in which order rotation (R, r) and
+Scales are inherited as in FBX. The names of its modes state in which order rotation (R, r) and
 scale (S, s) of parent and child are applied: "RSrs" multiplies the matrices, "RrSs" scales along
-the child's axes, "Rrs" leaves the parent's own scale out.
+the child's axes, "Rrs" ignores the parent's own scale.
 
 Source: Autodesk, FBX SDK, sample "Transformations".
 """
@@ -37,15 +37,15 @@ from kineme.recordings.rig import UNIFORM, Rig
 
 Inheritance = Literal["RrSs", "RSrs", "Rrs"]
 
-STILL = 2e-6
-"""Share of its size by which a length or scale may change and still count as constant."""
+TOLERANCE = 2e-6
+"""Fraction by which a length or scale may vary and still count as constant."""
 
-MOST_SAMPLED = 1 << 28
-"""Bytes that a motion may take however small its file is: few keys make many frames."""
+MIN_FRAME_MEMORY = 1 << 28
+"""Bytes that any motion may use, however small its file is: a few keys define many frames."""
 
 
 class Transform(NamedTuple):
-    """A node's transform in its parent's frame: one for all frames, or one for each.
+    """The transform of a node relative to its parent: one for all frames, or one for each.
 
     ``translation`` is (3,) or (frames, 3), ``rotation`` (4,) or (frames, 4), unit quaternions
     (w, x, y, z), ``scale`` (3,) or (frames, 3).
@@ -57,7 +57,7 @@ class Transform(NamedTuple):
     inheritance: Inheritance = "RSrs"
 
 
-class Local(NamedTuple):
+class LocalTransforms(NamedTuple):
     """Rotations and positions of joints relative to their parents, as `build_motion` takes them."""
 
     rotations: Floats
@@ -66,14 +66,14 @@ class Local(NamedTuple):
 
 
 def require_frame_memory(
-    content: FileContent, joints: int, frames: int, *, beside: int = 0
+    content: FileContent, joints: int, frames: int, *, external_size: int = 0
 ) -> None:
-    """ReadError where so many frames are more than a file of this size can honestly have.
+    """Raise ReadError if a file of this size cannot plausibly hold so many frames.
 
-    ``beside`` are the bytes of other files that belong to it.
+    ``external_size`` is the size in bytes of other files that belong to it.
     """
     size = BYTES_PER_JOINT * joints * frames
-    if size > max(MOST_SAMPLED, MAX_EXPANSION * beside):
+    if size > max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size):
         content.require_memory(size, f"{joints} joints in {frames} frames")
 
 
@@ -92,36 +92,37 @@ def assemble(
     numbers: Sequence[int] = (),
     binds: Mapping[int, Floats] | None = None,
 ) -> Motion:
-    """Return the motion of a character, whose joints are nodes, parents first.
+    """Return the motion of a character, whose joints are the given nodes, parents first.
 
-    ``transform`` has the transform of a node by its number, ``rest`` that of its rest pose;
-    ``unit`` is that of the scene's lengths, ``turn`` the rotation of its axes to those with y up,
-    ``numbers`` what the file counts the nodes by, ``binds`` the matrices of nodes that a skin has
-    elsewhere than they are at rest. The content is let go once all transforms are
-    known.
+    ``transform`` and ``rest`` return the transform of a node by its number, animated or at rest.
+    ``unit`` is the unit of lengths, ``turn`` the rotation of the scene's axes to y up, ``numbers``
+    are the file's numbers of the nodes, ``binds`` the matrices of nodes whose bind pose is not
+    the rest pose. The bytes of the content are released once all transforms are known.
     """
-    # Numbers of nodes become numbers of joints; a parent that is no joint is -1.
-    number_of = {node: j for j, node in enumerate(joints)}
-    parents = [number_of.get(nodes[node].parent, -1) for node in joints]
-    above = list_ancestors(nodes, joints[0])[::-1]  # topmost first
-    found = _apply_scale(above, joints, parents, transform, n_frames, turn)
-    if found is None:
-        found = _multiply_matrices(above, joints, parents, transform, n_frames, turn)
+    # Convert numbers of nodes to numbers of joints; a parent that is no joint is -1.
+    joint_numbers = {node: j for j, node in enumerate(joints)}
+    parents = [joint_numbers.get(nodes[node].parent, -1) for node in joints]
+    ancestors = list_ancestors(nodes, joints[0])[::-1]  # topmost first
+    local = _apply_scale(ancestors, joints, parents, transform, n_frames, turn)
+    if local is None:
+        local = _multiply_matrices(ancestors, joints, parents, transform, n_frames, turn)
         if any(
             _find_uniform_scale(transform(node).scale, UNIFORM) is None
-            for node in (*above, *joints)
+            for node in (*ancestors, *joints)
         ):
             remark = "its bones are scaled unevenly or over time: in clips joints slide instead"
             provenance = provenance.noted(Note(remark, "warning"))
-    rig = _build_rig(nodes, [*above, *joints], len(joints), rest, to_metres(unit), turn, numbers)
+    rig = _build_rig(
+        nodes, [*ancestors, *joints], len(joints), rest, to_metres(unit), turn, numbers
+    )
     if rig is None:
         remark = "its bones are mirrored or scaled unevenly at rest: clips get another rest pose"
         provenance = provenance.noted(Note(remark, "warning"))
     elif binds:
-        rig = replace(rig, binds=_compute_binds(rig, [*above, *joints], binds))
+        rig = replace(rig, binds=_compute_binds(rig, [*ancestors, *joints], binds))
     content.release()
-    rotations, offsets, slides = found
-    # Leaves that never turn and do not slide become end sites, which have no rotation.
+    rotations, offsets, slides = local
+    # Leaves with constant rotation and offset become end sites, which have no rotation.
     inner = set(parents)
     ends = [
         j
@@ -129,13 +130,13 @@ def assemble(
         if j not in inner
         and j not in slides
         and nodes[node].end
-        and np.ptp(rotations[:, j], axis=0).max() < STILL
+        and np.ptp(rotations[:, j], axis=0).max() < TOLERANCE
     ]
     rotations[:, ends] = rot.IDENTITY
-    given = [nodes[node].name for node in joints]
-    names = tuple(make_unique(given))
-    if others := [new for new, old in zip(names, given, strict=True) if new != old]:
-        remark = f"several bones have one name: they are read as {join_names(others)}"
+    node_names = [nodes[node].name for node in joints]
+    names = tuple(make_unique(node_names))
+    if renamed := [new for new, old in zip(names, node_names, strict=True) if new != old]:
+        remark = f"several bones have one name: they are read as {join_names(renamed)}"
         provenance = provenance.noted(Note(remark, "warning"))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends), rig)
     return build_motion(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
@@ -150,9 +151,9 @@ def _build_rig(
     turn: Floats,
     numbers: Sequence[int],
 ) -> Rig | None:
-    """Return the rig of these nodes, parents first; None where a scale is not one number."""
-    places = {node: place for place, node in enumerate(chosen)}
-    parents = tuple(places.get(nodes[node].parent, -1) for node in chosen)
+    """Return the rig of these nodes, parents first; None if a scale is not uniform."""
+    indices = {node: index for index, node in enumerate(chosen)}
+    parents = tuple(indices.get(nodes[node].parent, -1) for node in chosen)
     parts = stack_transforms([rest(node) for node in chosen], parents)
     if parts is None:
         return None
@@ -168,7 +169,7 @@ def _build_rig(
 
 
 def _compute_binds(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats]) -> Floats | None:
-    """Return where a skin has the joints (joints, 4, 4), None where that is as at rest."""
+    """Return the bind matrices of the joints (joints, 4, 4), None if they equal the rest pose."""
     rest = compose(rig.translations, rig.rotations, rig.scales)
     local, bound = np.array(rest), np.tile(np.eye(4), (len(rest), 1, 1))
     for node in range(rig.above, len(rest)):
@@ -180,133 +181,132 @@ def _compute_binds(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats])
 
 
 def stack_transforms(
-    found: Sequence[Transform], parents: Sequence[int]
+    transforms: Sequence[Transform], parents: Sequence[int]
 ) -> tuple[Floats, Floats, Floats] | None:
-    """Return translations, rotations and scales of a rig's nodes; None where one is uneven."""
-    if any(_find_uniform_scale(each.scale, UNIFORM) is None for each in found):
+    """Return translations, rotations and scales of a rig's nodes; None if a scale is uneven."""
+    if any(_find_uniform_scale(transform.scale, UNIFORM) is None for transform in transforms):
         return None
-    scales = np.array([each.scale for each in found])
-    for here, (each, parent) in enumerate(zip(found, parents, strict=True)):
-        if each.inheritance == "Rrs" and parent >= 0:
-            # A rig's nodes inherit their parent's scale, so it is divided out.
-            scales[here] /= _find_uniform_scale(found[parent].scale, UNIFORM) or 1.0
-    moved = np.array([each.translation for each in found])
-    return moved, np.array([each.rotation for each in found]), scales
+    scales = np.array([transform.scale for transform in transforms])
+    for node, (transform, parent) in enumerate(zip(transforms, parents, strict=True)):
+        if transform.inheritance == "Rrs" and parent >= 0:
+            # Nodes of a rig inherit the parent's scale, so divide it out.
+            scales[node] /= _find_uniform_scale(transforms[parent].scale, UNIFORM) or 1.0
+    translations = np.array([transform.translation for transform in transforms])
+    return translations, np.array([transform.rotation for transform in transforms]), scales
 
 
 def _apply_scale(
-    above: Sequence[int],
+    ancestors: Sequence[int],
     joints: Sequence[int],
     parents: Sequence[int],
     transform: Callable[[int], Transform],
     n_frames: int,
     turn: Floats,
-) -> Local | None:
-    """Rotations as they are and bones as much longer; None where a scale is not one number."""
-    # Down through the nodes above the root: their transforms become part of the root.
+) -> LocalTransforms | None:
+    """Return unchanged rotations and scaled offsets; None if a scale is not uniform."""
+    # The transforms of the nodes above the root become part of the root.
     position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
-    for node in above:
-        found = transform(node)
-        factor = _find_uniform_scale(found.scale)
+    for node in ancestors:
+        current = transform(node)
+        factor = _find_uniform_scale(current.scale)
         if factor is None:
             return None
-        position = position + world * rot.rotate(rotation, found.translation)
-        rotation = rot.multiply(rotation, found.rotation)
-        world, node_scale = _multiply_scale(world, node_scale, factor, found.inheritance), factor
+        position = position + world * rot.rotate(rotation, current.translation)
+        rotation = rot.multiply(rotation, current.rotation)
+        world, node_scale = _multiply_scale(world, node_scale, factor, current.inheritance), factor
     rotations = np.empty((n_frames, len(joints), 4))
     offsets = np.zeros((len(joints), 3))
     slides: dict[int, Floats] = {}
     scales: list[tuple[float, float]] = []
     for j, (node, parent) in enumerate(zip(joints, parents, strict=True)):
-        found = transform(node)
-        factor = _find_uniform_scale(found.scale)
+        current = transform(node)
+        factor = _find_uniform_scale(current.scale)
         if factor is None:
             return None
         if parent < 0:
             # The root's position in the world, in every frame.
-            at = position + world * rot.rotate(rotation, found.translation)
-            slides[j] = np.array(np.broadcast_to(at, (n_frames, 3)))
-            rotations[:, j] = rot.multiply(rotation, found.rotation)
-            scales.append((_multiply_scale(world, node_scale, factor, found.inheritance), factor))
+            root_positions = position + world * rot.rotate(rotation, current.translation)
+            slides[j] = np.array(np.broadcast_to(root_positions, (n_frames, 3)))
+            rotations[:, j] = rot.multiply(rotation, current.rotation)
+            scales.append((_multiply_scale(world, node_scale, factor, current.inheritance), factor))
             continue
-        # The bone is as long as the parent's scale in the world makes it.
+        # The parent's scale in the world scales the bone.
         scale, parent_factor = scales[parent]
-        rotations[:, j] = found.rotation
-        scales.append((_multiply_scale(scale, parent_factor, factor, found.inheritance), factor))
-        _store_shift(j, scale * found.translation, offsets, slides)
-    return Local(rotations, offsets, slides)
+        rotations[:, j] = current.rotation
+        scales.append((_multiply_scale(scale, parent_factor, factor, current.inheritance), factor))
+        _store_shift(j, scale * current.translation, offsets, slides)
+    return LocalTransforms(rotations, offsets, slides)
 
 
 def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
-    """Return a node's scale in the world, from that of its parent and its own factor."""
-    # Without the parent's own factor, which is in the scale of the world.
+    """Return the world scale of a node from that of its parent and its own factor."""
+    # Divide out the parent's own factor, which is part of the world scale.
     return world / parent * factor if inheritance == "Rrs" else world * factor
 
 
-def _find_uniform_scale(scale: Floats, share: float = STILL) -> float | None:
-    """Return the one number that a scale is in all axes and frames, or None.
+def _find_uniform_scale(scale: Floats, tolerance: float = TOLERANCE) -> float | None:
+    """Return the single value of a scale in all axes and frames, or None.
 
-    ``share`` is that by which it may change and still count as one.
+    ``share`` is the fraction by which it may vary.
     """
     least, most = float(scale.min()), float(scale.max())
-    # Positive and the same in all axes and frames, up to rounding.
-    if not (least > 0 and most - least <= share * most):
+    if not (least > 0 and most - least <= tolerance * most):
         return None
     return (least + most) / 2
 
 
 def _store_shift(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) -> None:
-    """Note where a joint is in its parent's frame: always the same, or over time."""
+    """Store the translation of a joint relative to its parent: constant, or one per frame."""
     if shift.ndim == 1:
         offsets[j] = shift
         return
-    # The median is the usual place; a joint that leaves it slides.
+    # The median is the offset; a joint that leaves it has varying translations.
     offsets[j] = np.median(shift, axis=0)
-    if np.abs(shift - offsets[j]).max() > STILL * np.abs(offsets[j]).max():
+    if np.abs(shift - offsets[j]).max() > TOLERANCE * np.abs(offsets[j]).max():
         slides[j] = shift
 
 
 def _multiply_matrices(
-    above: Sequence[int],
+    ancestors: Sequence[int],
     joints: Sequence[int],
     parents: Sequence[int],
     transform: Callable[[int], Transform],
     n_frames: int,
     turn: Floats,
-) -> Local:
-    """Positions and axes of the products of matrices."""
-    # Carriers have negative numbers, the joints theirs from 0; the ground is one below all.
-    carriers = range(-len(above), 0)
-    chain = [*zip(carriers, [-len(above) - 1, *carriers], above, strict=False)]
-    chain += [
-        (j, parent if parent >= 0 else -1 if above else -len(above) - 1, node)
+) -> LocalTransforms:
+    """Return rotations and translations from the products of matrices."""
+    # Ancestors get negative numbers, joints those from 0; the ground has the lowest number.
+    carriers = range(-len(ancestors), 0)
+    links = [*zip(carriers, [-len(ancestors) - 1, *carriers], ancestors, strict=False)]
+    links += [
+        (j, parent if parent >= 0 else -1 if ancestors else -len(ancestors) - 1, node)
         for j, (node, parent) in enumerate(zip(joints, parents, strict=True))
     ]
-    transforms = {number: transform(node) for number, _, node in chain}
+    transforms = {number: transform(node) for number, _, node in links}
     rotations = np.empty((n_frames, len(joints), 4))
     shifts = np.empty((len(joints), n_frames, 3))
-    # In blocks, as matrices of all frames take much memory.
+    # Process blocks, since matrices of all frames need much memory.
     for span in iterate_blocks(n_frames):
         n = span.stop - span.start
         ground = np.broadcast_to(to_matrices(turn), (n, 3, 3))
-        worlds = {-len(above) - 1: (ground, ground, np.zeros((n, 3)))}
-        turned: dict[int, Floats] = {}
-        for number, parent, _ in chain:
-            found = transforms[number]
-            before = transforms.get(parent)
-            worlds[number] = _multiply_transform(worlds[parent], found, before, span)
+        worlds = {-len(ancestors) - 1: (ground, ground, np.zeros((n, 3)))}
+        world_rotations: dict[int, Floats] = {}
+        for number, parent, _ in links:
+            current = transforms[number]
+            parent_transform = transforms.get(parent)
+            worlds[number] = _multiply_transform(worlds[parent], current, parent_transform, span)
             if number < 0:
                 continue
             axes, _, position = worlds[number]
-            turned[number] = from_matrices(axes)
+            world_rotations[number] = from_matrices(axes)
             if parents[number] < 0:
-                rotations[span, number] = turned[number]
+                rotations[span, number] = world_rotations[number]
                 shifts[number, span] = position
                 continue
-            # Relative to the parent's axes.
-            back = rot.conjugate(turned[parent])
-            rotations[span, number] = rot.multiply(back, turned[number])
-            shifts[number, span] = rot.rotate(back, position - worlds[parent][2])
+            # Express the joint relative to the parent's axes.
+            inverse = rot.conjugate(world_rotations[parent])
+            rotations[span, number] = rot.multiply(inverse, world_rotations[number])
+            shifts[number, span] = rot.rotate(inverse, position - worlds[parent][2])
     offsets = np.zeros((len(joints), 3))
     slides: dict[int, Floats] = {}
     for j, parent in enumerate(parents):
@@ -314,77 +314,79 @@ def _multiply_matrices(
             slides[j] = shifts[j]
         else:
             _store_shift(j, shifts[j], offsets, slides)
-    return Local(rotations, offsets, slides)
+    return LocalTransforms(rotations, offsets, slides)
 
 
 World = tuple[Floats, Floats, Floats]
-"""A node's axes, its whole matrix and its position: (frames, 3, 3) twice and (frames, 3)."""
+"""A node's axes (frames, 3, 3), full matrix (frames, 3, 3) and world position (frames, 3)."""
 
 
 def _multiply_transform(
-    parent: World, found: Transform, before: Transform | None, span: slice
+    parent: World, transform: Transform, parent_transform: Transform | None, span: slice
 ) -> World:
-    """Return a node's world, from its parent's and the transforms of both."""
+    """Return a node's world transform from its parent's and the local transforms of both."""
     axes, matrix, position = parent
-    turn = to_matrices(_select_frames(found.rotation, span))
-    scale = _select_frames(found.scale, span)
-    # The parent's scale and shear, in its own axes.
+    turn = to_matrices(_select_frames(transform.rotation, span))
+    scale = _select_frames(transform.scale, span)
+    # The parent's scale and shear in its own axes.
     inherited = axes.transpose(0, 2, 1) @ matrix
-    if found.inheritance == "RSrs":
+    if transform.inheritance == "RSrs":
         product = matrix @ turn
     else:
-        if found.inheritance == "Rrs" and before is not None:
-            # Without the scale that the parent itself has.
-            scale = _select_frames(before.scale, span)
+        if transform.inheritance == "Rrs" and parent_transform is not None:
+            # Divide out the parent's own scale.
+            scale = _select_frames(parent_transform.scale, span)
             inherited = inherited / np.where(scale == 0, 1, scale)[:, None, :]
         product = axes @ turn @ inherited
-    # Columns of the matrix are the axes: each is scaled.
+    # Scale the columns, which are the axes.
     product = product * scale[:, None, :]
-    place = position + np.einsum("fij,fj->fi", matrix, _select_frames(found.translation, span))
-    return orthogonalize(product), product, place
+    new_position = position + np.einsum(
+        "fij,fj->fi", matrix, _select_frames(transform.translation, span)
+    )
+    return orthogonalize(product), product, new_position
 
 
 def _select_frames(values: Floats, span: slice) -> Floats:
-    """Return the values of these frames, (frames, ...)."""
+    """Return the values of these frames (frames, ...)."""
     if values.ndim > 1:
         return values[span]
     return np.broadcast_to(values, (span.stop - span.start, len(values)))
 
 
 def orthogonalize(matrices: Floats) -> Floats:
-    """Right-handed orthonormal axes (frames, 3, 3), the first along that of the matrix."""
-    # Gram-Schmidt; where an axis has no length, another one stands in.
+    """Return right-handed orthonormal axes (frames, 3, 3); the first keeps its direction."""
+    # Gram-Schmidt; axes without length are replaced.
     first = _normalize(matrices[:, :, 0], np.array([1.0, 0.0, 0.0]))
     second = matrices[:, :, 1]
     second = second - first * np.einsum("fi,fi->f", first, second)[:, None]
     # Any vector that is not parallel to the first axis.
-    spare = np.cross(first, np.roll(first, 1, axis=1) + np.array([0.1, 0.2, 0.4]))
-    second = _normalize(second, spare)
+    fallback = np.cross(first, np.roll(first, 1, axis=1) + np.array([0.1, 0.2, 0.4]))
+    second = _normalize(second, fallback)
     return np.stack([first, second, np.cross(first, second)], axis=2)
 
 
-def _normalize(vectors: Floats, spare: Floats) -> Floats:
-    """Return the vectors at length one; ``spare`` where they have none."""
+def _normalize(vectors: Floats, fallback: Floats) -> Floats:
+    """Return the vectors with unit length, ``spare`` instead of vectors without length."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    flat = length < 1e-12
-    instead = spare / np.linalg.norm(spare, axis=-1, keepdims=True)
-    return np.where(flat, instead, vectors / np.where(flat, 1, length))
+    is_zero = length < 1e-12
+    unit_fallback = fallback / np.linalg.norm(fallback, axis=-1, keepdims=True)
+    return np.where(is_zero, unit_fallback, vectors / np.where(is_zero, 1, length))
 
 
 def compose(translations: Floats, rotations: Floats, scales: Floats) -> Floats:
-    """Return matrices (nodes, 4, 4) that multiply columns; scales are (nodes, 3) or (nodes,)."""
-    found = np.tile(np.eye(4), (len(translations), 1, 1))
+    """Return matrices (nodes, 4, 4) for column vectors; scales are (nodes, 3) or (nodes,)."""
+    result = np.tile(np.eye(4), (len(translations), 1, 1))
     scales = scales.reshape(len(translations), 1, -1)
-    found[:, :3, :3] = to_matrices(rotations) * scales
-    found[:, :3, 3] = translations
-    return found
+    result[:, :3, :3] = to_matrices(rotations) * scales
+    result[:, :3, 3] = translations
+    return result
 
 
 def decompose(matrix: Floats) -> Transform:
-    """Return the transform of a matrix (4, 4) that multiplies columns; shear is left out."""
+    """Return the transform of a matrix (4, 4) for column vectors, without shear."""
     axes = matrix[:3, :3]
     scale = np.linalg.norm(axes, axis=0)
-    # A reflection: it belongs to the scale, so that the axes are a rotation.
+    # Put a reflection into the scale, so that the axes are a rotation.
     if np.linalg.det(axes) < 0:
         scale = -scale
     turn = from_matrices(orthogonalize((axes / np.where(scale == 0, 1, scale))[None]))[0]

@@ -1,12 +1,12 @@
-"""Which joints of a scene are a character's, and which of its animations is read.
+"""Find the joints of a character in a scene, and choose one of its animations.
 
-A scene is a tree of nodes. Bones are those that the file calls so; where it calls none so,
-those that are animated and carry no geometry. What lies between two bones belongs to the
-skeleton, too, and so do nodes below a bone that carry nothing: they are the ends of limbs.
-What stands above the topmost bone carries the whole body, and is part of its root.
+A scene is a tree of nodes. Bones are the nodes that the file marks as such, or if there are none,
+animated nodes without geometry. Nodes between two bones belong to the skeleton, too, and so do
+childless nodes without geometry below a bone: they are the ends of limbs. Nodes above the topmost
+bone carry the whole body and are part of its root.
 
-Each topmost bone is a skeleton of its own. Those with less than a quarter of the joints of the
-largest, and those that stand still while others move, are props.
+Each topmost bone starts a skeleton. Skeletons with less than a quarter of the joints of the largest
+one, and those that stand still while others move, are props.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from kineme.formats.files import FileContent
 from kineme.formats.persons import choose_person
 from kineme.recordings import Note
 
-SMALLEST = 0.25
-"""Share of the joints of the largest skeleton below which another one is a prop."""
+MIN_SIZE_RATIO = 0.25
+"""Fraction of the joints of the largest skeleton below which another one is a prop."""
 
 _END = re.compile(
     r"(?:(?:^|[\s_.:-])(?i:end|nub|tip)|(?<=[a-z\d])(?:End|Nub|Tip))"
@@ -39,13 +39,13 @@ class SceneNode:
     parent : int
         -1 for none; parents come before their children.
     bone : bool
-        Whether the file calls it a bone.
+        Whether the file marks it as a bone.
     geometry : bool
         Whether it carries a mesh, a camera or a light.
     animated : bool
-        Whether the animation that is read moves it.
+        Whether the chosen animation moves it.
     end : bool
-        Whether it ends a limb, if it is a leaf without rotations.
+        Whether it ends a limb, provided that it is a leaf without rotations.
     """
 
     name: str
@@ -58,9 +58,9 @@ class SceneNode:
 
 @dataclass(frozen=True)
 class Character:
-    """A skeleton in a scene: its nodes, parents first, so that the root is the first one.
+    """A skeleton in a scene: its nodes, parents first, starting with the root.
 
-    The notes say what was left out; the name, who it is of the people who could have been.
+    ``notes`` state what was left out; ``people`` are the names of all candidates.
     """
 
     joints: list[int]
@@ -72,7 +72,7 @@ class Character:
 def find_character(
     content: FileContent, nodes: Sequence[SceneNode], person: str | None
 ) -> Character:
-    """Return the only skeleton that moves, or the one of the person wanted."""
+    """Return the only skeleton that moves, or the one of the requested person."""
     skeletons = _find_skeletons(nodes)
     if not skeletons:
         raise content.error(
@@ -80,12 +80,11 @@ def find_character(
             "animation"
         )
     largest = max(map(len, skeletons))
-    # Small skeletons are props.
-    bodies = [joints for joints in skeletons if len(joints) >= SMALLEST * largest]
+    bodies = [joints for joints in skeletons if len(joints) >= MIN_SIZE_RATIO * largest]
     moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
-    bodies = moving or bodies
+    bodies = moving or bodies  # if nothing moves, all skeletons are candidates
     people = dict(zip(_name_bodies(nodes, bodies), bodies, strict=True))
-    # A person may also be named by number.
+    # A person may also be selected by number.
     numbers = {str(number): name for number, name in enumerate(people)}
     name = person if person in people else numbers.get(person or "", person)
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
@@ -94,7 +93,11 @@ def find_character(
     props = _find_props(nodes, list(people.values()))
     if props:
         notes.append(f"left out as props: {join_names([nodes[j].name for j in props])}")
-    large = [nodes[j].name for j, moved in props.items() if moved >= max(SMALLEST * largest, 2)]
+    large = [
+        nodes[j].name
+        for j, n_animated in props.items()
+        if n_animated >= max(MIN_SIZE_RATIO * largest, 2)
+    ]
     if large:
         remark = (
             f"perhaps another character, left out since its nodes are no bones: {join_names(large)}"
@@ -105,27 +108,29 @@ def find_character(
 
 
 def list_ancestors(nodes: Sequence[SceneNode], node: int) -> list[int]:
-    """Return the nodes that carry one, from its parent up."""
-    found = []
+    """Return the ancestors of a node, from its parent up."""
+    ancestors = []
     while (node := nodes[node].parent) >= 0:
-        found.append(node)
-    return found
+        ancestors.append(node)
+    return ancestors
 
 
-def find_moving_takes(moved: Sequence[set[int]], bones: set[int]) -> list[int]:
-    """Return the animations that move a bone, by what each moves.
+def find_moving_takes(moved_nodes: Sequence[set[int]], bones: set[int]) -> list[int]:
+    """Return the animations that move a bone, or anything if there are no bones.
 
-    Anything where there are no bones.
+    ``moved_nodes`` are the nodes moved by each animation.
     """
-    return [number for number, nodes in enumerate(moved) if (nodes & bones if bones else nodes)]
+    return [
+        number for number, nodes in enumerate(moved_nodes) if (nodes & bones if bones else nodes)
+    ]
 
 
 def choose_take(
-    content: FileContent, names: Sequence[str], lively: Sequence[int], name: str | None
+    content: FileContent, names: Sequence[str], moving: Sequence[int], name: str | None
 ) -> tuple[int, list[str]]:
-    """Return the number of the animation that is read, by name or number, and what to say of it.
+    """Return the number of the animation with this name or number, and notes.
 
-    Where none is wanted, it is the first of the lively ones, which move a skeleton.
+    Without a name it is the first of ``lively``, the animations that move a skeleton.
     """
     if name is not None:
         number = _find_take(names, name)
@@ -133,29 +138,29 @@ def choose_take(
             shown = join_names(names) or "none"
             raise content.error(f"there is no take {name!r}: choose from {shown}")
         return number, [f"take {names[number]} of {len(names)}"]
-    if not lively:
+    if not moving:
         raise content.error(
             "holds no animation of its skeleton: export it with its animation, or baked"
         )
-    first = lively[0]
-    if len(lively) == 1:
+    first = moving[0]
+    if len(moving) == 1:
         return first, [f"take {names[first]}"]
-    others = join_names([names[number] for number in lively[1:]])
+    others = join_names([names[number] for number in moving[1:]])
     remark = (
-        f"{len(lively)} takes are in it and {names[first]!r} is read: take= (--take) reads "
+        f"{len(moving)} takes are in it and {names[first]!r} is read: take= (--take) reads "
         f"another, of {others}"
     )
     return first, [Note(remark, "warning")]
 
 
 def _find_take(names: Sequence[str], name: str) -> int | None:
-    """Return number of a take, by its name, what follows the armature's in it, or its number."""
+    """Return the number of a take, given its name, the part after the armature's, or its number."""
     if name in names:
         return names.index(name)
     # Blender writes armature and action as `armature|action`.
-    short = [name.rpartition("|")[2] for name in names]
-    if short.count(name) == 1:
-        return short.index(name)
+    short_names = [name.rpartition("|")[2] for name in names]
+    if short_names.count(name) == 1:
+        return short_names.index(name)
     if name.isdecimal() and len(name) < 10 and int(name) < len(names):
         return int(name)
     return None
@@ -164,72 +169,74 @@ def _find_take(names: Sequence[str], name: str) -> int | None:
 def find_scene_joints(
     parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
 ) -> list[bool]:
-    """Return which nodes are joints: bones, what is between two of them, and free ends below.
+    """Return whether each node is a joint: a bone, between two bones, or a free end below one.
 
-    A node is free if it carries no geometry.
+    ``free`` nodes carry no geometry.
     """
     joints = list(bones)
-    above = [False] * len(parents)  # a bone is somewhere above
+    has_bone_above = [False] * len(parents)
     for node, parent in enumerate(parents):
-        above[node] = parent >= 0 and (above[parent] or bones[parent])
-    holds_bone, bare = list(bones), list(free)
-    # Children before parents.
+        has_bone_above[node] = parent >= 0 and (has_bone_above[parent] or bones[parent])
+    has_bone_below, has_only_free_below = list(bones), list(free)
+    # Process children before parents.
     for node in range(len(parents) - 1, -1, -1):
-        joints[node] = bones[node] or (above[node] and (holds_bone[node] or bare[node]))
+        joints[node] = bones[node] or (
+            has_bone_above[node] and (has_bone_below[node] or has_only_free_below[node])
+        )
         if (parent := parents[node]) >= 0:
-            holds_bone[parent] |= holds_bone[node]
-            bare[parent] &= bare[node]
-    for node, parent in enumerate(parents):  # what hangs on what was left out
+            has_bone_below[parent] |= has_bone_below[node]
+            has_only_free_below[parent] &= has_only_free_below[node]
+    for node, parent in enumerate(parents):  # drop nodes below those that were dropped
         joints[node] &= bones[node] or (parent >= 0 and joints[parent])
     return joints
 
 
 def is_end(name: str) -> bool:
-    """Return whether a leaf of this name ends a limb, as ``Head_end`` and ``HeadNub`` do."""
+    """Return whether a leaf of this name ends a limb, like ``Head_end`` and ``HeadNub``."""
     return _END.search(name) is not None
 
 
 def _find_skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
-    """Return the joints of each, parents first."""
+    """Return the joints of each skeleton, parents first."""
     bones = [node.bone for node in nodes]
     if not any(bones):
         bones = [node.animated and not node.geometry for node in nodes]
     parents = [node.parent for node in nodes]
     joints = find_scene_joints(parents, bones, [not node.geometry for node in nodes])
-    found: list[list[int]] = []
-    home: dict[int, list[int]] = {}
+    skeletons: list[list[int]] = []
+    skeleton_of: dict[int, list[int]] = {}
     for j, joint in enumerate(joints):
         if not joint:
             continue
-        if nodes[j].parent in home:
-            home[j] = home[nodes[j].parent]
+        if nodes[j].parent in skeleton_of:
+            skeleton_of[j] = skeleton_of[nodes[j].parent]
         else:
-            home[j] = []
-            found.append(home[j])
-        home[j].append(j)
-    return found
+            skeleton_of[j] = []
+            skeletons.append(skeleton_of[j])
+        skeleton_of[j].append(j)
+    return skeletons
 
 
 def _name_bodies(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[str]:
-    """What each body is called: as what carries it alone, by its namespace, or as its root."""
+    """Return a name for each body: its only parent's, its namespace, or its root's."""
     carriers = [nodes[joints[0]].parent for joints in bodies]
     names = []
     for joints, carrier in zip(bodies, carriers, strict=True):
         root = nodes[joints[0]].name
-        space = root.rpartition(":")[0]
-        alone = carrier >= 0 and carriers.count(carrier) == 1
-        names.append(nodes[carrier].name if alone else space or root)
+        namespace = root.rpartition(":")[0]
+        is_only_child = carrier >= 0 and carriers.count(carrier) == 1
+        names.append(nodes[carrier].name if is_only_child else namespace or root)
     return make_unique(names)
 
 
 def _find_props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:
-    """Return the topmost nodes that are animated or bones, but neither in a body nor above one.
+    """Return the topmost nodes that are animated or bones and belong to no body or its ancestors.
 
-    With each goes how many animated nodes without geometry and bone there are from it down.
+    Each is mapped to the number of animated nodes from it down without geometry and bone.
     """
     body = {joint for joints in bodies for joint in joints}
     body.update(above for joints in bodies for above in list_ancestors(nodes, joints[0]))
-    moved: dict[int, int] = {}
+    n_animated: dict[int, int] = {}
     tops: dict[int, int] = {}
     for number, node in enumerate(nodes):
         if number in body:
@@ -239,6 +246,6 @@ def _find_props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int
         elif node.bone or node.animated:
             tops[number] = number
         if number in tops:
-            alive = node.animated and not (node.geometry or node.bone)
-            moved[tops[number]] = moved.get(tops[number], 0) + alive
-    return moved
+            is_counted = node.animated and not (node.geometry or node.bone)
+            n_animated[tops[number]] = n_animated.get(tops[number], 0) + is_counted
+    return n_animated

@@ -1,8 +1,8 @@
-"""A copy of an FBX file with other takes: meshes, skins, materials and all else untouched.
+"""Copy an FBX file with other takes, keeping meshes, skins, materials and everything else.
 
-The source is copied byte for byte, except its animation stacks, layers, curve nodes and curves,
-what counts or names them, and the frame rate and time span. Each model keeps its pre- and
-post-rotation, pivots and offsets, and its keys allow for them. Models that are not joints of the
+The source is copied byte for byte, except its animation stacks, layers, curve nodes and curves, the
+nodes that count or name them, the frame rate and the time span. Each model keeps its pre- and
+post-rotation, pivots and offsets; its keys compensate for them. Models that are not joints of the
 character are at rest in the new takes.
 
 Source: as for `kineme.formats.scenes.fbx_scene` and `kineme.formats.scenes.fbx_writer`.
@@ -28,7 +28,7 @@ from kineme.formats.scenes.assembly import Transform, stack_transforms
 from kineme.formats.scenes.fbx_curves import Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, START, get_head_struct, parse_fbx
 from kineme.formats.scenes.fbx_nodes import FBXNode
-from kineme.formats.scenes.fbx_scene import STILL, FBXScene, Pose, invert_transform
+from kineme.formats.scenes.fbx_scene import REST_TAKE, FBXScene, Pose, invert_transform
 from kineme.formats.scenes.fbx_writer import FOOTER, TakeWriter, encode_fbx, make_node, write_takes
 from kineme.formats.scenes.gltf_writer import check_copy, make_uneven_error
 from kineme.recordings import Motion
@@ -39,9 +39,9 @@ _HOLDERS = {"GlobalSettings", "Documents", "Document", "Properties70"}
 
 
 def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
-    """Leave a copy of ``source``, which the motions were read from, with these as its takes.
+    """Write a copy of ``source``, the file of the motions, with the motions as its takes.
 
-    A source that is text is not copied: the file has the skeleton alone, and a warning says so.
+    A source in text form is not copied: only the skeleton is written, with a warning.
     """
     check_copy(motions, source, path)
     with translate_read_errors(source):
@@ -53,37 +53,39 @@ def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
             write_takes(motions, path)
             return
         scene = FBXScene(content, root)
-        copy = _Copy(scene, next(iter(motions.values())), source, path)
+        copy = _CopyWriter(scene, next(iter(motions.values())), source, path)
     for name, motion in motions.items():
         copy.animate(name, motion)
     _warn_of_textures(scene, source, path)
     data = content.data
     stop = root.children[-1].stop + get_head_struct(version).size
+    # Keep the source's footer, which depends on its time of creation.
     footer = data[stop : stop + len(FOOTER)].ljust(len(FOOTER), b"\0")
     with atomic_write(path) as draft:
         draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
 
 
-class _Copy(TakeWriter):
-    """Gathers takes for the models of a file, at rest as they are there without animation."""
+class _CopyWriter(TakeWriter):
+    """Collect takes for the models of a file, whose rest is their transform without animation."""
 
     def __init__(self, scene: FBXScene, motion: Motion, source: Path, path: Path) -> None:
         rig = get_rig(motion.skeleton)
-        places = {model.number: place for place, model in enumerate(scene.models)}
-        if not {*rig.numbers} - {-1} <= places.keys():
+        indices = {model.number: index for index, model in enumerate(scene.models)}
+        if not {*rig.numbers} - {-1} <= indices.keys():
             raise WriteError(path, f"{source.name} has changed since it was read")
-        self._places = [places.get(number, -1) for number in rig.numbers]
-        pose = Pose(scene, STILL, Sampler(np.zeros(1)))
-        self._rest = [pose.transform(max(place, 0)) for place in self._places]
+        self._places = [indices.get(number, -1) for number in rig.numbers]
+        pose = Pose(scene, REST_TAKE, Sampler(np.zeros(1)))
+        self._rest = [pose.compute_transform(max(index, 0)) for index in self._places]
         if -1 in self._places:
-            # The root bone that clips may have besides; what it carries keeps its scale with it.
+            # Clips may have an additional root bone; its children keep their inheritance of scale.
             root, below = rig.above, self._rest[rig.above + 1]
-            still = rig.translations[root], rig.rotations[root], rig.scales[root]
-            self._rest[root] = Transform(*still, below.inheritance)
+            root_rest = rig.translations[root], rig.rotations[root], rig.scales[root]
+            self._rest[root] = Transform(*root_rest, below.inheritance)
         parts = stack_transforms(self._rest, rig.parents)
         if parts is None:
             raise make_uneven_error(source, path)
         rig = replace(rig, translations=parts[0], rotations=parts[1], scales=parts[2])
+        # New objects get numbers that the source does not use.
         numbers = (number for number in count(1_000_000) if number not in scene.objects)
         super().__init__(rig, motion.fps, numbers)
         self.scene, self.moved = scene, set[int]()
@@ -91,7 +93,7 @@ class _Copy(TakeWriter):
             self.models.append(number if number >= 0 else self._add_root(node))
 
     def _add_root(self, node: int) -> int:
-        """Add the rig's root bone above its children, which are connected to it instead."""
+        """Add the rig's root bone and connect its children to it instead of their parents."""
         rig = self.rig
         root = self._add_model(node, rig.names[node], self._rest[node])
         children = (child for child, parent in enumerate(rig.parents) if parent == node)
@@ -103,55 +105,62 @@ class _Copy(TakeWriter):
     def find_values(
         self, node: int, shifts: Floats, turns: Floats
     ) -> tuple[Floats, Floats, Floats]:
-        """Return translations and angles that move a node so, and its translation at rest."""
+        """Return translations and angles that move a node like this, and its rest translation."""
         if self._places[node] < 0:
             return super().find_values(node, shifts, turns)
         model, rest = self.scene.models[self._places[node]], self._rest[node]
-        still, _ = invert_transform(model, rest.translation, rest.rotation[None], rest.scale)
-        return *invert_transform(model, shifts, turns, rest.scale), still[0]
+        rest_translation, _ = invert_transform(
+            model, rest.translation, rest.rotation[None], rest.scale
+        )
+        return *invert_transform(model, shifts, turns, rest.scale), rest_translation[0]
 
     def rebuild(self, root: FBXNode) -> Iterator[FBXNode]:
         """Yield the nodes of the source with the new takes instead of its own."""
         names, objects = list(self.stops), self.scene.objects
         dropped = {number for number, node in objects.items() if node.name in _ANIMATION}
-        kept = [node for number, node in objects.items() if number not in dropped]
-        counts = dict.fromkeys(_ANIMATION, 0) | Counter(each.name for each in kept + self.objects)
+        kept_nodes = [node for number, node in objects.items() if number not in dropped]
+        counts = dict.fromkeys(_ANIMATION, 0) | Counter(
+            each.name for each in kept_nodes + self.objects
+        )
         change = len(self.objects) - len(dropped)
-        above = {0, *self.models[: self.rig.above]}
-        settings = {name: value for name, *_, value in self.time_settings()}
+        ancestors = {0, *self.models[: self.rig.above]}
+        settings = {name: value for name, *_, value in self.make_time_settings()}
         for node in root.children:
             if node.name == "Objects":
-                kept = [each for each in node.children if each.name not in _ANIMATION]
-                kept = [self._extend_pose(each) for each in kept]
-                yield _replace_children(node, [*kept, *self.objects])
+                kept_nodes = [each for each in node.children if each.name not in _ANIMATION]
+                kept_nodes = [self._extend_pose(each) for each in kept_nodes]
+                yield _replace_children(node, [*kept_nodes, *self.objects])
             elif node.name == "Connections":
-                kept = [each for each in node.children if self._is_kept(each, dropped, above)]
-                yield _replace_children(node, [*kept, *self.links])
+                kept_nodes = [
+                    each for each in node.children if self._is_kept(each, dropped, ancestors)
+                ]
+                yield _replace_children(node, [*kept_nodes, *self.links])
             elif node.name == "Definitions":
                 yield _replace_children(node, _count_objects(node, counts, change))
             elif node.name == "Takes":
-                yield _replace_children(node, [make_node("Current", names[0]), *self._spans()])
+                yield _replace_children(node, [make_node("Current", names[0]), *self._make_takes()])
             else:
                 yield _set_properties(node, {**settings, "ActiveAnimStackName": names[0]})
 
     def _is_kept(self, link: FBXNode, dropped: set[int], above: set[int]) -> bool:
         part, parent = link.number(1, -1), link.number(2, -1)
+        # Connections of removed animation objects are removed as well.
         if part in dropped or parent in dropped:
             return False
-        # What the new root carries hangs on no other model.
+        # Children of the new root lose their other parents.
         return not (link.text(0) == "OO" and part in self.moved and parent in above)
 
     def _extend_pose(self, node: FBXNode) -> FBXNode:
-        """Return a bind pose with the new root, if what it carries is there: it must be whole."""
+        """Return a bind pose with the new root if it contains the root's children."""
         entries = [entry.child("Node") for entry in node.all("PoseNode")]
         if not self.moved & {int(each.number(0, -1)) for each in entries if each}:
             return node
-        kept = (child for child in node.children if child.name != "NbPoseNodes")
-        new = self._bind_pose()[self.rig.above]
-        return _replace_children(node, [make_node("NbPoseNodes", len(entries) + 1), *kept, new])
+        others = (child for child in node.children if child.name != "NbPoseNodes")
+        new = self._make_bind_pose()[self.rig.above]
+        return _replace_children(node, [make_node("NbPoseNodes", len(entries) + 1), *others, new])
 
-    def _spans(self) -> Iterator[FBXNode]:
-        """Yield the takes as older programs look for them."""
+    def _make_takes(self) -> Iterator[FBXNode]:
+        """Yield the takes in the form of older programs."""
         for name, stop in self.stops.items():
             span = [np.int64(0), np.int64(stop)]
             ends = [FBXNode(f"{kind}Time", span) for kind in ("Local", "Reference")]
@@ -159,14 +168,17 @@ class _Copy(TakeWriter):
 
 
 def _count_objects(node: FBXNode, counts: Mapping[str, int], change: int) -> Iterator[FBXNode]:
-    """Yield the children of the definitions, with the counts of these kinds and so many more."""
+    """Yield the children of the definitions with updated counts.
+
+    ``counts`` are the new counts of kinds, ``change`` is added to the total.
+    """
     kinds = {kind.text(0) for kind in node.all("ObjectType")}
     for child in node.children:
         if child.name == "Count":
             yield make_node("Count", int(child.number(0)) + change)
         elif child.name == "ObjectType" and child.text(0) in counts:
-            rest = (each for each in child.children if each.name != "Count")
-            yield _replace_children(child, [make_node("Count", counts[child.text(0)]), *rest])
+            others = (grandchild for grandchild in child.children if grandchild.name != "Count")
+            yield _replace_children(child, [make_node("Count", counts[child.text(0)]), *others])
         else:
             yield child
     for kind in counts.keys() - kinds:
@@ -174,7 +186,7 @@ def _count_objects(node: FBXNode, counts: Mapping[str, int], change: int) -> Ite
 
 
 def _set_properties(node: FBXNode, values: Mapping[str, Any]) -> FBXNode:
-    """Return the node with these values of its properties, where it has them."""
+    """Return the node with these values of the properties that it has."""
     if node.name == "P" and node.text(0) in values:
         return FBXNode("P", [*node.values[:4], values[node.text(0)]])
     if node.name not in _HOLDERS:
@@ -184,17 +196,23 @@ def _set_properties(node: FBXNode, values: Mapping[str, Any]) -> FBXNode:
 
 
 def _replace_children(node: FBXNode, children: Iterable[FBXNode]) -> FBXNode:
-    """Return the node with others inside. Whole numbers before these are of 64 bits."""
+    """Return the node with other children; convert whole numbers among its values to 64 bits."""
     values = [np.int64(value) if isinstance(value, int) else value for value in node.values]
     return FBXNode(node.name, values, list(children))
 
 
 def _warn_of_textures(scene: FBXScene, source: Path, path: Path) -> None:
-    """Warn of pictures beside the source that the copy will not find."""
+    """Warn of textures next to the source that the copy will not find."""
     for node in scene.objects.values():
-        found, stored = node.child("RelativeFilename"), node.child("Content")
-        if node.name != "Video" or not found or (stored and stored.values and stored.values[0]):
+        filename, embedded = node.child("RelativeFilename"), node.child("Content")
+        if (
+            node.name != "Video"
+            or not filename
+            or (embedded and embedded.values and embedded.values[0])
+        ):
             continue
-        place = found.text(0).replace("\\", "/")
-        if (source.parent / place).is_file() and not (path.parent / place).is_file():
-            warn(f"{path.name} needs the texture {place!r:.60}: copy it from beside {source.name}")
+        texture = filename.text(0).replace("\\", "/")
+        if (source.parent / texture).is_file() and not (path.parent / texture).is_file():
+            warn(
+                f"{path.name} needs the texture {texture!r:.60}: copy it from beside {source.name}"
+            )

@@ -1,4 +1,4 @@
-"""Nodes of an FBX file of version 7, be it binary or text.
+"""Parse the nodes of an FBX file of version 7, binary or text.
 
 In a binary file a node is::
 
@@ -7,11 +7,11 @@ In a binary file a node is::
     values                                           a letter for the type, then the value
     nodes                                            up to an empty one
 
-Arrays say their number, whether zlib packed them, and their bytes. They are left where they are
-until somebody asks for one: most are of meshes.
+Arrays store their length, whether zlib compressed them, and their bytes. They are parsed on demand,
+since most belong to meshes.
 
 Source: the format is not published; A. Gessler and C. Barton, "FBX binary file format
-specification", Blender's developer blog, 2013, and what programs write.
+specification", Blender's developer blog, 2013, and files of various programs.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ from kineme.formats.scenes.fbx_text import parse_text
 MAGIC = b"Kaydara FBX Binary  \x00"
 
 OLDEST = 7000
-"""Version, in thousandths."""
+"""Oldest supported version, in thousandths."""
 
 START = 27
-"""Where the first node of a binary file is."""
+"""Offset of the first node of a binary file."""
 
 WIDE = 7500
-"""From which version on nodes have 64 bits."""
+"""First version with 64 bits in the head of nodes."""
 
 _SCALARS = {
     ord(letter): struct.Struct(f"<{code}")
@@ -50,18 +50,18 @@ _ARRAYS = {
 
 
 def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
-    """Return version of an FBX file, in thousandths, and its nodes, below one without a name."""
+    """Return the version of an FBX file, in thousandths, and its nodes, below a nameless root."""
     if content.data.startswith(MAGIC):
         if len(content.data) < START:
             raise content.error("the file ends in its header: it is truncated")
-        # The version is in the four bytes before the first node.
+        # The four bytes before the first node are the version.
         version = int.from_bytes(content.data[START - 4 : START], "little")
         _refuse_old(content, version)
         return version, _parse_binary(content, get_head_struct(version))
     root = parse_text(content)
     header = root.child("FBXHeaderExtension")
-    found = header.child("FBXVersion") if header else None
-    number = found.values[0] if found and found.values else 0
+    version_node = header.child("FBXVersion") if header else None
+    number = version_node.values[0] if version_node and version_node.values else 0
     version = number if isinstance(number, int) else 0
     _refuse_old(content, version)
     return version, root
@@ -77,82 +77,82 @@ def _refuse_old(content: FileContent, version: int) -> None:
 
 
 def get_head_struct(version: int) -> struct.Struct:
-    """Return the layout of what stands before a node's name in a binary file."""
+    """Return the struct of the fields before a node's name in a binary file."""
     return struct.Struct("<QQQB" if version >= WIDE else "<IIIB")
 
 
 def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
     data = content.data
     root = FBXNode("")
-    # A stack instead of recursion: files may be nested deeply.
+    # Use a stack instead of recursion, since nodes may be nested deeply.
     open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
-    at, nodes = START, 0
+    offset, nodes = START, 0
     while open_nodes:
         node, stop = open_nodes[-1]
-        if at == stop and node is not root:
+        if offset == stop and node is not root:
             open_nodes.pop()
             continue
-        if at + head.size > stop:
+        if offset + head.size > stop:
             raise content.error("breaks off between two nodes: the file is truncated or damaged")
-        end, count, size, length = head.unpack_from(data, at)
-        first, at = at, at + head.size
-        # An empty node ends the list of its parent's nodes.
+        end, count, size, length = head.unpack_from(data, offset)
+        first, offset = offset, offset + head.size
+        # An empty node ends the list of children.
         if end == 0:
-            if node is not root and at != stop:
+            if node is not root and offset != stop:
                 raise content.error(f"node {node.name!r:.40} is not as long as it says: damaged")
             open_nodes.pop()
             continue
-        start = at + length
+        start = offset + length
         if not start + size <= end <= stop:
             raise content.error("a node is longer than what it stands in: truncated or damaged")
         nodes += 1
         require_node_memory(content, nodes)
-        name = data[at:start].decode("utf-8", "replace")
+        name = data[offset:start].decode("utf-8", "replace")
         child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
         node.children.append(child)
-        at = start + size
-        # What is left of the node are its own nodes.
-        if at < end:
+        offset = start + size
+        # The rest of the node holds its children.
+        if offset < end:
             open_nodes.append((child, end))
     return root
 
 
-def _parse_values(content: FileContent, at: int, stop: int, count: int) -> list[Any]:
+def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> list[Any]:
     values: list[Any] = []
     for _ in range(count):
-        if at >= stop:
+        if offset >= stop:
             raise content.error("a node has fewer values than it says: truncated or damaged")
         try:
-            value, at = _parse_value(content.data, at)
+            value, offset = _parse_value(content.data, offset)
         except struct.error:
             raise content.error("breaks off within a value: the file is truncated") from None
         except KeyError:
-            kind = chr(content.data[at])
+            kind = chr(content.data[offset])
             raise content.error(f"a value is of the unknown type {kind!r}: damaged") from None
-        if at > stop:
+        if offset > stop:
             raise content.error("a value is longer than its node: truncated or damaged")
         values.append(value)
     return values
 
 
-def _parse_value(data: bytes, at: int) -> tuple[Any, int]:
-    """Return a value, and where the next one is."""
-    kind = data[at]
-    at += 1
+def _parse_value(data: bytes, offset: int) -> tuple[Any, int]:
+    """Return a value and the offset of the next one."""
+    kind = data[offset]
+    offset += 1
     if scalar := _SCALARS.get(kind):
-        return scalar.unpack_from(data, at)[0], at + scalar.size
+        return scalar.unpack_from(data, offset)[0], offset + scalar.size
     if kind in b"SR":
-        size = int.from_bytes(data[at : at + 4], "little")
-        raw = data[at + 4 : at + 4 + size]
-        return raw.decode("utf-8", "replace") if kind == ord("S") else raw, at + 4 + size
+        size = int.from_bytes(data[offset : offset + 4], "little")
+        raw = data[offset + 4 : offset + 4 + size]
+        return raw.decode("utf-8", "replace") if kind == ord("S") else raw, offset + 4 + size
     code = _ARRAYS[kind]
-    count, packed, size = struct.unpack_from("<III", data, at)
-    return _Array(code, count, packed, at + 12, size), at + 12 + size
+    count, packed, size = struct.unpack_from("<III", data, offset)
+    return _BinaryArray(code, count, packed, offset + 12, size), offset + 12 + size
 
 
 @dataclass(slots=True)
-class _Array:
-    """An array in a binary file."""
+class _BinaryArray:
+    """An array in a binary file, parsed on demand."""
 
     code: str
     count: int
@@ -169,7 +169,7 @@ class _Array:
         if self.packed:
             content.require_memory(size, f"an array of {self.count} numbers")
             try:
-                # One byte more shows that an array is longer than it says.
+                # One more byte reveals an array longer than declared.
                 raw = zlib.decompressobj().decompress(raw, size + 1)
             except zlib.error as error:
                 raise content.error(f"an array cannot be unpacked: {error}") from None

@@ -1,4 +1,4 @@
-"""Nodes of an FBX file: a tree of names and values, whichever way it is written."""
+"""Represent the nodes of an FBX file, binary or text: a tree of names and values."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from kineme.formats.files import FileContent
 
 BYTES_PER_NODE = 600
-"""What a node takes in memory, with a few values."""
+"""Bytes of memory of a node with a few values."""
 
 
-class Stored(Protocol):
-    """An array that was left in the file."""
+class StoredArray(Protocol):
+    """An array that is parsed on demand."""
 
     def raw(self, content: FileContent) -> bytes:
-        """Its bytes as they are in the file."""
+        """Return its bytes in the file."""
         ...
 
     def read(self, content: FileContent) -> NDArray[Any]: ...
@@ -26,9 +26,9 @@ class Stored(Protocol):
 
 @dataclass(slots=True)
 class FBXNode:
-    """A node: its values are numbers, texts, bytes or arrays in the file.
+    """A node whose values are numbers, texts, bytes or arrays in the file.
 
-    ``start`` and ``stop`` are where it is in a binary file, 0 elsewhere.
+    ``start`` and ``stop`` are its offsets in a binary file, else 0.
     """
 
     name: str
@@ -38,37 +38,37 @@ class FBXNode:
     stop: int = 0
 
     def child(self, name: str) -> FBXNode | None:
-        """Return the first one of this name."""
+        """Return the first child of this name, or None."""
         return next(self.all(name), None)
 
     def all(self, name: str) -> Iterator[FBXNode]:
         return (child for child in self.children if child.name == name)
 
-    def number(self, at: int, usual: float = 0.0) -> float:
-        """Return a value as a number; the usual one where there is none."""
-        value = self.values[at] if at < len(self.values) else None
-        return value if isinstance(value, int | float) else usual
+    def number(self, index: int, default: float = 0.0) -> float:
+        """Return a value as a number, ``default`` if it is not one."""
+        value = self.values[index] if index < len(self.values) else None
+        return value if isinstance(value, int | float) else default
 
-    def text(self, at: int) -> str:
-        value = self.values[at] if at < len(self.values) else None
+    def text(self, index: int) -> str:
+        value = self.values[index] if index < len(self.values) else None
         return value if isinstance(value, str) else ""
 
-    def stored(self, child: str) -> Stored | None:
-        """Return the array in a child, as yet in the file; None where there is none."""
-        found = self.child(child)
-        value = found.values[0] if found and found.values else None
+    def stored(self, child: str) -> StoredArray | None:
+        """Return the unparsed array in a child, None if there is none."""
+        node = self.child(child)
+        value = node.values[0] if node and node.values else None
         if value is None or isinstance(value, str | bytes | int | float):
             return None
-        stored: Stored = value
+        stored: StoredArray = value
         return stored
 
     def array(self, content: FileContent, child: str) -> NDArray[Any] | None:
-        """Return the array in a child; None where there is none."""
+        """Return the array in a child, None if there is none."""
         stored = self.stored(child)
         return None if stored is None else stored.read(content)
 
 
 def require_node_memory(content: FileContent, count: int) -> None:
-    """ReadError where so many nodes take more memory than the file can honestly need."""
-    if count % 1000 == 0:
+    """Raise ReadError if so many nodes need more memory than the file can plausibly need."""
+    if count % 1000 == 0:  # checking each node would be slow
         content.require_memory(BYTES_PER_NODE * count, f"{count} nodes")

@@ -1,23 +1,23 @@
-"""Objects of an FBX file, how they are connected, and the transforms of its models.
+"""Read the objects of an FBX file, their connections, and the transforms of its models.
 
-Objects have a number, a name, a class and properties; what a file leaves out is in the templates
-of its classes. Connections make one object part of another, or drive a property of it. An
-animation stack (a take) has layers, a layer has curve nodes, each of which drives a property of
-a model by a curve for each axis::
+Objects have a number, a name, a class and properties; defaults are in the template of the class.
+Connections make one object part of another, or let it drive a property of the other. An animation
+stack (a take) has layers. A layer has curve nodes, each of which drives a property of a model by a
+curve for each axis::
 
     AnimationStack <- AnimationLayer <- AnimationCurveNode <- AnimationCurve
                                         AnimationCurveNode -> Model, "Lcl Rotation"
 
-A model's transform in its parent's frame is the product::
+The transform of a model relative to its parent is the product::
 
     T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1
 
 of translation, rotation offset and pivot, pre-rotation, rotation, post-rotation, scaling offset
-and pivot, and scaling. Rotations are Euler angles in degrees; that of the model in its own order
-(``RotationOrder``), pre- and post-rotation about x, then y, then z.
+and pivot, and scaling. Rotations are Euler angles in degrees: the rotation in the order of the
+model (``RotationOrder``), pre- and post-rotation about x, then y, then z.
 
-Layers above the first add to it or replace it, to the share of their weight; whether rotations
-are added axis by axis or multiplied the layer says.
+Layers above the first are added to it or replace it, according to their weight. The layer states
+whether rotations are added per axis or multiplied.
 
 Source: Autodesk, FBX SDK, "Computing transformation matrices", and `FbxAnimLayer`.
 """
@@ -44,20 +44,20 @@ GEOMETRY = frozenset({"Mesh", "Camera", "CameraSwitcher", "Light", "Nurbs", "Nur
 
 TRANSLATION, ROTATION, SCALING = "Lcl Translation", "Lcl Rotation", "Lcl Scaling"
 
-# The axes from left to right in the product of rotations, of which the last is applied first.
+# Axes from left to right in the product of rotations; the last one is applied first.
 _ORDERS = ("zyx", "yzx", "xzy", "zxy", "yxz", "xyz", "zyx")
 INHERITANCE: tuple[Inheritance, ...] = ("RrSs", "RSrs", "Rrs")
 _OVERRIDE, _PASS_THROUGH = 1, 2
-_LARGEST = 1e100
+_MAX_VALUE = 1e100  # larger numbers are damage
 
 Properties = dict[str, list[object]]
 
 
 @dataclass(frozen=True)
 class Take:
-    """An animation stack: the numbers of its layers, the base first, and ticks of both ends.
+    """An animation stack: the numbers of its layers, the base first, and its span in ticks.
 
-    These are 0 where the file does not say.
+    The span is 0 to 0 if the file does not state it.
     """
 
     name: str
@@ -66,13 +66,13 @@ class Take:
     stop: float
 
 
-STILL = Take("", [], 0.0, 0.0)
-"""One that moves nothing."""
+REST_TAKE = Take("", [], 0.0, 0.0)
+"""A take that moves nothing."""
 
 
 @dataclass(frozen=True)
 class Model:
-    """A node of the scene: its number, and what the file says of it."""
+    """A node of the scene with its number and properties."""
 
     number: int
     name: str
@@ -100,10 +100,10 @@ class FBXScene:
         for group in root.all("Connections"):
             for link in group.children:
                 self._connect(link)
-        self.bones = self._bones()
-        self.binds = self._binds()
-        self.models = self._models()
-        self.takes = self._takes(root)
+        self.bones = self._find_bones()
+        self.binds = self._read_binds()
+        self.models = self._order_models()
+        self.takes = self._read_takes(root)
 
     def _connect(self, link: FBXNode) -> None:
         part, parent = link.number(1, -1), link.number(2, -1)
@@ -115,47 +115,51 @@ class FBXScene:
             self._driven.setdefault(part, []).append((parent, link.text(3)))
             self._driving.setdefault(parent, []).append((part, link.text(3)))
 
-    def _bones(self) -> set[int]:
-        """Return the numbers of the models that are bones: by kind, or as a skin hangs on them."""
+    def _find_bones(self) -> set[int]:
+        """Return the numbers of the models that are bones, by kind or by being part of a skin."""
         bones: set[int] = set()
         for number, node in self.objects.items():
             if node.name == "Model" and node.text(2) in BONES:
                 bones.add(number)
             elif node.name == "Deformer" and node.text(2) == "Cluster":
-                # Cluster deformers belong to skins; the models connected to them are bones.
+                # Models connected to the cluster of a skin are bones.
                 bones |= {part for part in self._parts.get(number, ()) if self._is(part, "Model")}
         return bones
 
-    def _binds(self) -> dict[int, Floats]:
-        """Return the matrix of each model in the world, as skins are bound: the bind pose.
+    def _read_binds(self) -> dict[int, Floats]:
+        """Return the world matrix of each model in the bind pose.
 
-        That of a skin's cluster counts; the pose of the file replaces one that is missing.
+        Matrices of skin clusters override those of poses.
         """
-        found: dict[int, Floats] = {}
+        matrices: dict[int, Floats] = {}
         for number, node in self.objects.items():
             if node.name == "Pose":
                 for entry in node.all("PoseNode"):
-                    which = entry.child("Node")
-                    self._bind(found, which.number(0, -1) if which else -1, entry, "Matrix")
+                    reference = entry.child("Node")
+                    self._store_bind(
+                        matrices, reference.number(0, -1) if reference else -1, entry, "Matrix"
+                    )
             elif node.name == "Deformer" and node.text(2) == "Cluster":
                 for part in self._parts.get(number, ()):
-                    self._bind(found, part, node, "TransformLink")
-        return found
+                    self._store_bind(matrices, part, node, "TransformLink")
+        return matrices
 
-    def _bind(self, found: dict[int, Floats], model: float, node: FBXNode, name: str) -> None:
+    def _store_bind(
+        self, matrices: dict[int, Floats], model: float, node: FBXNode, name: str
+    ) -> None:
         matrix = node.array(self.content, name)
         if matrix is not None and len(matrix) == 16 and np.isfinite(matrix).all():
-            # Its columns are stored one after another.
-            found[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
+            # The file stores columns first.
+            matrices[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
 
-    def _models(self) -> list[Model]:
-        """Return all models, parents before their children; those in a circle are left out."""
-        found: list[Model] = []
-        carried = {part for parent in self.objects for part in self._parts.get(parent, ())}
+    def _order_models(self) -> list[Model]:
+        """Return all models, parents before their children, without cycles."""
+        models: list[Model] = []
+        children = {part for parent in self.objects for part in self._parts.get(parent, ())}
         tops = dict.fromkeys(self._parts.get(0, []))
-        # Models that nothing carries stand at the top, whether connected to the scene or not.
-        tops |= dict.fromkeys(number for number in self.objects if number not in carried)
-        # Reversed, since the last one is taken first.
+        # Models without parent are at the top, whether connected to the scene or not.
+        tops |= dict.fromkeys(number for number in self.objects if number not in children)
+        # Reversed, since the stack pops the last one first.
         waiting = [(number, -1) for number in reversed(tops)]
         visited: set[int] = set()
         while waiting:
@@ -166,12 +170,12 @@ class FBXScene:
             visited.add(number)
             name = _strip_class(node.text(1))
             properties = {**self._templates.get("Model", {}), **_read_properties(node)}
-            here = len(found)
-            found.append(Model(number, name or "joint", node.text(2), parent, properties))
-            waiting += [(part, here) for part in reversed(self._parts.get(number, []))]
-        return found
+            index = len(models)
+            models.append(Model(number, name or "joint", node.text(2), parent, properties))
+            waiting += [(part, index) for part in reversed(self._parts.get(number, []))]
+        return models
 
-    def _takes(self, root: FBXNode) -> list[Take]:
+    def _read_takes(self, root: FBXNode) -> list[Take]:
         spans = _read_spans(root)
         takes = []
         for number, node in self.objects.items():
@@ -181,7 +185,7 @@ class FBXScene:
             layers = [p for p in self._parts.get(number, ()) if self._is(p, "AnimationLayer")]
             properties = _read_properties(node)
             span = None
-            # The local span counts; the reference span replaces one that is missing.
+            # Use the reference span if there is no local span.
             for kind in ("Local", "Reference"):
                 start, stop = (
                     _get_number(properties, f"{kind}{end}", 0) for end in ("Start", "Stop")
@@ -195,8 +199,8 @@ class FBXScene:
         node = self.objects.get(number)
         return node is not None and node.name == name
 
-    def nodes(self, moved: set[int]) -> list[SceneNode]:
-        """Return the models as nodes of a scene, of which those are animated."""
+    def make_nodes(self, moved: set[int]) -> list[SceneNode]:
+        """Return the models as nodes of a scene; ``moved`` are the numbers of animated ones."""
         return [
             SceneNode(
                 model.name,
@@ -209,54 +213,54 @@ class FBXScene:
             for model in self.models
         ]
 
-    def moved(self, take: Take) -> set[int]:
+    def find_moved(self, take: Take) -> set[int]:
         """Return the numbers of the models that a take drives."""
         return {
             model
             for layer in take.layers
             for part in self._parts.get(layer, ())
             if self._has_curve(part)
-            for model, what in self._driven.get(part, ())
-            if what in (TRANSLATION, ROTATION, SCALING)
+            for model, property_name in self._driven.get(part, ())
+            if property_name in (TRANSLATION, ROTATION, SCALING)
         }
 
     def _has_curve(self, number: int) -> bool:
         return any(self._is(curve, "AnimationCurve") for curve, _ in self._driving.get(number, ()))
 
-    def tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
-        """Return for each model and property its layers and curve nodes, the base layer first."""
-        found: dict[tuple[int, str], list[tuple[int, int]]] = {}
+    def find_tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
+        """Return layers and curve nodes of each model and property, the base layer first."""
+        tracks: dict[tuple[int, str], list[tuple[int, int]]] = {}
         for layer in take.layers:
             for part in self._parts.get(layer, ()):
                 if self._is(part, "AnimationCurveNode"):
                     for driven in self._driven.get(part, ()):
-                        found.setdefault(driven, []).append((layer, part))
-        return found
+                        tracks.setdefault(driven, []).append((layer, part))
+        return tracks
 
-    def curves(self, number: int) -> dict[str, Curve]:
-        """Return the curves of a curve node by their axes, ``d|X`` and so on."""
-        found = {}
+    def read_curves(self, number: int) -> dict[str, Curve]:
+        """Return the curves of a curve node by axis, ``d|X`` and so on."""
+        curves = {}
         for part, axis in self._driving.get(number, ()):
             node = self.objects.get(part)
             if node is not None and node.name == "AnimationCurve":
                 curve = self._reader.read(node)
                 if curve is not None:
-                    found[axis] = curve
-        return found
+                    curves[axis] = curve
+        return curves
 
-    def key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
-        """Yield the times of the keys of each curve that moves one of these models, in ticks."""
+    def iterate_key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
+        """Yield the times in ticks of the keys of each curve that moves one of these models."""
         numbers = set(models)
-        for (model, what), parts in self.tracks(take).items():
-            if model in numbers and what in (TRANSLATION, ROTATION, SCALING):
+        for (model, property_name), parts in self.find_tracks(take).items():
+            if model in numbers and property_name in (TRANSLATION, ROTATION, SCALING):
                 for _, part in parts:
-                    yield from (curve.times for curve in self.curves(part).values())
+                    yield from (curve.times for curve in self.read_curves(part).values())
 
-    def setting(self, name: str, usual: float) -> float:
-        """Return a number of the file's settings."""
-        return _get_number(self.settings, name, usual)
+    def get_setting(self, name: str, default: float) -> float:
+        """Return a number in the file's global settings."""
+        return _get_number(self.settings, name, default)
 
-    def properties(self, number: int) -> Properties:
+    def get_properties(self, number: int) -> Properties:
         return _read_properties(self.objects.get(number))
 
 
@@ -265,61 +269,66 @@ class Pose:
 
     def __init__(self, scene: FBXScene, take: Take, sampler: Sampler) -> None:
         self.scene, self.sampler = scene, sampler
-        self.tracks = scene.tracks(take)
-        self.layers = {number: scene.properties(number) for number in take.layers}
+        self.tracks = scene.find_tracks(take)
+        self.layers = {number: scene.get_properties(number) for number in take.layers}
 
-    def rest(self, number: int) -> Transform:
-        """Return the transform of a model, by its number among the nodes, in the bind pose.
+    def compute_rest(self, number: int) -> Transform:
+        """Return the transform of a model, by its index among the nodes, in the bind pose.
 
-        That without animation where the file has no bind pose of it.
+        Without a bind pose it is the transform without animation.
         """
         if self.scene.models[number].number not in self.scene.binds:
-            return self.transform(number, animated=False)
+            return self.compute_transform(number, animated=False)
         parent = self.scene.models[number].parent
-        local = np.linalg.solve(self._rest_matrix(parent), self._rest_matrix(number))
+        local = np.linalg.solve(
+            self._compute_rest_matrix(parent), self._compute_rest_matrix(number)
+        )
         return decompose(np.asarray(local, np.float64))
 
-    def _rest_matrix(self, number: int) -> Floats:
-        """Return the matrix of a node in the world, in the bind pose; the ground is -1."""
+    def _compute_rest_matrix(self, number: int) -> Floats:
+        """Return the world matrix of a node in the bind pose; -1 is the ground."""
         if number < 0:
             return np.eye(4)
         model = self.scene.models[number]
         if (bind := self.scene.binds.get(model.number)) is not None:
             return bind
-        local = [part[None] for part in self.transform(number, animated=False)[:3]]
-        return np.asarray(self._rest_matrix(model.parent) @ compose(*local)[0], np.float64)
+        local = [part[None] for part in self.compute_transform(number, animated=False)[:3]]
+        return np.asarray(self._compute_rest_matrix(model.parent) @ compose(*local)[0], np.float64)
 
-    def transform(self, number: int, *, animated: bool = True) -> Transform:
-        """Of the model of this number among the nodes of the scene."""
+    def compute_transform(self, number: int, *, animated: bool = True) -> Transform:
+        """Return the transform of a model, by its index among the nodes."""
         if not animated and self.tracks:
-            return Pose(self.scene, STILL, self.sampler).transform(number)
+            return Pose(self.scene, REST_TAKE, self.sampler).compute_transform(number)
         model = self.scene.models[number]
         properties = model.properties
         order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
-        turn = self._rotation(model, order)
-        before, after = (
+        turn = self._compute_rotation(model, order)
+        pre_rotation, post_rotation = (
             _get_vector(properties, "PreRotation"),
             _get_vector(properties, "PostRotation"),
         )
-        if before.any():
-            turn = rot.multiply(_to_rotation(before, "zyx"), turn)
-        if after.any():
-            turn = rot.multiply(turn, rot.conjugate(_to_rotation(after, "zyx")))
-        scale, shift = self._values(model, SCALING, 1.0), self._values(model, TRANSLATION, 0.0)
+        if pre_rotation.any():
+            turn = rot.multiply(_to_rotation(pre_rotation, "zyx"), turn)
+        if post_rotation.any():
+            turn = rot.multiply(turn, rot.conjugate(_to_rotation(post_rotation, "zyx")))
+        scale, shift = (
+            self._combine_layers(model, SCALING, 1.0),
+            self._combine_layers(model, TRANSLATION, 0.0),
+        )
         shift = _add_pivots(properties, shift, turn, scale)
         inheritance = INHERITANCE[_get_choice(properties, "InheritType", len(INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
 
-    def _rotation(self, model: Model, order: str) -> Floats:
-        """(4,) or (frames, 4)."""
+    def _compute_rotation(self, model: Model, order: str) -> Floats:
+        """Return the rotation of a model, (4,) or (frames, 4)."""
         angles = _get_vector(model.properties, ROTATION)
-        turn: Floats | None = None  # in place of the angles, once layers were multiplied
-        for value, weight, properties in self._layers(model, ROTATION, angles):
-            # A weight of None replaces all layers before it.
+        turn: Floats | None = None  # replaces the angles once layers were multiplied
+        for value, weight, properties in self._sample_layers(model, ROTATION, angles):
+            # A weight of None replaces all previous layers.
             if weight is None:
                 angles, turn = value, None
             elif _get_choice(properties, "RotationAccumulationMode", 2) == 1:
-                # Added axis by axis, so a product is turned into angles again.
+                # Layers are added per axis, so convert a product back to angles.
                 angles = angles if turn is None else _to_angles(turn, order)
                 angles = angles * (1 - weight if _replaces(properties) else 1) + value * weight
                 turn = None
@@ -327,109 +336,111 @@ class Pose:
                 turn = _to_rotation(angles, order) if turn is None else turn
                 layer = _to_rotation(value, order)
                 if _replaces(properties):
-                    # What is missing from the turn so far to that of the layer.
+                    # Rotation from the previous layers to this one.
                     layer = rot.multiply(rot.conjugate(turn), layer)
-                # The weight shortens the rotation along its arc.
+                # The weight scales the angle of the rotation.
                 turn = rot.multiply(
                     turn, rot.from_rotation_vectors(weight * rot.to_rotation_vectors(layer))
                 )
         return _to_rotation(angles, order) if turn is None else turn
 
-    def _values(self, model: Model, what: str, usual: float) -> Floats:
-        """(3,) or (frames, 3): a property with all layers on it."""
-        result = _get_vector(model.properties, what, usual)
-        for value, weight, properties in self._layers(model, what, result):
+    def _combine_layers(self, model: Model, property_name: str, default: float) -> Floats:
+        """Return a property of a model combined from all layers, (3,) or (frames, 3)."""
+        result = _get_vector(model.properties, property_name, default)
+        for value, weight, properties in self._sample_layers(model, property_name, result):
             if weight is None:
                 result = value
-            elif what == SCALING and _get_choice(properties, "ScaleAccumulationMode", 2) == 0:
-                rest = 1 - weight if _replaces(properties) else 1
-                # Multiplied scales: shares are exponents.
-                result = np.abs(result) ** rest * np.abs(value) ** weight
+            elif (
+                property_name == SCALING
+                and _get_choice(properties, "ScaleAccumulationMode", 2) == 0
+            ):
+                previous_weight = 1 - weight if _replaces(properties) else 1
+                # Multiplied scales have weights as exponents.
+                result = np.abs(result) ** previous_weight * np.abs(value) ** weight
             else:
                 result = result * (1 - weight if _replaces(properties) else 1) + value * weight
         return result
 
-    def _layers(
-        self, model: Model, what: str, usual: Floats
+    def _sample_layers(
+        self, model: Model, property_name: str, default: Floats
     ) -> Iterator[tuple[Floats, Floats | float | None, Properties]]:
-        """Value, weight and table of each layer; the weight is None where it is all."""
+        """Yield value, weight (None: replaces all others) and properties of each layer."""
         base = next(iter(self.layers), None)
-        for layer, part in self.tracks.get((model.number, what), ()):
+        for layer, part in self.tracks.get((model.number, property_name), ()):
             table = self.layers[layer]
             if layer == base:
-                yield self._sample_curve(part, usual), None, table
+                yield self._sample_curve(part, default), None, table
             elif not _get_number(table, "Mute", 0):
-                # A layer adds nothing where it has no curve: 0, or a scale of 1.
-                rest = np.full(3, 1.0 if what == SCALING else 0.0)
+                # Axes without a curve add nothing: 0, or a scale of 1.
+                rest = np.full(3, 1.0 if property_name == SCALING else 0.0)
                 overrides = _get_choice(table, "BlendMode", 3) == _OVERRIDE
                 yield (
                     self._sample_curve(part, rest),
-                    None if overrides else self._weight(layer),
+                    None if overrides else self._sample_weight(layer),
                     table,
                 )
 
-    def _weight(self, layer: int) -> Floats | float:
-        """Return the share of a layer: one, or (frames, 1)."""
+    def _sample_weight(self, layer: int) -> Floats | float:
+        """Return the weight of a layer as a number or (frames, 1)."""
         table = self.layers[layer]
         for _, part in self.tracks.get((layer, "Weight"), ()):
-            for curve in self.scene.curves(part).values():
-                # Weights are per cent.
-                sampled = np.clip(np.asarray(self.sampler.values(curve)) / 100, 0, 1)
+            for curve in self.scene.read_curves(part).values():
+                # Weights are stored in percent.
+                sampled = np.clip(np.asarray(self.sampler.sample(curve)) / 100, 0, 1)
                 return sampled[:, None] if sampled.ndim else float(sampled)
         return min(max(_get_number(table, "Weight", 100.0) / 100, 0.0), 1.0)
 
-    def _sample_curve(self, part: int, usual: Floats) -> Floats:
-        """(3,) or (frames, 3): what a curve node has for the three axes."""
-        curves, table = self.scene.curves(part), self.scene.properties(part)
+    def _sample_curve(self, part: int, defaults: Floats) -> Floats:
+        """Return the values of a curve node for the three axes, (3,) or (frames, 3)."""
+        curves, table = self.scene.read_curves(part), self.scene.get_properties(part)
         axes = []
-        for letter, rest in zip("XYZ", usual.tolist(), strict=True):
+        for letter, default in zip("XYZ", defaults.tolist(), strict=True):
             curve = curves.get(f"d|{letter}")
             value = (
-                _get_number(table, f"d|{letter}", rest)
+                _get_number(table, f"d|{letter}", default)
                 if curve is None
-                else self.sampler.values(curve)
+                else self.sampler.sample(curve)
             )
             axes.append(np.asarray(value, np.float64))
-        return np.stack(np.broadcast_arrays(*axes)).T  # contiguous per axis
+        return np.stack(np.broadcast_arrays(*axes)).T  # each axis is contiguous
 
 
 def invert_transform(
     model: Model, shifts: Floats, turns: Floats, scale: Floats
 ) -> tuple[Floats, Floats]:
-    """Return the translations and angles of a model that is so moved in its parent's frame.
+    """Return the translations and angles that give a model these transforms.
 
-    All are (frames, 3), but ``turns`` (frames, 4); the scale (3,) is the model's own.
+    All are (frames, 3), except ``turns`` (frames, 4); ``scale`` (3,) is the model's own.
     """
     properties = model.properties
     order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
-    before, after = (
-        _to_rotation(_get_vector(properties, f"{at}Rotation"), "zyx") for at in ("Pre", "Post")
+    pre_rotation, post_rotation = (
+        _to_rotation(_get_vector(properties, f"{kind}Rotation"), "zyx") for kind in ("Pre", "Post")
     )
-    inner = rot.multiply(rot.multiply(rot.conjugate(before), turns), after)
-    # What pivots add does not depend on the translation, so it is what they add to none.
+    inner = rot.multiply(rot.multiply(rot.conjugate(pre_rotation), turns), post_rotation)
+    # The contribution of pivots does not depend on the translation.
     return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _to_angles(inner, order)
 
 
 def _replaces(properties: Properties) -> bool:
-    """Whether a layer takes the place of what is below it, to its share, and is not added."""
+    """Return whether a layer replaces the previous ones according to its weight."""
     return _get_choice(properties, "BlendMode", 3) == _PASS_THROUGH
 
 
 def _to_rotation(angles: Floats, axes: str) -> Floats:
-    """Return rotation (..., 4) by angles about x, y and z in degrees, multiplied in this order."""
+    """Return rotations (..., 4) for angles about x, y and z in degrees, multiplied in order."""
     order = ["xyz".index(axis) for axis in axes]
     if angles.ndim == 1:
-        # The angles in the order of the axes in the product.
         return rot.from_euler(np.radians(angles[None, order]), axes).reshape(4)
-    turned = np.empty((4, len(angles)))
+    rotations = np.empty((4, len(angles)))
     for span in iterate_blocks(len(angles)):
-        turned[:, span] = rot.from_euler(np.radians(angles[span].T[order]).T, axes).T
-    return turned.T
+        rotations[:, span] = rot.from_euler(np.radians(angles[span].T[order]).T, axes).T
+    return rotations.T
 
 
 def _to_angles(turn: Floats, axes: str) -> Floats:
-    """Angles about x, y and z in degrees whose rotations, multiplied in this order, are these."""
-    from scipy.spatial.transform import Rotation  # heavy, and seldom needed
+    """Return angles about x, y and z in degrees whose product in this order is the rotation."""
+    from scipy.spatial.transform import Rotation  # slow to import and rarely needed
 
     # SciPy puts w last.
     columns = Rotation.from_quat(np.roll(turn, -1, axis=-1)).as_euler(axes.upper(), degrees=True)
@@ -437,75 +448,75 @@ def _to_angles(turn: Floats, axes: str) -> Floats:
 
 
 def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
-    """Return the translation with what pivots and their offsets add to it."""
+    """Return the translation including the contribution of pivots and their offsets."""
     shift = shift + _get_vector(properties, "RotationOffset")
     pivot, center = (
         _get_vector(properties, "RotationPivot"),
         _get_vector(properties, "ScalingPivot"),
     )
-    # Everything that the rotation carries, as seen from its pivot.
-    carried = _get_vector(properties, "ScalingOffset") - pivot
+    # Vector from the rotation pivot that the rotation is applied to.
+    lever = _get_vector(properties, "ScalingOffset") - pivot
     if center.any():
-        carried = carried + center - scale * center
-    if pivot.any() or carried.any():
-        shift = shift + pivot + rot.rotate(turn, carried)
+        lever = lever + center - scale * center
+    if pivot.any() or lever.any():
+        shift = shift + pivot + rot.rotate(turn, lever)
     return np.asarray(shift, np.float64)
 
 
 def _read_templates(root: FBXNode) -> dict[str, Properties]:
-    """Return what the objects of a class have where they do not say."""
-    found: dict[str, Properties] = {}
+    """Return the default properties of each class of objects."""
+    templates: dict[str, Properties] = {}
     for group in root.all("Definitions"):
         for kind in group.all("ObjectType"):
             for template in kind.all("PropertyTemplate"):
-                found.setdefault(kind.text(0), _read_properties(template))
-    return found
+                templates.setdefault(kind.text(0), _read_properties(template))
+    return templates
 
 
 def _read_spans(root: FBXNode) -> dict[str, tuple[float, float]]:
-    """Return the spans of takes by their names, as programs write them for older ones."""
-    found = {}
+    """Return the spans of takes by name, from the section for older programs."""
+    spans = {}
     for group in root.all("Takes"):
         for take in group.all("Take"):
             for kind in ("ReferenceTime", "LocalTime"):
                 span = take.child(kind)
                 if span and span.number(1) > span.number(0):
-                    found[take.text(0)] = float(span.number(0)), float(span.number(1))
-    return found
+                    spans[take.text(0)] = float(span.number(0)), float(span.number(1))
+    return spans
 
 
 def _read_properties(node: FBXNode | None) -> Properties:
-    """Return the values of an object's properties, by their names."""
+    """Return the values of an object's properties by name."""
     table = node.child("Properties70") if node else None
     if table is None:
         return {}
-    # Name, two types and flags come before the values.
+    # Name, two types and flags precede the values.
     return {entry.text(0): entry.values[4:] for entry in table.all("P")}
 
 
-def _get_number(properties: Properties, name: str, usual: float) -> float:
-    values = properties.get(name) or [usual]
+def _get_number(properties: Properties, name: str, default: float) -> float:
+    values = properties.get(name) or [default]
     value = values[0]
     if not isinstance(value, int | float) or not isfinite(value):
-        return usual
+        return default
     return float(value)
 
 
 def _get_choice(properties: Properties, name: str, count: int) -> int:
-    """One of so many values, the first where it is none of them."""
+    """Return a property below ``count``, else 0."""
     value = _get_number(properties, name, 0)
     return int(value) if 0 <= value < count else 0
 
 
-def _get_vector(properties: Properties, name: str, usual: float = 0.0) -> Floats:
+def _get_vector(properties: Properties, name: str, default: float = 0.0) -> Floats:
     values = properties.get(name) or []
-    numbers = [v for v in values[:3] if isinstance(v, int | float) and abs(v) < _LARGEST]
-    return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, usual)
+    numbers = [v for v in values[:3] if isinstance(v, int | float) and abs(v) < _MAX_VALUE]
+    return np.array(numbers, np.float64) if len(numbers) == 3 else np.full(3, default)
 
 
 def _strip_class(name: str) -> str:
-    """An object's name without its class, which binary files have behind it, texts before it."""
-    # Binary files write `name\0\1class`, texts `class::name`.
+    """Return an object's name without its class."""
+    # Binary files store `name\0\1class`, text files `class::name`.
     name = name.partition("\0\1")[0]
     head, mark, tail = name.partition("::")
     return tail if mark and head.isidentifier() else name

@@ -1,6 +1,6 @@
-"""FBX written as text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
+"""Parse FBX text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
 
-A semicolon begins a comment. Arrays are left where they are until somebody asks for one.
+A semicolon starts a comment. Arrays are parsed on demand.
 """
 
 from __future__ import annotations
@@ -27,41 +27,43 @@ _TOKEN = re.compile(
 _ARRAY = re.compile(rb"\s*\{\s*a\s*:")
 _ESCAPES = ((b"&quot;", b'"'), (b"&lf;", b"\n"), (b"&cr;", b"\r"))
 _BOM = b"\xef\xbb\xbf"
-_LONGEST = 40  # digits of a whole number
+_MAX_DIGITS = 40  # of a number
 
 
 def parse_text(content: FileContent) -> FBXNode:
     """Return the nodes of a text, below one without a name."""
-    return _Text(content).root
+    return _TextParser(content).root
 
 
-class _Text:
-    """Reads one token after another."""
+class _TextParser:
+    """Parse one token after another."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
-        # In bytes throughout: places in the file are bytes.
+        # Offsets count bytes, so the text stays bytes.
         self.data = content.text.encode("utf-8") if content.is_utf16 else content.data
         self.root = FBXNode("")
         self.open_nodes = [self.root]
-        self.node: FBXNode | None = None  # whose values are being read
+        self.node: FBXNode | None = None  # the node whose values are being read
         self.count = 0
-        self.at = len(_BOM) if self.data.startswith(_BOM) else 0
-        while match := _TOKEN.match(self.data, self.at):
-            self.at = match.end()
-            self._take(match)
-        if self.data[self.at :].strip():
-            raise self._error(f"{self.data[self.at : self.at + 40].strip()!r} is no FBX", self.at)
+        self.offset = len(_BOM) if self.data.startswith(_BOM) else 0
+        while match := _TOKEN.match(self.data, self.offset):
+            self.offset = match.end()
+            self._parse_token(match)
+        if self.data[self.offset :].strip():
+            raise self._make_error(
+                f"{self.data[self.offset : self.offset + 40].strip()!r} is no FBX", self.offset
+            )
         if len(self.open_nodes) > 1:
             raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
 
-    def _error(self, reason: str, at: int) -> ReadError:
-        # Lines are counted only for messages.
-        return self.content.error(reason, self.data.count(b"\n", 0, at) + 1)
+    def _make_error(self, reason: str, offset: int) -> ReadError:
+        # Count lines only when a message needs them.
+        return self.content.error(reason, self.data.count(b"\n", 0, offset) + 1)
 
-    def _take(self, match: re.Match[bytes]) -> None:
+    def _parse_token(self, match: re.Match[bytes]) -> None:
         kind = match.lastgroup or ""
-        value, at = match[kind], match.start(kind)
+        value, offset = match[kind], match.start(kind)
         if kind == "name":
             self.node = FBXNode(value.decode("utf-8", "replace"))
             self.open_nodes[-1].children.append(self.node)
@@ -69,30 +71,30 @@ class _Text:
             require_node_memory(self.content, self.count)
         elif value == b"}" and kind == "mark":
             if len(self.open_nodes) == 1:
-                raise self._error("a '}' too many", at)
+                raise self._make_error("a '}' too many", offset)
             self.open_nodes.pop()
             self.node = None
         elif self.node is None:
-            raise self._error(f"a name expected, found {value[:40]!r}", at)
+            raise self._make_error(f"a name expected, found {value[:40]!r}", offset)
         elif value == b"{" and kind == "mark":
             self.open_nodes.append(self.node)
             self.node = None
         elif kind == "count":
-            self.node.values.append(self._array(value))
+            self.node.values.append(self._parse_array(value))
             self.node = None
         elif kind == "text":
             self.node.values.append(_unquote(value))
         elif kind == "word":
             self.node.values.append(_parse_word(value))
 
-    def _array(self, count: bytes) -> _Array:
-        """Return the array that begins here, which is skipped."""
-        start, stop = _ARRAY.match(self.data, self.at), self.data.find(b"}", self.at)
+    def _parse_array(self, count: bytes) -> _TextArray:
+        """Return the array that starts here, and skip it."""
+        start, stop = _ARRAY.match(self.data, self.offset), self.data.find(b"}", self.offset)
         if start is None or stop < 0:
-            raise self._error("an array without its numbers", self.at)
-        found = _Array(int(count[:_LONGEST]), self.data, start.end(), stop)
-        self.at = stop + 1
-        return found
+            raise self._make_error("an array without its numbers", self.offset)
+        array = _TextArray(int(count[:_MAX_DIGITS]), self.data, start.end(), stop)
+        self.offset = stop + 1
+        return array
 
 
 def _unquote(quoted: bytes) -> str:
@@ -105,16 +107,16 @@ def _unquote(quoted: bytes) -> str:
 def _parse_word(word: bytes) -> int | float | str:
     for number in (int, float):
         try:
-            # Cut to some digits: a text of millions of digits takes long to convert.
-            return number(word[:_LONGEST])
+            # Limit the digits: converting millions of them takes long.
+            return number(word[:_MAX_DIGITS])
         except ValueError:
             continue
     return word.decode("utf-8", "replace")
 
 
 @dataclass(slots=True)
-class _Array:
-    """An array in a text."""
+class _TextArray:
+    """An array in a text file, parsed on demand."""
 
     count: int
     data: bytes

@@ -1,12 +1,12 @@
-"""Writing FBX 7.4, binary: a skeleton at rest, its bind pose, and one take or several.
+"""Write binary FBX 7.4: a skeleton at rest, its bind pose, and one or more takes.
 
-Lengths are centimetres, y is up. The nodes are those of the rig that the motion came from: those
-above the joints are nulls, joints are limb nodes. The rotation at rest is the pre-rotation of a
-limb node, so that all its angles are 0 at rest. A take is an animation stack with one layer and a
-key in each frame. There is no mesh.
+Lengths are centimetres, y is up. The nodes are those of the motion's rig: nodes above the joints
+become nulls, joints limb nodes. The rotation at rest is the pre-rotation of a limb node, so all its
+angles are 0 at rest. A take is an animation stack with one layer and a key in each frame. There
+is no mesh.
 
 Source: as for `kineme.formats.scenes.fbx_file` and `kineme.formats.scenes.fbx_scene`; identifier
-and footer are those that Blender writes, which depend on the time of creation alone.
+and footer are those written by Blender, which depend only on the time of creation.
 """
 
 from __future__ import annotations
@@ -50,21 +50,21 @@ _KEY_VERSION = 4008
 
 
 def write_fbx(motion: Motion, path: Path) -> None:
-    """Leave ``motion`` in an FBX file."""
+    """Write a motion to an FBX file."""
     write_takes({path.stem: motion}, path)
 
 
 def write_takes(motions: Mapping[str, Motion], path: Path) -> None:
-    """Leave motions of one skeleton, one at least, in an FBX file, each as a take of its name."""
-    scene = _Scene(check_animations(motions, path, "an FBX"), path)
+    """Write one or more motions of one skeleton to an FBX file, each as a take of its name."""
+    scene = _SceneWriter(check_animations(motions, path, "an FBX"), path)
     for name, motion in motions.items():
         scene.animate(name, motion)
     with atomic_write(path) as draft:
-        draft.write_bytes(encode_fbx(scene.file(), _START, FOOTER))
+        draft.write_bytes(encode_fbx(scene.make_nodes(), _START, FOOTER))
 
 
 class TakeWriter:
-    """Gathers the objects of takes and their connections.
+    """Collect the objects of takes and their connections.
 
     ``models`` are the numbers of the rig's nodes, ``stops`` the ticks at which each take ends.
     """
@@ -77,14 +77,14 @@ class TakeWriter:
         self.stops: dict[str, int] = {}
 
     def _add(self, kind: str, name: str, label: str, sub: str, *children: FBXNode) -> int:
-        """Keep an object; its number."""
+        """Add an object and return its number."""
         number = next(self._numbers)
         values = [np.int64(number), f"{name}\0\1{label}", sub]
         self.objects.append(FBXNode(kind, values, list(children)))
         return number
 
-    def _link(self, part: int, parent: int, what: str | None = None) -> None:
-        kind, end = ("OO", []) if what is None else ("OP", [what])
+    def _link(self, part: int, parent: int, property_name: str | None = None) -> None:
+        kind, end = ("OO", []) if property_name is None else ("OP", [property_name])
         self.links.append(FBXNode("C", [kind, np.int64(part), np.int64(parent), *end]))
 
     def _add_model(self, node: int, name: str, rest: Transform) -> int:
@@ -116,14 +116,14 @@ class TakeWriter:
         self._link(model, self.models[parent] if parent >= 0 else 0)
         return model
 
-    def _bind_pose(self) -> list[FBXNode]:
-        """Return the place of each model at rest."""
+    def _make_bind_pose(self) -> list[FBXNode]:
+        """Return the world matrix of each model at rest."""
         return [
             FBXNode(
                 "PoseNode",
                 children=[
                     make_node("Node", np.int64(model)),
-                    # Columns are stored one after another.
+                    # The file stores columns first.
                     make_node("Matrix", np.ascontiguousarray(matrix.T).ravel()),
                 ],
             )
@@ -147,26 +147,27 @@ class TakeWriter:
         shifts, turns = pose_rig(motion, rig)
         for joint in range(skeleton.n_joints):
             node = rig.above + joint
-            moved, angles, rest = self.find_values(node, shifts[:, joint], turns[:, joint])
+            translations, angles, rest = self.find_values(node, shifts[:, joint], turns[:, joint])
+            # Metres per unit of the node's translation.
             size = rig.parent_world(node, *rig.world)[2] * rig.unit
-            away = size * np.abs(moved - rest).max()
-            if away > RIGID or skeleton.parents[joint] < 0:
-                self._add_curves(layer, node, TRANSLATION, "T", times, moved)
+            distance = size * np.abs(translations - rest).max()
+            if distance > RIGID or skeleton.parents[joint] < 0:
+                self._add_curves(layer, node, TRANSLATION, "T", times, translations)
             if joint not in skeleton.end_sites:
-                # Successive keys stay near each other, so that nothing spins between frames.
+                # Avoid jumps of 360 degrees, which would spin the joint between frames.
                 angles = np.unwrap(angles, period=360.0, axis=0)
                 self._add_curves(layer, node, ROTATION, "R", times, angles)
 
     def find_values(
         self, node: int, shifts: Floats, turns: Floats
     ) -> tuple[Floats, Floats, Floats]:
-        """Return translations and angles that move a node so, and its translation at rest."""
-        turned = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
-        angles = np.degrees(rot.to_euler_zyx(turned))[:, ::-1]
+        """Return translations and angles that move a node like this, and its rest translation."""
+        local_rotations = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
+        angles = np.degrees(rot.to_euler_zyx(local_rotations))[:, ::-1]
         return shifts, angles, self.rig.translations[node]
 
     def _add_curves(
-        self, layer: int, model: int, what: str, short: str, times: Any, values: Floats
+        self, layer: int, model: int, property_name: str, short: str, times: Any, values: Floats
     ) -> None:
         start = [
             (f"d|{axis}", "Number", "", x)
@@ -174,9 +175,9 @@ class TakeWriter:
         ]
         node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _make_properties(*start))
         self._link(node, layer)
-        self._link(node, self.models[model], what)
+        self._link(node, self.models[model], property_name)
         for axis, column in zip("XYZ", values.T.astype("<f4"), strict=True):
-            # A curve that never changes needs one key.
+            # A constant curve needs one key.
             n = 1 if np.ptp(column) == 0 else len(column)
             curve = self._add(
                 "AnimationCurve",
@@ -193,8 +194,8 @@ class TakeWriter:
             )
             self._link(curve, node, f"d|{axis}")
 
-    def time_settings(self) -> list[tuple[str, str, str, Any]]:
-        """Return name, type, label and value of the settings that tell rate and span of takes."""
+    def make_time_settings(self) -> list[tuple[str, str, str, Any]]:
+        """Return name, type, label and value of the settings for frame rate and time span."""
         mode = next((mode for mode, fps in RATES.items() if abs(fps - self.fps) < 1e-9), CUSTOM)
         return [
             ("TimeMode", "enum", "", mode),
@@ -204,8 +205,8 @@ class TakeWriter:
         ]
 
 
-class _Scene(TakeWriter):
-    """Gathers takes of a skeleton, and its models."""
+class _SceneWriter(TakeWriter):
+    """Collect the models of a skeleton and its takes."""
 
     def __init__(self, motion: Motion, path: Path) -> None:
         rig = get_rig(motion.skeleton).to_metres()
@@ -216,13 +217,13 @@ class _Scene(TakeWriter):
         for node, name in enumerate(names):
             rest = Transform(rig.translations[node], rig.rotations[node], rig.scales[node])
             self.models.append(self._add_model(node, name, rest))
-        entries = self._bind_pose()
+        entries = self._make_bind_pose()
         head = [make_node("Type", "BindPose"), make_node("Version", 100)]
         head.append(make_node("NbPoseNodes", len(entries)))
         self._add("Pose", "rest", "Pose", "BindPose", *head, *entries)
 
-    def file(self) -> list[FBXNode]:
-        """Return the nodes of the file."""
+    def make_nodes(self) -> list[FBXNode]:
+        """Return the top nodes of the file."""
         kinds = [node.name for node in self.objects]
         counted = [
             FBXNode("ObjectType", [kind], [make_node("Count", kinds.count(kind))])
@@ -250,7 +251,7 @@ class _Scene(TakeWriter):
                         *((f"{name}AxisSign", "int", "Integer", 1) for name, _ in _AXES),
                         ("UnitScaleFactor", "double", "Number", 1.0),
                         ("OriginalUnitScaleFactor", "double", "Number", 1.0),
-                        *self.time_settings(),
+                        *self.make_time_settings(),
                     ),
                 ],
             ),
@@ -282,7 +283,7 @@ def make_node(name: str, value: Any) -> FBXNode:
 
 
 def _make_properties(*entries: Sequence[Any]) -> FBXNode:
-    """Return a table of properties: name, type, label, values of each."""
+    """Return a table of properties from name, type, label and values of each."""
     animated = (TRANSLATION, ROTATION, SCALING, "Number")
     return FBXNode(
         "Properties70",
@@ -294,13 +295,13 @@ def _make_properties(*entries: Sequence[Any]) -> FBXNode:
 
 
 def _to_angles(rotation: Floats) -> list[float]:
-    """Return the angles about x, y and z in degrees, the first applied first."""
+    """Return the angles about x, y and z in degrees, applied in this order."""
     angles: list[float] = np.degrees(rot.to_euler_zyx(rotation))[::-1].tolist()
     return angles
 
 
 def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: bytes = b"") -> bytes:
-    """Return a file of these nodes; those that were read from ``source`` are copied from there.
+    """Return a file of these nodes; nodes that were read from ``source`` are copied from it.
 
     The last four bytes of ``start`` are the version; ``footer`` depends on the time of creation.
     """
@@ -314,12 +315,13 @@ def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: by
 
 
 def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: bytes) -> None:
-    """Add a node to the file; its head says where it ends, so that is filled in last."""
+    """Append a node to the file; its head states the end, so it is filled in last."""
     at, name = len(data), node.name.encode()
     if node.stop:
+        # Copied nodes keep their bytes, but the ends in their heads move.
         shift = at - node.start
         data += source[node.start : node.stop]
-        # The next head lies behind the values of this one, be it of a node inside or after it.
+        # The next head follows the values of this one, whether of a child or a sibling.
         while at < len(data):
             end, n_values, size, length = head.unpack_from(data, at)
             if end:
@@ -330,7 +332,7 @@ def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: byt
     data += bytes(head.size) + name + values
     for child in node.children:
         _write_node(data, child, head, source)
-    # An empty node ends those inside; a node without values has it, too, and so has a layer.
+    # An empty node ends the children; nodes without values and layers need it, too.
     if node.children or not node.values or node.name == "AnimationLayer":
         data += bytes(head.size)
     head.pack_into(data, at, len(data), len(node.values), len(values), len(name))

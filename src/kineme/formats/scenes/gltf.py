@@ -1,11 +1,11 @@
-"""glTF 2.0, ``.glb`` and ``.gltf``: the scenes of the web and of game engines.
+"""Read glTF 2.0, ``.glb`` and ``.gltf``: scenes of the web and of game engines.
 
-What is read is the skeleton of one character and one of its animations. Lengths are metres, y is
-up. A glTF has no frame rate: it is that of the keys, where these are evenly spaced. Keys are held
-(STEP), on the shorter arc or in a line (LINEAR), or cubic (CUBICSPLINE); ``fps=`` samples them at
-another rate. Bones are the joints of its skins, else all nodes that are animated.
+The skeleton of one character and one of its animations are read. Lengths are metres, y is up. A
+glTF has no frame rate: that of its keys is used if they are evenly spaced. Interpolation is
+constant (STEP), linear or along the shorter arc (LINEAR), or cubic (CUBICSPLINE). ``fps=`` samples
+the keys at another rate. Bones are the joints of skins, else all animated nodes.
 
-What is written is described in `kineme.formats.scenes.gltf_writer`.
+`kineme.formats.scenes.gltf_writer` describes what is written.
 
 Source: Khronos Group, "glTF 2.0 specification", section 3.11 and appendix C.
 """
@@ -47,25 +47,25 @@ from kineme.formats.scenes.sampling import find_keys
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
-USUAL_RATE = 30.0
-"""Of files whose keys are not evenly spaced."""
+DEFAULT_RATE = 30.0
+"""Frames per second of files whose keys are not evenly spaced."""
 
 TRANSLATION, ROTATION, SCALE = "translation", "rotation", "scale"
 SLACK = 0.05
-"""Of the time between two frames, by which a key may miss the frame it was made for."""
+"""Fraction of the time between frames by which a key may miss its frame."""
 
-SLOWEST, FASTEST = 0.01, 100_000.0
-"""Frames per second that are taken for a rate."""
+MIN_RATE, MAX_RATE = 0.01, 100_000.0
+"""Frames per second that are accepted as a rate."""
 
 _JSON = re.compile(rb'"asset"\s*:\s*\{')
 _WIDTHS = {TRANSLATION: 3, ROTATION: 4, SCALE: 3}
-_EVEN = 0.02  # share of their mean by which the times between keys may differ from it
-_ROUNDED = 0.1  # of a frame, by which the last key may miss it
-_MOST_FRAMES = 1e12
+_EVEN = 0.02  # relative deviation from their mean of steps between evenly spaced keys
+_ROUNDED = 0.1  # frames by which the last key may miss its frame
+_MAX_FRAMES = 1e12
 
 
 class Keys(NamedTuple):
-    """Of one property of a node: times, values and how they go on."""
+    """Times, values and interpolation of the keys of one property of a node."""
 
     times: Floats
     values: Floats
@@ -78,16 +78,16 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     order, parents = _order_nodes(file)
     objects = [file.tree.nodes[number] for number in order]
     bones = {joint for skin in file.tree.skins for joint in skin.joints}
-    moved = [
+    moved_nodes = [
         {
-            # Only translations, rotations and scales move joints; weights of meshes do not.
+            # Morph weights of meshes do not move joints.
             target.node
             for target in (channel.target for channel in animation.channels)
             if target.path in _WIDTHS and target.node is not None
         }
         for animation in file.tree.animations
     ]
-    animated = find_moving_takes(moved, bones)
+    animated = find_moving_takes(moved_nodes, bones)
     names = make_unique(animation.name or "animation" for animation in file.tree.animations)
     number, notes = choose_take(content, names, animated, options.take)
     nodes = [
@@ -96,7 +96,7 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
             parents[j],
             order[j] in bones,
             each.mesh is not None or each.camera is not None,
-            order[j] in moved[number],
+            order[j] in moved_nodes[number],
             end=_is_marked(each) if _is_kineme(file) else is_end(each.name),
         )
         for j, each in enumerate(objects)
@@ -105,14 +105,14 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     keys = _read_keys(
         file, file.tree.animations[number], _find_needed_nodes(nodes, character.joints, order)
     )
-    fps, rated = _find_rate(file, keys, options)
+    fps, rate_notes = _find_rate(file, keys, options)
     start, n_frames = _find_span(keys, fps)
-    require_frame_memory(content, len(character.joints), n_frames, beside=file.beside)
-    at = start + np.arange(n_frames) / fps
+    require_frame_memory(content, len(character.joints), n_frames, external_size=file.external_size)
+    frame_times = start + np.arange(n_frames) / fps
 
     def transform(j: int) -> Transform:
         return _sample_transform(
-            objects[j], {what: keys.get((order[j], what)) for what in _WIDTHS}, at
+            objects[j], {path: keys.get((order[j], path)) for path in _WIDTHS}, frame_times
         )
 
     return assemble(
@@ -121,11 +121,11 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
         character.joints,
         transform,
         lambda j: _read_rest(objects[j]),
-        len(at),
+        len(frame_times),
         fps,
         unit=options.unit or 1.0,
         turn=make_up_rotation(options.up or "y"),
-        provenance=content.provenance("glTF", [*notes, *character.notes, *rated])
+        provenance=content.provenance("glTF", [*notes, *character.notes, *rate_notes])
         .of_take(names[number], (names[each] for each in animated))
         .of_person(character.name, character.people),
         numbers=order,
@@ -134,22 +134,24 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def _read_binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) -> dict[int, Floats]:
-    """Return where skins have nodes, by their places in the tree, as Blender understands it."""
-    places = {number: place for place, number in enumerate(order)}
-    found: dict[int, Floats] = {}
+    """Return the bind matrices of nodes by their index in the tree, as Blender interprets them."""
+    indices = {number: index for index, number in enumerate(order)}
+    matrices: dict[int, Floats] = {}
     for skin in file.tree.skins:
-        # Skins are counted from their skeleton's node, or from its parent if it is a joint.
-        top = places.get(-1 if skin.skeleton is None else skin.skeleton, -1)
-        found.setdefault(parents[top] if skin.skeleton in skin.joints else top, np.eye(4))
+        # Bind matrices are relative to the skin's skeleton node, or to its parent if it is a joint.
+        top = indices.get(-1 if skin.skeleton is None else skin.skeleton, -1)
+        matrices.setdefault(parents[top] if skin.skeleton in skin.joints else top, np.eye(4))
         if skin.inverse_bind_matrices is None:
             continue
-        with suppress(ReadError, ValueError):  # a damaged skin moves no joint
-            # Columns are stored one after another.
-            inverse = file.array(skin.inverse_bind_matrices).reshape(-1, 4, 4).transpose(0, 2, 1)
+        with suppress(ReadError, ValueError):  # ignore damaged skins
+            # The file stores columns first.
+            inverse = (
+                file.read_array(skin.inverse_bind_matrices).reshape(-1, 4, 4).transpose(0, 2, 1)
+            )
             for joint, matrix in zip(skin.joints, inverse, strict=False):
-                if joint in places and np.isfinite(matrix).all() and np.linalg.det(matrix) > 0:
-                    found[places[joint]] = np.asarray(np.linalg.inv(matrix), np.float64)
-    return found
+                if joint in indices and np.isfinite(matrix).all() and np.linalg.det(matrix) > 0:
+                    matrices[indices[joint]] = np.asarray(np.linalg.inv(matrix), np.float64)
+    return matrices
 
 
 def _is_kineme(file: GLTFFile) -> bool:
@@ -157,22 +159,22 @@ def _is_kineme(file: GLTFFile) -> bool:
     return isinstance(extras, dict) and EXTRAS in extras
 
 
-def _is_marked(each: SceneObject) -> bool:
-    return isinstance(each.extras, dict) and each.extras.get("end_site") is True
+def _is_marked(node: SceneObject) -> bool:
+    return isinstance(node.extras, dict) and node.extras.get("end_site") is True
 
 
 def _order_nodes(file: GLTFFile) -> tuple[list[int], list[int]]:
-    """Return numbers of the nodes, parents first, and the place of each one's parent among them."""
+    """Return the numbers of the nodes, parents first, and the index of each one's parent."""
     nodes = file.tree.nodes
-    carried = {child for node in nodes for child in node.children}
-    # Nodes that nobody has as a child are tops; reversed, since the last one is taken first.
-    waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in carried]
+    children = {child for node in nodes for child in node.children}
+    # Start with nodes without parent; reversed, since the stack pops the last one first.
+    waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in children]
     order: list[int] = []
     parents: list[int] = []
     visited: set[int] = set()
     while waiting:
         number, parent = waiting.pop()
-        # Circles and numbers beyond the list occur in damaged files.
+        # Damaged files may have cycles and invalid numbers.
         if number in visited or not 0 <= number < len(nodes):
             continue
         visited.add(number)
@@ -183,7 +185,7 @@ def _order_nodes(file: GLTFFile) -> tuple[list[int], list[int]]:
 
 
 def _find_needed_nodes(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
-    """Return the numbers of the nodes that a character consists of, and of those that carry it."""
+    """Return the numbers of the nodes of a character and of their ancestors."""
     return {order[j] for j in (*joints, *list_ancestors(nodes, joints[0]))}
 
 
@@ -191,73 +193,76 @@ def _read_keys(
     file: GLTFFile, animation: Animation, nodes: set[int]
 ) -> dict[tuple[int, str], Keys]:
     """Return the keys of each node's properties."""
-    found: dict[tuple[int, str], Keys] = {}
+    keys: dict[tuple[int, str], Keys] = {}
     times: dict[int, Floats] = {}
     for channel in animation.channels:
-        node, what = channel.target.node, channel.target.path
-        if node is None or node not in nodes or what not in _WIDTHS:
+        node, path = channel.target.node, channel.target.path
+        if node is None or node not in nodes or path not in _WIDTHS:
             continue
-        sampler = file.part(animation.samplers, channel.sampler, "sampler")
-        # Samplers share their times.
+        sampler = file.get_part(animation.samplers, channel.sampler, "sampler")
         if sampler.input not in times:
-            times[sampler.input] = file.array(sampler.input)[:, 0]
+            times[sampler.input] = file.read_array(sampler.input)[:, 0]
             if (np.diff(times[sampler.input]) <= 0).any():
                 raise file.content.error("the times of keys are in no order: damaged")
-        values = file.array(sampler.output)
-        # A cubic key has a value and two tangents.
+        values = file.read_array(sampler.output)
+        # A cubic key has two tangents and a value.
         count = len(times[sampler.input]) * (3 if sampler.interpolation == "CUBICSPLINE" else 1)
-        if values.shape != (count, _WIDTHS[what]):
-            raise file.content.error(f"{what} of node {node} has other keys than times: damaged")
-        found[node, what] = Keys(times[sampler.input], values, sampler.interpolation)
-    return found
+        if values.shape != (count, _WIDTHS[path]):
+            raise file.content.error(f"{path} of node {node} has other keys than times: damaged")
+        keys[node, path] = Keys(times[sampler.input], values, sampler.interpolation)
+    return keys
 
 
 def _find_rate(
     file: GLTFFile, keys: dict[tuple[int, str], Keys], options: ReadOptions
 ) -> tuple[float, list[str]]:
-    """Frames per second, and what to say of them."""
+    """Return frames per second, and notes."""
     if options.fps is not None:
         return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
     extras = file.tree.asset.extras
     settings = extras.get(EXTRAS) if isinstance(extras, dict) else None
     fps = settings.get("fps") if isinstance(settings, dict) else None
-    if isinstance(fps, int | float) and SLOWEST <= fps <= FASTEST:
+    if isinstance(fps, int | float) and MIN_RATE <= fps <= MAX_RATE:
         return float(fps), []
-    # The longest list of times, in which an uneven spacing would show.
-    times = max((each.times for each in keys.values()), key=len, default=np.empty(0))
+    # The longest list of times shows uneven spacing best.
+    times = max((track.times for track in keys.values()), key=len, default=np.empty(0))
     steps = np.diff(times)
     if len(steps) > 1 and np.abs(steps / steps.mean() - 1).max() <= _EVEN:
         fps = len(steps) / float(times[-1] - times[0])
-        # A whole rate, if it does not miss the last key by more than the slack.
-        near = abs(fps / max(round(fps), 1) - 1) * len(steps) <= SLACK  # at the last key, too
-        fps = float(round(fps)) if near else round(fps, 3)
-        if SLOWEST <= fps <= FASTEST:
+        # Round to an integer rate if it does not miss the last key by more than the slack.
+        is_near = abs(fps / max(round(fps), 1) - 1) * len(steps) <= SLACK
+        fps = float(round(fps)) if is_near else round(fps, 3)
+        if MIN_RATE <= fps <= MAX_RATE:
             return fps, [f"frame rate {fps:g} Hz: that of its keys"]
-    remark = f"its keys are not evenly spaced: {USUAL_RATE:g} Hz assumed; give fps= (--fps)"
-    return USUAL_RATE, [Note(remark, "warning")]
+    remark = f"its keys are not evenly spaced: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
+    return DEFAULT_RATE, [Note(remark, "warning")]
 
 
 def _find_span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
-    """Return the second of the first key, and how many frames there are up to the last one."""
-    start = min((float(each.times[0]) for each in keys.values()), default=0.0)
-    stop = max((float(each.times[-1]) for each in keys.values()), default=0.0)
-    return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MOST_FRAMES))
+    """Return the second of the first key, and the number of frames up to the last one."""
+    start = min((float(track.times[0]) for track in keys.values()), default=0.0)
+    stop = max((float(track.times[-1]) for track in keys.values()), default=0.0)
+    return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MAX_FRAMES))
 
 
-def _sample_transform(node: SceneObject, keys: dict[str, Keys | None], at: Floats) -> Transform:
+def _sample_transform(
+    node: SceneObject, keys: dict[str, Keys | None], frame_times: Floats
+) -> Transform:
     """Return a node's transform at these seconds."""
     rest = dict(zip(_WIDTHS, _read_rest(node)[:3], strict=True))
-    found = {
-        what: rest[what] if track is None else _sample_channel(track, at, turns=what == ROTATION)
-        for what, track in keys.items()
+    samples = {
+        path: rest[path]
+        if track is None
+        else _sample_channel(track, frame_times, is_rotation=path == ROTATION)
+        for path, track in keys.items()
     }
-    return Transform(found[TRANSLATION], found[ROTATION], found[SCALE])
+    return Transform(samples[TRANSLATION], samples[ROTATION], samples[SCALE])
 
 
 def _read_rest(node: SceneObject) -> Transform:
-    """Return the transform of a node without an animation."""
+    """Return the transform of a node without animation."""
     if node.matrix is not None and len(node.matrix) == 16:
-        # Columns are stored one after another.
+        # The file stores columns first.
         return decompose(np.array(node.matrix).reshape(4, 4).T)
     turn = np.roll(_to_array(node.rotation, [0.0, 0.0, 0.0, 1.0]), 1)
     norm = np.linalg.norm(turn)
@@ -268,50 +273,50 @@ def _read_rest(node: SceneObject) -> Transform:
     )
 
 
-def _to_array(values: list[float] | None, usual: list[float]) -> Floats:
-    fits = values is not None and len(values) == len(usual)
-    return np.array(values if fits else usual, np.float64)
+def _to_array(values: list[float] | None, default: list[float]) -> Floats:
+    fits = values is not None and len(values) == len(default)
+    return np.array(values if fits else default, np.float64)
 
 
-def _sample_channel(keys: Keys, at: Floats, *, turns: bool) -> Floats:
-    """Values at these seconds, (frames, 3); rotations as (frames, 4), w first."""
+def _sample_channel(keys: Keys, frame_times: Floats, *, is_rotation: bool) -> Floats:
+    """Return values at these seconds (frames, 3); rotations as (frames, 4), w first."""
     times, values = keys.times, keys.values
     cubic = keys.interpolation == "CUBICSPLINE"
     # (keys, 3, width): tangent into the key, value, tangent out of it.
     tangents = values.reshape(len(times), 3, -1) if cubic else values[:, None]
-    if turns:
+    if is_rotation:
         tangents = np.roll(tangents, 1, axis=-1)  # w first
     values = tangents[:, 1] if cubic else tangents[:, 0]
-    if turns:
+    if is_rotation:
         values = rot.normalize(values)
-    slack = SLACK * (at[1] - at[0] if len(at) > 1 else 1.0)
+    slack = SLACK * (frame_times[1] - frame_times[0] if len(frame_times) > 1 else 1.0)
     if len(times) == 1:
-        found = values[0]
-    elif len(times) == len(at) and np.abs(times - at).max() <= slack:
-        found = values
+        sampled = values[0]
+    elif len(times) == len(frame_times) and np.abs(times - frame_times).max() <= slack:
+        sampled = values
     else:
-        index, share = find_keys(times, at, slack)
+        index, share = find_keys(times, frame_times, slack)
         start, stop = values[index], values[index + 1]
         if keys.interpolation == "STEP":
-            found = np.where(share[:, None] >= 1, stop, start)
+            sampled = np.where(share[:, None] >= 1, stop, start)
         elif cubic:
             step = np.diff(times)[index]
-            # Out of the key before, into the key after.
+            # Outgoing tangent of the key before, incoming one of the key after.
             out, into = tangents[index, 2], tangents[index + 1, 0]
-            found = _evaluate_hermite(start, stop, out, into, share[:, None], step[:, None])
-        elif turns:
-            found = rot.slerp(start, stop, share[:, None])
+            sampled = _evaluate_hermite(start, stop, out, into, share[:, None], step[:, None])
+        elif is_rotation:
+            sampled = rot.slerp(start, stop, share[:, None])
         else:
-            found = start + share[:, None] * (stop - start)
-    return rot.normalize(found) if turns else found
+            sampled = start + share[:, None] * (stop - start)
+    return rot.normalize(sampled) if is_rotation else sampled
 
 
 def _evaluate_hermite(
     start: Floats, stop: Floats, out: Floats, into: Floats, share: Floats, step: Floats
 ) -> Floats:
-    """Cubic values between keys with slopes at both ends."""
+    """Return cubic values between keys with slopes at both ends."""
     square, cube = share**2, share**3
-    # Hermite's basis: both values, and both slopes times the interval.
+    # Hermite basis: both values, and both slopes times the interval.
     first, last = 2 * cube - 3 * square + 1, 3 * square - 2 * cube
     slopes = (cube - 2 * square + share) * out + (cube - square) * into
     return np.asarray(first * start + last * stop + step * slopes, np.float64)

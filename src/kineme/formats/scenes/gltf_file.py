@@ -1,8 +1,8 @@
-"""Parts of a glTF 2.0 file: its JSON, and the arrays in its buffers.
+"""Parse a glTF 2.0 file: its JSON, and the arrays in its buffers.
 
-A GLB is a header and two chunks, JSON and bytes. A ``.gltf`` is the JSON alone, with buffers in
-base64 or in files beside it. An accessor is an array in a view of a buffer: its type says how many
-numbers an element has, its component type of which kind they are.
+A GLB has a header and two chunks, JSON and bytes. A ``.gltf`` is only the JSON, with buffers in
+base64 or in files next to it. An accessor is an array in a view of a buffer: its type is the number
+of components per element, its component type their number format.
 
 Source: Khronos Group, "glTF 2.0 specification", sections 3.6 and 4.
 """
@@ -32,15 +32,16 @@ JSON, BYTES = 0x4E4F534A, 0x004E4942
 """Types of chunks."""
 
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-"""Numpy's types of an accessor's ``componentType``."""
+"""NumPy types by ``componentType`` of an accessor."""
 
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+"""Components per element by ``type`` of an accessor."""
 
 HEADER, CHUNK = struct.Struct("<4sII"), struct.Struct("<II")
 
 
 class Asset(Struct):
-    """What the file is."""
+    """Metadata of the file."""
 
     version: Any = "1.0"
     """A text since glTF 2.0."""
@@ -48,13 +49,13 @@ class Asset(Struct):
 
 
 class Head(Struct):
-    """What the JSON of each version has."""
+    """The part of the JSON that all versions share."""
 
     asset: Asset
 
 
 class Buffer(Struct):
-    """Bytes: in the GLB, in the text, or in a file beside it."""
+    """Bytes in the GLB, in the JSON, or in a file next to it."""
 
     uri: str | None = None
 
@@ -70,7 +71,7 @@ class BufferView(Struct, rename="camel"):
 
 
 class SparsePart(Struct, rename="camel"):
-    """Rows or the values that take the place of others."""
+    """Indices or values of a sparse accessor."""
 
     buffer_view: int
     byte_offset: int = 0
@@ -78,7 +79,7 @@ class SparsePart(Struct, rename="camel"):
 
 
 class Sparse(Struct):
-    """Which elements of an accessor have other values, and which."""
+    """Elements of an accessor that have other values."""
 
     count: int
     indices: SparsePart
@@ -86,7 +87,7 @@ class Sparse(Struct):
 
 
 class Accessor(Struct, rename="camel"):
-    """An array in a view; zeros where there is none."""
+    """An array in a buffer view, or zeros without one."""
 
     component_type: int
     count: int
@@ -112,7 +113,7 @@ class SceneObject(Struct):
 
 
 class Skin(Struct, rename="camel"):
-    """Joints that carry a mesh, and the accessor of their matrices as bound."""
+    """Joints that deform a mesh, and the accessor of their inverse bind matrices."""
 
     joints: list[int]
     inverse_bind_matrices: int | None = None
@@ -120,7 +121,7 @@ class Skin(Struct, rename="camel"):
 
 
 class KeySampler(Struct):
-    """Times of keys and values at them, by the numbers of accessors."""
+    """Times and values of keys, as numbers of accessors."""
 
     input: int
     output: int
@@ -128,14 +129,14 @@ class KeySampler(Struct):
 
 
 class Target(Struct):
-    """What a channel drives: a property of a node."""
+    """The property of a node that a channel drives."""
 
     path: str
     node: int | None = None
 
 
 class Channel(Struct):
-    """A sampler, and what it drives."""
+    """A sampler and its target."""
 
     sampler: int
     target: Target
@@ -150,7 +151,7 @@ class Animation(Struct):
 
 
 class Tree(Struct, rename="camel"):
-    """What is read of the JSON."""
+    """The parts of the JSON that are read."""
 
     asset: Asset
     buffers: list[Buffer] = field(default_factory=list)
@@ -162,7 +163,7 @@ class Tree(Struct, rename="camel"):
 
 
 class GLTFFile:
-    """What a file holds."""
+    """JSON and buffers of a glTF file."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
@@ -173,21 +174,21 @@ class GLTFFile:
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
         self.text = text
-        """JSON of the file, as text."""
+        """The JSON as text."""
         self.tree = decode_json(text, content.path, Tree)
-        self.beside = 0
-        """Bytes of files beside it."""
+        self.external_size = 0
+        """Size in bytes of buffers in other files."""
         self._buffers: dict[int, bytes] = {}
 
-    def part(self, parts: Sequence[Part], number: int | None, what: str) -> Part:
-        """One of a list of the JSON; ReadError where there is none of this number."""
+    def get_part(self, parts: Sequence[Part], number: int | None, what: str) -> Part:
+        """Return an item of a list in the JSON; raise ReadError if there is none of this number."""
         if number is None or not 0 <= number < len(parts):
             raise self.content.error(f"{what} {number} is not in the file: damaged")
         return parts[number]
 
-    def array(self, number: int) -> Floats:
-        """Return the numbers of an accessor, (elements, numbers of each)."""
-        accessor = self.part(self.tree.accessors, number, "accessor")
+    def read_array(self, number: int) -> Floats:
+        """Return the values of an accessor (elements, components)."""
+        accessor = self.get_part(self.tree.accessors, number, "accessor")
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:
             raise self.content.error(f"accessor {number} is of a type that glTF does not know")
@@ -200,70 +201,74 @@ class GLTFFile:
             )
             stored = np.zeros(shape, code)
         else:
-            place = accessor.buffer_view, accessor.byte_offset
-            stored = self._stored_array(number, *place, shape, code)
+            location = accessor.buffer_view, accessor.byte_offset
+            stored = self._read_elements(number, *location, shape, code)
         if (sparse := accessor.sparse) is not None:
-            # The array is a view of the file's bytes, which must not change.
+            # The array is a read-only view of the file's bytes.
             stored = stored.copy()
             kind = COMPONENTS.get(sparse.indices.component_type, "<f4")
-            where, what = sparse.indices, sparse.values
-            rows = self._stored_array(
-                number, where.buffer_view, where.byte_offset, (sparse.count, 1), kind
+            indices, replacements = sparse.indices, sparse.values
+            rows = self._read_elements(
+                number, indices.buffer_view, indices.byte_offset, (sparse.count, 1), kind
             )[:, 0]
             if rows.dtype.kind != "u" or rows.max() >= accessor.count:
                 raise self.content.error(f"accessor {number} has values outside of it: damaged")
-            stored[rows] = self._stored_array(
-                number, what.buffer_view, what.byte_offset, (sparse.count, width), code
+            stored[rows] = self._read_elements(
+                number,
+                replacements.buffer_view,
+                replacements.byte_offset,
+                (sparse.count, width),
+                code,
             )
         values = stored.astype(np.float64)
         if accessor.normalized and stored.dtype.kind in "iu":
-            # Normalized integers: the largest is 1, the least is cut to -1 (section 3.6.2.2).
+            # The largest integer is 1, the smallest is clipped to -1 (section 3.6.2.2).
             values = np.maximum(values / np.iinfo(stored.dtype).max, -1.0)
         if not np.isfinite(values).all():
             raise self.content.error(f"accessor {number} has values that are not finite: damaged")
         return values
 
-    def _stored_array(
+    def _read_elements(
         self, number: int, view_number: int, offset: int, shape: tuple[int, int], code: str
     ) -> NDArray[Any]:
-        """Return the elements that an accessor of this number has in a view, from ``offset`` on."""
-        view = self.part(self.tree.buffer_views, view_number, "buffer view")
+        """Return the elements of an accessor in a buffer view, from ``offset`` on."""
+        view = self.get_part(self.tree.buffer_views, view_number, "buffer view")
         if "EXT_meshopt_compression" in view.extensions:
             raise self.content.error("its keys are packed by meshopt: export them unpacked")
-        data = self.buffer(view.buffer)
+        data = self.read_buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
-        # Without a stride the elements follow each other.
+        # Without a stride the elements are contiguous.
         step = view.byte_stride or size * width
         start = view.byte_offset + offset
         stop = min(view.byte_offset + view.byte_length, len(data))
         if min(view.byte_offset, offset) < 0 or count < 1 or step < size:
             raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
-        # The last element needs its size only, not a whole stride.
+        # The last element needs no whole stride.
         if start + (count - 1) * step + size * width > stop:
             raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
-        # A view with strides: interleaved attributes are read without a copy.
+        # A strided view reads interleaved attributes without a copy.
         return np.ndarray(shape, code, data, start, (step, size))
 
-    def buffer(self, number: int) -> bytes:
+    def read_buffer(self, number: int) -> bytes:
         """Return the bytes of a buffer."""
         if number not in self._buffers:
-            place = self.part(self.tree.buffers, number, "buffer").uri
-            self._buffers[number] = self._chunk if place is None else self.stored(place)
+            uri = self.get_part(self.tree.buffers, number, "buffer").uri
+            self._buffers[number] = self._chunk if uri is None else self.read_uri(uri)
         return self._buffers[number]
 
-    def stored(self, place: str) -> bytes:
-        """Return a buffer that is in the JSON, or in a file beside it."""
-        if place.startswith("data:"):
+    def read_uri(self, uri: str) -> bytes:
+        """Return the bytes of a buffer in the JSON, or in a file next to it."""
+        if uri.startswith("data:"):
             try:
-                return base64.b64decode(place.partition(",")[2], validate=True)
+                return base64.b64decode(uri.partition(",")[2], validate=True)
             except (binascii.Error, ValueError):
                 raise self.content.error("a buffer is no base64: damaged") from None
-        name = unquote(place)
-        # Only files in the folder of the glTF or below: others are none of its business.
+        name = unquote(uri)
+        # Read only files in the folder of the glTF or below.
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
             raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
         data = load(find_sibling(self.content, name)).data
-        self.beside += len(data)
+        self.external_size += len(data)
         return data
 
 
@@ -277,13 +282,13 @@ def _split_chunks(content: FileContent) -> tuple[bytes, bytes]:
         raise content.error(f"is a GLB of version {version}: export glTF 2.0")
     if length > len(data):
         raise content.error(f"is of {len(data)} bytes instead of {length}: it is truncated")
-    found: dict[int, bytes] = {}
-    at = HEADER.size
-    while at + CHUNK.size <= length:
-        size, kind = CHUNK.unpack_from(data, at)
-        at += CHUNK.size
-        found.setdefault(kind, data[at : at + size])
-        at += size
-    if JSON not in found:
+    chunks: dict[int, bytes] = {}
+    offset = HEADER.size
+    while offset + CHUNK.size <= length:
+        size, kind = CHUNK.unpack_from(data, offset)
+        offset += CHUNK.size
+        chunks.setdefault(kind, data[offset : offset + size])
+        offset += size
+    if JSON not in chunks:
         raise content.error("has no JSON in it: damaged")
-    return found[JSON], found.get(BYTES, b"")
+    return chunks[JSON], chunks.get(BYTES, b"")

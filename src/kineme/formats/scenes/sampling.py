@@ -1,4 +1,4 @@
-"""Values between keys."""
+"""Find the keys around given times."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 
 
-def find_keys(times: Floats, at: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
-    """Return the key before each frame, and the share of the interval to the next that has passed.
+def find_keys(times: Floats, frame_times: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
+    """Return the key before each frame, and the fraction of the interval to the next key.
 
-    Before the first key and after the last one the shares are 0 and 1; by the slack a key may
-    miss the frame that it was made for.
+    Before the first key the fraction is 0, after the last one 1. ``slack`` is the time by which a
+    key may miss its frame.
     """
-    # The slack lets a key count that comes just after its frame.
-    found = np.searchsorted(times, at + slack, "right") - 1
-    # The last interval serves times beyond the last key, too.
-    index = np.clip(found, 0, len(times) - 2)
-    passed = at - times[index]
+    # The slack includes a key just after its frame.
+    previous = np.searchsorted(times, frame_times + slack, "right") - 1
+    # Use the last interval for times after the last key.
+    index = np.clip(previous, 0, len(times) - 2)
+    passed = frame_times - times[index]
     share = passed / np.diff(times)[index]
-    # At a key, up to the slack, the value is exactly that of the key.
+    # Near a key use exactly its value.
     share[np.abs(passed) <= slack] = 0.0
-    share[np.abs(at - times[index + 1]) <= slack] = 1.0
+    share[np.abs(frame_times - times[index + 1]) <= slack] = 1.0
     return index, np.clip(share, 0.0, 1.0)

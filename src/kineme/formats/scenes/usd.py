@@ -1,11 +1,11 @@
-"""USD: skeletons and their animations (UsdSkel) in ``.usda``, ``.usdc`` and ``.usd``.
+"""Read USD: skeletons and their animations (UsdSkel) in ``.usda``, ``.usdc`` and ``.usd``.
 
-What is read is one skeleton and one of the animations that fit it: the one bound to it first, then
-others that move joints of its. Unit and up axis are the stage's, and so is the rate: the time codes
-in a second, over those between two samples. Between samples USD itself interpolates, which is what
-``fps=`` asks it for. Joints that the animation does not move are as at rest. Needs ``usd-core``.
+One skeleton and one of its animations are read, by default the one bound to it, else one that moves
+its joints. Unit, up axis and rate are the stage's; the rate is time codes per second divided by the
+time codes between samples. USD interpolates between samples, also for ``fps=``. Joints that the
+animation does not move are at rest. Needs ``usd-core``.
 
-The file is read in a process of its own: the library can crash, hang or print on damaged files.
+The file is read in a separate process, since the library may crash, hang or print on damaged files.
 
 Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
@@ -40,18 +40,18 @@ from kineme.formats.scenes.assembly import (
     require_frame_memory,
 )
 from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
-from kineme.formats.scenes.usd_layers import LONGEST, SUFFIXES, open_stage
+from kineme.formats.scenes.usd_layers import SUFFIXES, TIMEOUT_S, open_stage
 from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
 CENTIMETRE = 0.01
-"""Metres: the unit of stages that tell none."""
+"""Metres: the default unit of stages."""
 
 HEADS = (b"#usda ", b"PXR-USDC")
-_EVEN = 0.02  # share of their median by which steps between samples may differ from it
-_ROUNDED = 0.1  # of a frame, by which the last sample may miss it
-_MOST_FRAMES = 1e12
+_EVEN = 0.02  # relative deviation from their median of evenly spaced steps
+_ROUNDED = 0.1  # frames by which the last sample may miss its frame
+_MAX_FRAMES = 1e12
 
 _PROGRAM = """
 import pickle, sys
@@ -59,53 +59,54 @@ sys.path[:] = pickle.load(sys.stdin.buffer)
 from kineme.formats.scenes.usd import serve
 serve()
 """
-# Threads would take memory before anything is read.
+# Threads would use memory before anything is read.
 _SINGLE_THREADED = {"PXR_WORK_THREAD_LIMIT": "1", "OPENBLAS_NUM_THREADS": "1"}
 _MESSAGE = re.compile(r"^Warning: in .* -- (.*)", re.MULTILINE)
 
 
 def read_usd(content: FileContent, options: ReadOptions) -> Motion:
-    """Read the motion of a skeleton in a USD file."""
+    """Return the motion of a skeleton in a USD file."""
     with require_extra("usd-core", "usd"):
         import pxr  # noqa: F401
     request = pickle.dumps(sys.path) + pickle.dumps((content.path, options))
     try:
-        done = subprocess.run(  # noqa: S603
+        process = subprocess.run(  # noqa: S603
             [sys.executable, "-I", "-c", _PROGRAM],
             input=request,
             capture_output=True,
-            timeout=LONGEST,
+            timeout=TIMEOUT_S,
             env=os.environ | _SINGLE_THREADED,
             check=False,
         )
     except subprocess.TimeoutExpired:
         raise content.error(
-            f"takes the USD library more than {LONGEST:.0f} s: flatten it"
+            f"takes the USD library more than {TIMEOUT_S:.0f} s: flatten it"
         ) from None
-    if done.returncode:
+    if process.returncode:
         raise content.error(
             "the USD library crashed or ran out of memory on it: it is damaged, or nested too deep"
         )
-    found = pickle.loads(done.stdout)  # noqa: S301 (written by `serve`)
-    complaints = _summarize_warnings(done.stderr)
-    if isinstance(found, Motion):
-        return replace(found, provenance=found.provenance.noted(*complaints))
-    if type(found) is ReadError:
-        found = content.error("; ".join([found.reason, *complaints]))
-    raise found
+    answer = pickle.loads(process.stdout)  # noqa: S301 (written by `serve`)
+    warnings = _summarize_warnings(process.stderr)
+    if isinstance(answer, Motion):
+        return replace(answer, provenance=answer.provenance.noted(*warnings))
+    if type(answer) is ReadError:
+        answer = content.error("; ".join([answer.reason, *warnings]))
+    raise answer
 
 
 def serve() -> None:
-    """Answer `read_usd`, from standard input to standard output: a motion or an error."""
-    # The answer goes to the real standard output, and what the library prints to standard error.
+    """Answer a request of `read_usd` from standard input with a motion or an error."""
+    # Send the answer to standard output, and everything the library prints to standard error.
     answer = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what the library prints
+    os.dup2(2, 1)
     path, options = pickle.load(sys.stdin.buffer)  # noqa: S301 (written by `read_usd`)
     with answer:
         pickle.dump(_try_read(path, options), answer)
 
 
 def _try_read(path: Path, options: ReadOptions) -> Motion | KinemeError:
+    """Return the motion, or the error of reading it."""
     from pxr import Tf
 
     try:
@@ -116,7 +117,7 @@ def _try_read(path: Path, options: ReadOptions) -> Motion | KinemeError:
             except Tf.ErrorException as error:
                 raise content.error("is no whole USD file: truncated or damaged") from error
             except ReadError as error:
-                if content.remarks and type(error) is ReadError:  # none that lists people
+                if content.remarks and type(error) is ReadError:  # not SeveralPeopleError
                     raise content.error("; ".join([error.reason, *content.remarks])) from error
                 raise
     except KinemeError as error:
@@ -124,7 +125,7 @@ def _try_read(path: Path, options: ReadOptions) -> Motion | KinemeError:
 
 
 def _summarize_warnings(printed: bytes) -> list[Note]:
-    """Return what the library printed as one warning: its first message, and how many others."""
+    """Return a warning with the first message of the library, and the number of others."""
     texts = dict.fromkeys(_MESSAGE.findall(printed.decode(errors="replace")))
     if not texts:
         return []
@@ -136,34 +137,39 @@ def _summarize_warnings(printed: bytes) -> list[Note]:
 def _read(content: FileContent, options: ReadOptions) -> Motion:
     from pxr import UsdGeom, UsdSkel
 
-    stage, beside = open_stage(content)
+    stage, size_of_layers = open_stage(content)
     skeletons = [_Skeleton(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)]
-    nodes, homes = _list_nodes(skeletons)
+    nodes, owners = _list_nodes(skeletons)
     character = find_character(content, nodes, options.person)
-    skeleton, first = homes[character.joints[0]]
+    skeleton, first_node = owners[character.joints[0]]
     animations = [
         UsdSkel.Animation(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Animation)
     ]
-    fitting = skeleton.fitting(animations)
-    names = make_unique(each.GetPrim().GetName() for each in fitting)
-    number, notes = choose_take(content, names, range(len(fitting)), options.take)
-    fps, codes, rated = _find_frames(content, stage, fitting[number], len(nodes), options, beside)
-    pose = skeleton.pose(fitting[number], codes)
+    candidates = skeleton.find_animations(animations)
+    names = make_unique(candidate.GetPrim().GetName() for candidate in candidates)
+    number, notes = choose_take(content, names, range(len(candidates)), options.take)
+    fps, codes, rate_notes = _find_frames(
+        content, stage, candidates[number], len(nodes), options, size_of_layers
+    )
+    pose = skeleton.sample_pose(candidates[number], codes)
     up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
-    carrier, still = (
-        _sample_carrier(UsdGeom.Xformable(skeleton.prim), at) for at in (codes, codes[:1])
+    carrier, carrier_at_rest = (
+        _sample_carrier(UsdGeom.Xformable(skeleton.prim), time_codes)
+        for time_codes in (codes, codes[:1])
     )
     return assemble(
         content,
         nodes,
         character.joints,
-        lambda node: carrier if node < first else pose[node - first],
-        lambda node: still if node < first else skeleton.rest_pose[node - first],
+        lambda node: carrier if node < first_node else pose[node - first_node],
+        lambda node: (
+            carrier_at_rest if node < first_node else skeleton.rest_pose[node - first_node]
+        ),
         len(codes),
         fps,
         unit=options.unit or max(UsdGeom.GetStageMetersPerUnit(stage), 0.0) or CENTIMETRE,
         turn=make_up_rotation(up),
-        provenance=content.provenance("USD", [*notes, *character.notes, *rated])
+        provenance=content.provenance("USD", [*notes, *character.notes, *rate_notes])
         .of_take(names[number], names)
         .of_person(character.name, character.people),
     )
@@ -178,102 +184,108 @@ class _Skeleton:
         self.prim = prim
         schema = UsdSkel.Skeleton(prim)
         self.joints = list(map(str, schema.GetJointsAttr().Get() or ()))
-        given = list(map(str, schema.GetJointNamesAttr().Get() or ()))
-        usual = [joint.rpartition("/")[2] for joint in self.joints]
-        self.names = given if len(given) == len(usual) else usual
+        joint_names = list(map(str, schema.GetJointNamesAttr().Get() or ()))
+        default_names = [joint.rpartition("/")[2] for joint in self.joints]
+        self.names = joint_names if len(joint_names) == len(default_names) else default_names
         self.parents = list(UsdSkel.Topology(self.joints).GetParentIndices())
         self.ends = prim.GetCustomDataByKey(END_SITES)
         self.bound = UsdSkel.BindingAPI(prim).GetInheritedAnimationSource()
         rest = schema.GetRestTransformsAttr().Get()
-        complete = rest is not None and len(rest) == len(self.joints)
+        is_complete = rest is not None and len(rest) == len(self.joints)
         self.rest = (
-            np.array(rest, np.float64) if complete else np.tile(np.eye(4), (len(usual), 1, 1))
+            np.array(rest, np.float64)
+            if is_complete
+            else np.tile(np.eye(4), (len(default_names), 1, 1))
         )
-        found = (_to_transform(matrix[None]) for matrix in self.rest)
-        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in found]
+        transforms = (_to_transform(matrix[None]) for matrix in self.rest)
+        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in transforms]
 
     def is_end(self, j: int) -> bool:
         if self.ends is not None:
             return self.names[j] in list(self.ends)
         return is_end(self.names[j])
 
-    def fitting(self, animations: Sequence[Any]) -> list[Any]:
+    def find_animations(self, animations: Sequence[Any]) -> list[Any]:
         """Return the animations that move joints of it, the one bound to it first."""
         joints = set(self.joints)
-        found = [each for each in animations if joints & set(map(str, _list_joints(each)))]
-        # False sorts before True: the bound animation first; the others keep their order.
-        return sorted(found, key=lambda each: each.GetPrim() != self.bound)
+        matching = [each for each in animations if joints & set(map(str, _list_joints(each)))]
+        # False sorts before True: the bound animation comes first.
+        return sorted(matching, key=lambda each: each.GetPrim() != self.bound)
 
-    def pose(self, animation: Any, codes: Floats) -> list[Transform]:
+    def sample_pose(self, animation: Any, codes: Floats) -> list[Transform]:
         """Return the transform of each joint at these time codes."""
-        moved = list(map(str, _list_joints(animation)))
-        places = {joint: number for number, joint in enumerate(moved)}
-        shifts = _sample_values(animation.GetTranslationsAttr(), codes, len(moved), 3)
-        turns = _sample_values(animation.GetRotationsAttr(), codes, len(moved), 4)
-        scales = _sample_values(animation.GetScalesAttr(), codes, len(moved), 3)
-        found = []
+        animated = list(map(str, _list_joints(animation)))
+        columns = {joint: number for number, joint in enumerate(animated)}
+        shifts = _sample_values(animation.GetTranslationsAttr(), codes, len(animated), 3)
+        turns = _sample_values(animation.GetRotationsAttr(), codes, len(animated), 4)
+        scales = _sample_values(animation.GetScalesAttr(), codes, len(animated), 3)
+        transforms = []
         for joint, rest in zip(self.joints, self.rest_pose, strict=True):
             shift, turn, scale = rest[:3]
-            if (at := places.get(joint)) is not None:
-                shift = shift if shifts is None else shifts[:, at]
-                # Parts that the animation does not have are as at rest.
-                turn = turn if turns is None else rot.normalize(turns[:, at])
-                scale = scale if scales is None else scales[:, at]
-            found.append(Transform(shift, turn, scale))
-        return found
+            if (column := columns.get(joint)) is not None:
+                shift = shift if shifts is None else shifts[:, column]
+                # Missing parts of the animation are at rest.
+                turn = turn if turns is None else rot.normalize(turns[:, column])
+                scale = scale if scales is None else scales[:, column]
+            transforms.append(Transform(shift, turn, scale))
+        return transforms
 
 
 def _list_nodes(
     skeletons: Sequence[_Skeleton],
 ) -> tuple[list[SceneNode], dict[int, tuple[_Skeleton, int]]]:
-    """Return all skeletons as nodes, each below what carries it; for each node whose it is.
+    """Return all skeletons as nodes, each below its carrier, and the owner of each node.
 
-    That is its skeleton, and the node of its first joint.
+    The owner is the skeleton and the node of its first joint.
     """
     nodes: list[SceneNode] = []
-    homes: dict[int, tuple[_Skeleton, int]] = {}
+    owners: dict[int, tuple[_Skeleton, int]] = {}
     for skeleton in skeletons:
         carrier = len(nodes)
         name = skeleton.prim.GetParent().GetName() or skeleton.prim.GetName()
         nodes.append(SceneNode(name, -1, bone=False, geometry=False, animated=False))
         for j, (joint, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
-            homes[len(nodes)] = skeleton, carrier + 1
-            # Joints without a parent hang on the carrier; others are counted from the first joint.
-            place = carrier if parent < 0 else carrier + 1 + parent
+            owners[len(nodes)] = skeleton, carrier + 1
+            # Parents are relative to the first joint; joints without parent are below the carrier.
+            parent_node = carrier if parent < 0 else carrier + 1 + parent
             bound = bool(skeleton.bound)
-            nodes.append(SceneNode(joint, place, True, False, bound, skeleton.is_end(j)))
-    return nodes, homes
+            nodes.append(SceneNode(joint, parent_node, True, False, bound, skeleton.is_end(j)))
+    return nodes, owners
 
 
 def _find_frames(
-    content: FileContent, stage: Any, animation: Any, joints: int, options: ReadOptions, beside: int
+    content: FileContent,
+    stage: Any,
+    animation: Any,
+    joints: int,
+    options: ReadOptions,
+    external_size: int,
 ) -> tuple[float, Floats, list[str]]:
-    """Frames per second, the time code of each frame, and what to say of them."""
+    """Return frames per second, the time code of each frame, and notes."""
     attributes = (
         animation.GetTranslationsAttr(), animation.GetRotationsAttr(), animation.GetScalesAttr(),
     )  # fmt: skip
-    # The property with most samples tells when these are.
+    # Use the times of the property with most samples.
     samples = max((each.GetTimeSamples() for each in attributes), key=len)
-    a_second = stage.GetTimeCodesPerSecond()
+    codes_per_second = stage.GetTimeCodesPerSecond()
     times = np.array(samples or [0.0], np.float64)
     steps = np.diff(times)
-    # Time codes between two samples.
-    usual = float(np.median(steps)) if len(steps) else 1.0
+    median_step = float(np.median(steps)) if len(steps) else 1.0
     notes: list[str] = []
     if options.fps is not None:
         fps = options.fps
         notes.append(f"sampled {fps:g} times a second, as asked for")
-    elif len(steps) and np.abs(steps / usual - 1).max() > _EVEN:
-        fps = a_second
+    elif len(steps) and np.abs(steps / median_step - 1).max() > _EVEN:
+        fps = codes_per_second
         remark = f"its samples are not evenly spaced: one for each time code, {fps:g} Hz"
         notes.append(Note(remark, "warning"))
     else:
-        fps = a_second / usual
-    if not (np.isfinite(times).all() and 0 < fps < np.inf and a_second > 0):
+        fps = codes_per_second / median_step
+    if not (np.isfinite(times).all() and 0 < fps < np.inf and codes_per_second > 0):
         raise content.error("tells no time that could be: give fps= (--fps)")
-    step = a_second / fps
-    count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MOST_FRAMES)
-    require_frame_memory(content, joints, int(count), beside=beside)
+    step = codes_per_second / fps
+    count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MAX_FRAMES)
+    require_frame_memory(content, joints, int(count), external_size=external_size)
     return fps, times[0] + step * np.arange(int(count)), notes
 
 
@@ -282,35 +294,35 @@ def _list_joints(animation: Any) -> Sequence[Any]:
 
 
 def _sample_values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | None:
-    """(frames, joints, width) at these time codes; None where there are none, or not so many."""
+    """Return values (frames, joints, width) at these time codes, None if they do not fit."""
     first = attribute.Get(codes[0])
     if first is None or len(first) != joints:
         return None
     values = np.empty((len(codes), joints, width))
     for frame, code in enumerate(codes.tolist()):
-        found = attribute.Get(code)
-        if found is None or len(found) != joints:
+        sample = attribute.Get(code)
+        if sample is None or len(sample) != joints:
             return None
-        values[frame] = np.asarray(found)
-    # NumPy views of USD's quaternions have w last.
+        values[frame] = np.asarray(sample)
+    # USD's quaternions have w last in NumPy views.
     return np.roll(values, 1, axis=-1) if width == 4 else values
 
 
 def _sample_carrier(xformable: Any, codes: Floats) -> Transform:
-    """Return what carries a skeleton, in the world."""
+    """Return the world transform of a skeleton's prim."""
     matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
-    same = np.abs(matrices - matrices[0]).max() == 0
-    found = _to_transform(matrices[:1] if same else matrices)
-    shift, turn, scale = (part[0] if same else part for part in found[:3])
+    is_constant = np.abs(matrices - matrices[0]).max() == 0
+    transform = _to_transform(matrices[:1] if is_constant else matrices)
+    shift, turn, scale = (part[0] if is_constant else part for part in transform[:3])
     return Transform(shift, turn, scale)
 
 
 def _to_transform(matrices: Floats) -> Transform:
-    """Of matrices (frames, 4, 4) that multiply rows, as USD's do."""
-    # Rows become columns, as all other code has them.
+    """Return the transform of matrices (frames, 4, 4) for row vectors, as in USD."""
+    # Convert row vectors to column vectors.
     axes = matrices[:, :3, :3].transpose(0, 2, 1)
     scale = np.linalg.norm(axes, axis=1)
-    # A reflection: it belongs to the scale, so that the axes are a rotation.
+    # Put a reflection into the scale, so that the axes are a rotation.
     scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
     turns = from_matrices(orthogonalize(axes / np.where(scale == 0, 1, scale)[:, None, :]))
     return Transform(matrices[:, 3, :3], turns, scale)

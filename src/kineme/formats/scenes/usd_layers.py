@@ -1,8 +1,8 @@
-"""Opening USD stages: which layers they may bring in, and how much these may grow to.
+"""Open USD stages, with limits on the layers they may include and on their size.
 
-A layer names others by sublayers, references and payloads. These are taken from the file's own
-folder only. References to prims that hold references themselves multiply, so what they bring in is
-counted before a stage is composed of it.
+A layer includes others by sublayers, references and payloads. Only files in the folder of the main
+file are allowed. References to prims with references multiply, so their number is checked before a
+stage is composed.
 """
 
 from __future__ import annotations
@@ -17,35 +17,35 @@ from kineme.formats.files import MAX_EXPANSION, FileContent, find_sibling
 
 SUFFIXES = (".usda", ".usdc", ".usd")
 
-MOST_BROUGHT = 100_000
-"""Sources of prims that references may bring in; so many take a second and 200 MB."""
+MAX_REFERENCES = 100_000
+"""Maximum number of prims included by references; this many take a second and 200 MB."""
 
-MOST_SUBLAYERS = 1000
+MAX_SUBLAYERS = 1000
 
-LEAST_MEMORY = 1 << 30
-"""Bytes that composing any stage may take."""
+MIN_STAGE_MEMORY = 1 << 30
+"""Bytes of memory that composing any stage may use."""
 
-LONGEST = 300.0
-"""Seconds that reading any file may take."""
+TIMEOUT_S = 300.0
+"""Seconds that reading a file may take."""
 
 
 def open_stage(content: FileContent) -> tuple[Any, int]:
-    """Open the stage of a file; return it and the bytes of the other layers.
+    """Open the stage of a file; return it and the size in bytes of the other layers.
 
-    ReadError where it brings in a file from outside its folder, or too much.
+    Raise ReadError if it includes a file outside its folder, or too much.
     """
     from pxr import Usd
 
-    layers, beside = _load_layers(content)
+    layers, other_size = _load_layers(content)
     _check_sublayers(content, layers)
     _check_growth(content, layers[0])
-    return Usd.Stage.Open(layers[0]), beside
+    return Usd.Stage.Open(layers[0]), other_size
 
 
 def _load_layers(content: FileContent) -> tuple[list[Any], int]:
-    """Load the layer of the file and all that it brings in; return them and the others' bytes.
+    """Load the layer of a file and all it includes; return them and the size of the others.
 
-    What is missing is taken out with a warning: the library would look for it elsewhere.
+    Missing layers are removed with a warning, since the library would search elsewhere for them.
     """
     from pxr import Sdf
 
@@ -60,11 +60,11 @@ def _load_layers(content: FileContent) -> tuple[list[Any], int]:
         layers[path] = layer = Sdf.Layer.FindOrOpen(path)
         for name in filter(None, layer.GetCompositionAssetDependencies()):
             plain, _ = Sdf.Layer.SplitIdentifier(name)
-            # As the library does: ".." goes back in the text, whether or not a link is there.
-            place = os.path.normpath(Path(path).parent / plain)
-            found = find_sibling(content, place)
-            if found.is_file() and found.suffix.lower() in SUFFIXES:
-                waiting.append(place)
+            # Like the library, resolve ".." in the text, regardless of links.
+            target = os.path.normpath(Path(path).parent / plain)
+            file = find_sibling(content, target)
+            if file.is_file() and file.suffix.lower() in SUFFIXES:
+                waiting.append(target)
             else:
                 layer.UpdateCompositionAssetDependency(name, "")
                 content.warn(f"the layer {name!r:.60} is missing or not USD: left out")
@@ -72,24 +72,26 @@ def _load_layers(content: FileContent) -> tuple[list[Any], int]:
 
 
 def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
-    """ReadError where sublayers that hold sublayers make one layer of too many."""
+    """Raise ReadError if nested sublayers combine too many layers."""
     from pxr import Sdf
 
     for layer in layers:
         stack = [layer]
-        # The list grows while it is gone through.
-        for each in stack:
-            stack += [Sdf.Layer.FindRelativeToLayer(each, name) for name in each.subLayerPaths]
-            if len(stack) > MOST_SUBLAYERS:
-                raise content.error(f"its sublayers multiply to more than {MOST_SUBLAYERS}")
+        # The list grows during the loop.
+        for sublayer in stack:
+            stack += [
+                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
+            ]
+            if len(stack) > MAX_SUBLAYERS:
+                raise content.error(f"its sublayers multiply to more than {MAX_SUBLAYERS}")
 
 
 def _check_growth(content: FileContent, layer: Any) -> None:
-    """ReadError where references bring in too much, or values are in clips, which are files."""
+    """Raise ReadError if references include too much, or values are in clips (other files)."""
     from pxr import Pcp, Sdf
 
     cache = Pcp.Cache(Pcp.LayerStackIdentifier(layer), "usd", True)
-    waiting, brought = [Sdf.Path.absoluteRootPath], 0
+    waiting, n_included = [Sdf.Path.absoluteRootPath], 0
     while waiting:
         path = waiting.pop()
         if path.IsPrimPath():
@@ -97,25 +99,25 @@ def _check_growth(content: FileContent, layer: Any) -> None:
         index, _ = cache.ComputePrimIndex(path)
         if any(spec.HasInfo("clips") for spec in index.primStack):
             raise content.error("has its animation in value clips: flatten the stage first")
-        nodes = list(index.rootNode.children)  # one for each place that a reference leads to
+        nodes = list(index.rootNode.children)  # one per target of a reference
         while nodes:
             nodes += nodes.pop().children
-            brought += 1
-            if brought > MOST_BROUGHT:
+            n_included += 1
+            if n_included > MAX_REFERENCES:
                 raise content.error(
-                    f"its references multiply to more than {MOST_BROUGHT} prims: export the "
+                    f"its references multiply to more than {MAX_REFERENCES} prims: export the "
                     "character by itself"
                 )
         waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]
 
 
 def _limit_process(size: int) -> None:
-    """Limit this process to the memory that layers of so many bytes may take."""
+    """Limit this process to the memory that layers of this size may use."""
     if sys.platform == "win32":
         return
     import resource
 
-    memory = LEAST_MEMORY + MAX_EXPANSION * size
-    for what, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
-        with suppress(OSError, ValueError):  # a limit that is lower already
-            resource.setrlimit(what, (most, resource.getrlimit(what)[1]))
+    memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
+    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
+        with suppress(OSError, ValueError):  # the limit is lower already
+            resource.setrlimit(limit, (most, resource.getrlimit(limit)[1]))

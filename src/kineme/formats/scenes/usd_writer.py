@@ -1,9 +1,9 @@
-"""Writing USD: a skeleton and its animation (UsdSkel), ``.usda``, ``.usdc`` or ``.usd``.
+"""Write USD: a skeleton and its animation (UsdSkel), ``.usda``, ``.usdc`` or ``.usd``.
 
-Lengths are metres, y is up; a time code is a frame, and so many of them are in a second as the
-motion has frames. Joints are at rest as in the rig that the motion came from. Their names as they
-are stand in ``jointNames``; in paths they have letters, digits and ``_`` only. End sites are named
-in the custom data of the skeleton. Needs ``usd-core``.
+Lengths are metres, y is up. A time code is a frame, and time codes per second are the frame rate.
+The rest pose is that of the motion's rig. ``jointNames`` hold the original names; in paths they
+are reduced to letters, digits and ``_``. The custom data of the skeleton list the end sites. Needs
+``usd-core``.
 
 Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
@@ -29,20 +29,20 @@ END_SITES = "kineme:endSites"
 
 
 def write_usd(motion: Motion, path: Path) -> None:
-    """Leave ``motion`` in a USD file."""
+    """Write a motion to a USD file."""
     require_rotations(motion, path, "a USD")
     with require_extra("usd-core", "usd"):
         from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
     names = clean_names(path, skeleton.names, str.strip)
-    # Names in paths are identifiers, and unique.
+    # Paths need make_unique identifiers.
     words = make_unique(Tf.MakeValidIdentifier(name) for name in names)
     joints: list[str] = []
     for word, parent in zip(words, skeleton.parents, strict=True):
         joints.append(word if parent < 0 else f"{joints[parent]}/{word}")
     stage = Usd.Stage.CreateInMemory()
-    # Programs differ in what a transform above the skeleton does to its bind pose.
+    # Programs interpret transforms above the skeleton differently, so merge them into the root.
     rig = get_rig(skeleton).join_root().to_metres()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
@@ -68,10 +68,10 @@ def write_usd(motion: Motion, path: Path) -> None:
     animation.CreateScalesAttr(Vt.Vec3hArray(sizes))
     shifts, turns = pose_rig(motion, rig)
     shifts, turns = shifts.astype("f4"), np.roll(turns, -1, axis=-1).astype("f4")  # w last
-    moved, turned = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
+    translations, rotations = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
     for frame in range(motion.n_frames):
-        moved.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
-        turned.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
+        translations.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
+        rotations.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
     binding = UsdSkel.BindingAPI.Apply(bound.GetPrim())
     binding.CreateAnimationSourceRel().SetTargets([animation.GetPath()])
     with atomic_write(path) as draft:
@@ -82,5 +82,5 @@ def write_usd(motion: Motion, path: Path) -> None:
 
 
 def _to_usd_matrix(gf: Any, matrix: Floats) -> Any:
-    """Return a matrix that multiplies columns as USD has it, which multiplies rows."""
+    """Return a matrix for column vectors as a matrix of USD, which uses row vectors."""
     return gf.Matrix4d(*matrix.T.ravel().tolist())

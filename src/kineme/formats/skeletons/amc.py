@@ -1,17 +1,17 @@
-"""AMC: the motion half of the Acclaim format.
+"""Read AMC: the motion part of the Acclaim format.
 
-A frame is a line with its number and then a line per bone: its name and a
-value for each of its degrees of freedom. With C the bone's frame (its
-``axis`` in the ASF) and R the product of its rotations about fixed axes, the
-first named first, its rotation to its parent is C R C^-1. The root's angles
-act after its preset orientation, its translation adds to its preset position.
+A frame is a line with its number, followed by a line per bone with its name and a value for each of
+its degrees of freedom. With C the bone's frame (its ``axis`` in the ASF) and R the product of its
+rotations about fixed axes, the first one applied first, its rotation relative to the parent is C R
+C^-1. The root's angles are applied after its preset orientation, its translation is added to its
+preset position.
 
-Bones may come in any order, and without values where the ASF gives them no
-degree of freedom. An AMC names neither its skeleton nor its frame rate: see
-`find_skeleton`; 120 Hz, the rate of the CMU database, is assumed.
+Bones may be in any order, and without values if the ASF gives them no degree of freedom. An AMC
+states neither its skeleton nor its frame rate: see `find_skeleton`; 120 Hz, the rate of the CMU
+database, is assumed.
 
-Where all frames are laid out as the first, the text is taken in chunks of whole frames, so
-that no more than its numbers is held.
+If all frames have the layout of the first, the text is parsed in chunks of whole frames, which
+limits memory to the numbers.
 
 Source: Acclaim Advanced Technologies, ASF/AMC definition.
 """
@@ -40,9 +40,10 @@ from kineme.formats.units import iterate_blocks, to_metres
 from kineme.recordings import Motion
 
 Layout = dict[str, int]
-"""How many values each bone of a frame has, in the order of the file."""
+"""Number of values of each bone of a frame, in the order of the file."""
 
 FPS = 120.0
+"""Default frame rate, that of the CMU database."""
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 
@@ -58,7 +59,13 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     figure = read_asf(load(asf), None if options.unit is None else to_metres(options.unit))
     head = _find_head(content)
     keywords = [word.lower() for word in _KEYWORD.findall(head)]
-    turn = 1.0 if b"radians" in keywords else radians(1) if b"degrees" in keywords else figure.turn
+    angle_unit = (
+        1.0
+        if b"radians" in keywords
+        else radians(1)
+        if b"degrees" in keywords
+        else figure.angle_unit
+    )
     values = read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf}"]
     fps = options.fps or _parse_rate_comment(head)
@@ -71,8 +78,8 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     )
     provenance = content.provenance("AMC", notes)
     content.release()
-    rotations, slides = _compute_local(values, figure, turn)
-    del values  # before as much again is made of it
+    rotations, slides = _compute_local(values, figure, angle_unit)
+    del values  # release them before positions are computed
     return build_motion(
         figure.skeleton,
         rotations,
@@ -90,7 +97,6 @@ def _collect_bone_frames(figure: Figure) -> Floats:
     skeleton = figure.skeleton
     frames = np.tile(rot.IDENTITY, (skeleton.n_joints, 1))
     for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
-        # The root's preset orientation is part of its rotation.
         if parent >= 0:
             bone = None if joint in skeleton.end_sites else figure.bones[name]
             frames[joint] = frames[parent] if bone is None else bone.frame
@@ -98,7 +104,7 @@ def _collect_bone_frames(figure: Figure) -> Floats:
 
 
 def _find_head(content: FileContent) -> bytes:
-    """Return what stands before the first frame."""
+    """Return the bytes before the first frame."""
     start = _FRAME.search(content.data)
     if start is None:
         raise content.error("no frame found: an AMC has a line with a number before each")
@@ -108,24 +114,25 @@ def _find_head(content: FileContent) -> bytes:
 def find_skeleton(path: Path) -> Path:
     """Return the ASF that belongs to an AMC.
 
-    The one whose name is the AMC's up to the end or up to an underscore, the
-    longest first (``86_10.amc``: ``86_10.asf``, ``86.asf``), else the only one
-    there is; looked for in the AMC's folder, then in a folder ``asf`` inside
-    or beside it.
+    Its name is the AMC's up to the end or up to an underscore, the longest first (``86_10.amc``:
+    ``86_10.asf``, ``86.asf``). Otherwise it is the only ASF. The folders searched are the AMC's,
+    then ``asf`` inside it, then ``asf`` next to it.
     """
     parts = path.stem.split("_")
-    # The whole name first, then without its last part, and so on.
+    # Try the whole name first, then without its last part, and so on.
     stems = ["_".join(parts[:n]).lower() for n in range(len(parts), 0, -1)]
     candidates: list[Path] = []
     for folder in (path.parent, path.parent / "asf", path.parent.parent / "asf"):
-        found = sorted(p for p in folder.glob("*") if p.suffix.lower() == ".asf" and p.is_file())
-        by_stem = {p.stem.lower(): p for p in found}
+        asf_files = sorted(
+            p for p in folder.glob("*") if p.suffix.lower() == ".asf" and p.is_file()
+        )
+        by_stem = {p.stem.lower(): p for p in asf_files}
         for stem in stems:
             if stem in by_stem:
                 return by_stem[stem]
-        if len(found) == 1:
-            return found[0]
-        candidates += found
+        if len(asf_files) == 1:
+            return asf_files[0]
+        candidates += asf_files
     if not candidates:
         raise ReadError(
             path, "no ASF skeleton found beside it: name one with skeleton= (--skeleton)"
@@ -138,7 +145,7 @@ def find_skeleton(path: Path) -> Path:
 
 
 def _parse_rate_comment(head: bytes) -> float | None:
-    """Return the frame rate in the comment that `write_amc` leaves, if it is there."""
+    """Return the frame rate in the comment written by `write_amc`, if it exists."""
     comment = _FPS_COMMENT.search(head)
     try:
         return parse_numbers([comment.group(1)])[0] if comment else None
@@ -147,41 +154,40 @@ def _parse_rate_comment(head: bytes) -> float | None:
 
 
 def _compute_local(
-    values: dict[str, Floats], figure: Figure, turn: float
+    values: dict[str, Floats], figure: Figure, angle_unit: float
 ) -> tuple[Floats, dict[int, Floats]]:
-    """Rotations (frames, joints, 4); where joints slide, (frames, 3) each, metres."""
+    """Return rotations (frames, joints, 4), and translations (frames, 3) in metres if they vary."""
     skeleton = figure.skeleton
     n = len(next(iter(values.values())))
     rotations = np.empty((n, skeleton.n_joints, 4))
-    # In blocks that stay in the cache.
     for span in iterate_blocks(n):
-        turned = np.zeros((skeleton.n_joints, 4, span.stop - span.start))
-        turned[:, 0] = 1.0
+        block_rotations = np.zeros((skeleton.n_joints, 4, span.stop - span.start))
+        block_rotations[:, 0] = 1.0
         for name, bone in figure.bones.items():
-            # The axis named first acts first, so it is the last factor of the product.
+            # The axis named first is applied first, so it is the last factor of the product.
             turns = [i for i, dof in enumerate(bone.dof) if dof[0] == "r"][::-1]
             axes = "".join(bone.dof[i][1] for i in turns)
-            local = rot.from_euler(turn * values[name][span][:, turns], axes)
-            # The preset orientation acts first.
+            local = rot.from_euler(angle_unit * values[name][span][:, turns], axes)
+            # The preset orientation is applied first.
             if name == ROOT:
                 local = rot.multiply(local, bone.frame)
             else:
                 # C R C^-1, with C the frame of the bone.
                 local = rot.multiply(rot.multiply(bone.frame, local), rot.conjugate(bone.frame))
-            turned[skeleton.joint(name)] = local.T
-        rotations[span] = turned.transpose(2, 0, 1)
+            block_rotations[skeleton.joint(name)] = local.T
+        rotations[span] = block_rotations.transpose(2, 0, 1)
     slides = {}
     for name, bone in figure.bones.items():
-        slid = np.zeros((n, 3))
+        shift = np.zeros((n, 3))
         for i, dof in enumerate(bone.dof):
             if dof[0] == "t":
-                slid[:, "xyz".index(dof[1])] = values[name][:, i]
+                shift[:, "xyz".index(dof[1])] = values[name][:, i]
         j = skeleton.joint(name)
         if name == ROOT:
-            slides[j] = figure.scale * (bone.position + slid)
-        elif slid.any():
-            # Translations are along the axes of the bone's frame.
-            slides[j] = skeleton.offsets[j] + figure.scale * rot.rotate(bone.frame, slid)
+            slides[j] = figure.scale * (bone.position + shift)
+        elif shift.any():
+            # Translations are relative to the axes of the bone's frame.
+            slides[j] = skeleton.offsets[j] + figure.scale * rot.rotate(bone.frame, shift)
     return rotations, slides
 
 
@@ -190,12 +196,12 @@ def _recognises(head: bytes) -> bool:
 
 
 def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001
-    """Nothing: a skeleton alone does not move."""
+    """Raise ReadError: a skeleton alone has no motion."""
     raise content.error("is a skeleton without a motion: give the AMC file that belongs to it")
 
 
 def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
-    """Each bone's values, (frames, dofs), from the bytes after ``start``, its first frame."""
+    """Return each bone's values (frames, dofs) from the bytes after ``start``."""
     return _read_uniform_frames(content, start, figure) or _read_line_by_line(
         content, start, figure
     )
@@ -204,10 +210,10 @@ def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, F
 def _read_uniform_frames(
     content: FileContent, start: int, figure: Figure
 ) -> dict[str, Floats] | None:
-    """Return the values if every frame is laid out as the first, else None."""
-    blocks: list[Floats] = []
+    """Return the values if every frame has the layout of the first, else None."""
+    chunks: list[Floats] = []
     layout: Layout | None = None
-    following = np.nan
+    next_label = np.nan
     for chunk in _split_chunks(content.data, start):
         text = _COMMENT.sub(b"", chunk) if b"#" in chunk else chunk
         layout = layout or _find_layout(text, figure)
@@ -215,19 +221,19 @@ def _read_uniform_frames(
         if rows is None:
             return None
         labels = rows[:, 0]
-        first = following if blocks else labels[0]
-        following = first + len(labels)
-        # Frames must be numbered without a gap, over all chunks.
-        if not np.array_equal(labels, np.arange(first, following)):
+        first = next_label if chunks else labels[0]
+        next_label = first + len(labels)
+        # Frames must be numbered consecutively across chunks.
+        if not np.array_equal(labels, np.arange(first, next_label)):
             return None
-        blocks.append(rows)
-    return None if layout is None else _split_by_bone(blocks, layout, figure)
+        chunks.append(rows)
+    return None if layout is None else _split_by_bone(chunks, layout, figure)
 
 
 def _split_chunks(data: bytes, start: int) -> Iterator[bytes]:
     """Yield the text from ``start`` on, in chunks of whole frames."""
     while start < len(data):
-        # Cut before a line that is a frame's number.
+        # Cut before the line of a frame's number.
         after = _FRAME.search(data, start + CHUNK)
         stop = after.start() if after else len(data)
         yield data[start:stop]
@@ -235,76 +241,77 @@ def _split_chunks(data: bytes, start: int) -> Iterator[bytes]:
 
 
 def _find_layout(text: bytes, figure: Figure) -> Layout | None:
-    """That of the first frame; None where a bone is unknown, named twice, or missing."""
+    """Return the layout of the first frame; None if a bone is unknown, repeated or missing."""
     first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
     if first is None:
         return None
     words = text[first.end() : None if second is None else second.start()].split()
     counts: dict[str, int] = {}
-    at = 0
-    while at < len(words):
-        name = words[at].decode("utf-8", "replace")
+    index = 0
+    while index < len(words):
+        name = words[index].decode("utf-8", "replace")
         if name not in figure.bones or name in counts:
             return None
         counts[name] = len(figure.bones[name].dof)
-        at += 1 + counts[name]
+        index += 1 + counts[name]
     complete = all(name in counts or not bone.dof for name, bone in figure.bones.items())
     return counts if complete else None
 
 
 def _parse_rows(text: bytes, layout: Layout) -> Floats | None:
-    """A row per frame: its number, and the values of its bones; None where it is laid out else.
+    """Return a row per frame with its number and values, None for another layout.
 
-    By compiled code where there is some already: to load it takes longer than a recording.
+    Compiled code is used only if numba is loaded already: loading takes longer than parsing.
     """
     if "numba" in sys.modules:
         rows = _parse_rows_compiled(text, layout)
         if rows is not None:
             return rows
     words = text.split()
-    # Words of a frame: its number, and a name and values for each bone.
+    # A frame has a number, and a name and values for each bone.
     n_words = 1 + sum(1 + count for count in layout.values())
     if len(words) % n_words:
         return None
     rows = np.empty((len(words) // n_words, 1 + sum(layout.values())))
     try:
-        # Every n-th word is a frame's number.
         rows[:, 0] = list(map(int, words[::n_words]))
-        at, column = 1, 1
+        word, column = 1, 1
         for name, count in layout.items():
-            # The name of the bone must be in its place in every frame.
-            if words[at::n_words].count(name.encode()) != len(rows):
+            # The bone's name must be at the same position in every frame.
+            if words[word::n_words].count(name.encode()) != len(rows):
                 return None
             for i in range(count):
-                rows[:, column + i] = list(map(float, words[at + 1 + i :: n_words]))
-            at, column = at + 1 + count, column + count
+                rows[:, column + i] = list(map(float, words[word + 1 + i :: n_words]))
+            word, column = word + 1 + count, column + count
     except (ValueError, OverflowError):
         return None
     return rows if np.isfinite(rows).all() else None
 
 
 def _parse_rows_compiled(text: bytes, layout: Layout) -> Floats | None:
-    """Return the same, unless there are numbers among them that only ``float`` reads."""
+    """Return the same as `_parse_rows`, None if only ``float`` can parse some numbers."""
     from kineme.formats.skeletons._amc_kernels import read_rows
 
     counts = np.array([*layout.values()], np.int64)
     names = [name.encode() for name in layout]
-    shortest = 2 * (1 + len(names) + int(counts.sum()))  # a word is a sign and a space at least
+    shortest = 2 * (
+        1 + len(names) + int(counts.sum())
+    )  # a word has at least one letter and a space
     rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
-    # Spaces at both ends, as the kernel expects.
-    found = read_rows(
+    # The kernel requires spaces at both ends.
+    n_rows = read_rows(
         np.frombuffer(bytearray(b"\n" + text + b"\n"), np.uint8),
         np.frombuffer(bytearray(b"".join(names)), np.uint8),
         np.cumsum([len(name) for name in names], dtype=np.int64),
         counts,
         rows,
     )
-    return rows[:found].copy() if found > 0 else None
+    return rows[:n_rows].copy() if n_rows > 0 else None
 
 
 def _split_by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
-    """Return the values of each bone, none where it is not named."""
-    # Column 0 is the number of the frame.
+    """Return the values of each bone, none if it is not in the file."""
+    # Column 0 holds the number of the frame.
     ends = np.cumsum([1, *layout.values()])
     columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))
     return {
@@ -314,17 +321,16 @@ def _split_by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict
 
 
 def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
-    """As `_read_uniform_frames`, for any layout, and with an error that names the line.
+    """Return the values for any layout; errors state the line.
 
-    A fault in the very last line, or bones missing from the last frame, is
-    what a truncated file looks like: that frame is left out with a warning.
-    Anything else that cannot be understood is an error.
+    A fault in the last line, or bones missing in the last frame, are signs of a truncated file:
+    that frame is dropped with a warning. Other faults are errors.
     """
     frames: list[dict[str, list[float]]] = []
     first = content.line_at(start)
     lines = content.data[start:].rstrip().splitlines()
     last = first + len(lines) - 1
-    began, label = first, 0
+    first_line, label = first, 0
     fault: ReadError | None = None
     for number, line in enumerate(lines, first):
         words = line.split()
@@ -332,22 +338,22 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
             continue
         if len(words) == 1 and words[0].isdigit():
             if frames:
-                _check_complete(content, frames, began)
+                _check_complete(content, frames, first_line)
             before, label = label, _frame_number(content, words[0], number)
             if frames and label != before + 1:
                 content.warn(f"frame {label} follows {before}", number)
-            began = number
+            first_line = number
             frames.append({})
             continue
         try:
             _add_bone(frames[-1], words, figure)
         except ValueError as error:
             fault = content.error(str(error), number)
-            # Only a fault in the last line is what a cut file looks like.
+            # Only a fault in the last line may be due to truncation.
             if number < last:
                 raise fault from None
     try:
-        _check_complete(content, frames, began)
+        _check_complete(content, frames, first_line)
     except ReadError as error:
         fault = fault or error
     if fault is not None:
@@ -386,7 +392,7 @@ def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure)
 
 
 def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], line: int) -> None:
-    """ReadError if the newest frame is empty or lacks a bone that the first one has."""
+    """Raise ReadError if the last frame is empty or lacks a bone of the first one."""
     missing = [name for name in frames[0] if name not in frames[-1]]
     if missing or not frames[-1]:
         raise content.error(f"a frame without {missing[0] if missing else 'any bone'}", line)

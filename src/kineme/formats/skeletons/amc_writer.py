@@ -1,12 +1,11 @@
-"""Writing ASF/AMC: the skeleton and the motion as a pair of files of one name.
+"""Write ASF/AMC: skeleton and motion as a pair of files with the same name.
 
-Lengths are in CMU's unit (1/0.45 inch), angles in degrees, every bone's frame
-is that of its rig at rest. The root is called ``root``, whatever it was called before.
+Lengths are in CMU's unit (1/0.45 inch), angles in degrees. The frame of each bone is that of its
+rig at rest. The root is always called ``root``.
 
-A bone can carry its children at its tip only. Where a joint's children sit at
-different places, or the root's anywhere but in it, each gets a rigid bone of
-its own, called ``PARENT-CHILD``, to hang on; a joint that slides gets
-translations as well. The frame rate goes into a comment, which `read` honours.
+A bone can carry children only at its tip. If the children of a joint have different positions, or
+those of the root are not at its origin, each gets a rigid parent bone called ``PARENT-CHILD``. A
+joint with varying offset also gets translations. A comment stores the frame rate for `read`.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ class Bone:
 
 
 def write_amc(motion: Motion, path: Path) -> None:
-    """Leave ``motion`` in an AMC file and its skeleton in an ASF of the same name."""
+    """Write a motion to an AMC file and its skeleton to an ASF of the same name."""
     turns, translations, offsets, slides = compute_local_pose(motion, path, "an AMC")
     skeleton = motion.skeleton
     if sum(parent < 0 for parent in skeleton.parents) != 1:
@@ -57,20 +56,20 @@ def write_amc(motion: Motion, path: Path) -> None:
     moving = sorted(j for j in skeleton.end_sites if slides[j])
     if moving:
         raise WriteError(path, f"end site {skeleton.names[moving[0]]!r} moves on its bone")
-    # The frame of each bone is that of its node at rest; the root has none.
+    # The frame of a bone is the world rotation of its node at rest; the root has none.
     rig = get_rig(skeleton)
     frames = rot.multiply(rig.turn, rig.world[1][rig.above :])
     frames[0] = rot.IDENTITY
-    back = rot.conjugate(frames)
-    angles = np.degrees(rot.to_euler_zyx(rot.multiply(rot.multiply(back, turns), frames)))
+    inverse = rot.conjugate(frames)
+    angles = np.degrees(rot.to_euler_zyx(rot.multiply(rot.multiply(inverse, turns), frames)))
     bones = _list_bones(skeleton, offsets, frames, slides, path)
-    # Values of translations are what is added to the offsets, but the root has none.
-    shift = rot.rotate(back, translations - offsets) / UNIT
+    # Translations are added to the offsets; the root has no offset.
+    shift = rot.rotate(inverse, translations - offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
     blocks = []
     for bone in bones:
         if bone.joint is not None:
-            # `rx ry rz`: the columns z, y, x in reverse.
+            # Reverse the columns z, y, x to `rx ry rz`.
             parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint, ::-1]]
             rows = format_table(np.concatenate(parts, axis=1))
             blocks.append([f"{bone.name} {row}" for row in rows])
@@ -81,26 +80,26 @@ def write_amc(motion: Motion, path: Path) -> None:
 
 
 def _list_bones(
-    skeleton: Skeleton, places: Floats, frames: Floats, slides: NDArray[np.bool_], path: Path
+    skeleton: Skeleton, all_offsets: Floats, frames: Floats, slides: NDArray[np.bool_], path: Path
 ) -> list[Bone]:
     """Return the root and all bones, parents first."""
     inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
     words = clean_names(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _to_word)
     names = dict(zip(inner, words, strict=True))
     bones: list[Bone] = []
-    hangs_on = {0: ROOT}
+    parent_names = {0: ROOT}
     for j in inner:
-        offsets = places[list(skeleton.children[j])].reshape(-1, 3)
-        # A bone has one tip: it can carry children only if all are at the same place.
-        shared = j > 0 and len(offsets) > 0 and bool(np.ptp(offsets, axis=0).max() < RIGID)
-        tip = offsets[0] if shared else np.zeros(3)
-        parent = "" if j == 0 else hangs_on[j]
+        offsets = all_offsets[list(skeleton.children[j])].reshape(-1, 3)
+        # A bone can carry all children only if they have the same position.
+        has_common_tip = j > 0 and len(offsets) > 0 and bool(np.ptp(offsets, axis=0).max() < RIGID)
+        tip = offsets[0] if has_common_tip else np.zeros(3)
+        parent = "" if j == 0 else parent_names[j]
         bones.append(Bone(names[j], parent, tip, j, j == 0 or bool(slides[j]), frames[j]))
         for child, offset in zip(skeleton.children[j], offsets, strict=True):
-            hangs_on[child] = names[j]
-            if not shared and offset.any():
-                hangs_on[child] = f"{names[j]}-{_to_word(skeleton.names[child])}"
-                bones.append(Bone(hangs_on[child], names[j], offset, None))
+            parent_names[child] = names[j]
+            if not has_common_tip and offset.any():
+                parent_names[child] = f"{names[j]}-{_to_word(skeleton.names[child])}"
+                bones.append(Bone(parent_names[child], names[j], offset, None))
     return bones
 
 
@@ -129,6 +128,6 @@ def _format_asf(bones: list[Bone]) -> Iterator[str]:
 
 
 def _to_word(name: str) -> str:
-    """One word that an ASF does not take for a comment, keyword or number."""
+    """Return a name as one word that ASF does not take for a comment, keyword or number."""
     word = re.sub(r"[\s#:(),\0]+", "_", name)
     return f"_{word}" if word.isdigit() or word.lower() in ("begin", "end", "") else word

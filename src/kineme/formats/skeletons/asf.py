@@ -1,19 +1,17 @@
-"""ASF: the skeleton half of the Acclaim format.
+"""Read ASF: the skeleton part of the Acclaim format.
 
-Lengths are in ``1 / length`` inches, where ``length`` stands under ``:units``
-(CMU: 0.45, so one unit is 5.64 cm); angles in degrees or radians. A bone runs
-from its parent's tip along ``direction`` for ``length``; ``axis`` turns the
-frame in which its rotations are counted (by x, y and z degrees in the order of
-its letters), ``dof`` names the values it has in the motion file. Rotations are
-about fixed axes, the first named first: with ``axis ... XYZ`` the frame is
-C = Rz Ry Rx.
+Lengths are in ``1 / length`` inches, with ``length`` from ``:units`` (CMU: 0.45, so one unit is
+5.64 cm); angles are in degrees or radians. A bone extends from its parent's tip along ``direction``
+for ``length``. ``axis`` rotates the frame of its rotations (angles about x, y and z, applied in the
+order of its letters). ``dof`` lists its values in the motion file. Rotations are about fixed axes,
+the first one applied first: with ``axis ... XYZ`` the frame is C = Rz Ry Rx.
 
-A bone becomes a joint of the same name at the bone's start; its offset is the
-parent bone, and the tip of a leaf bone becomes the end site ``NAME_end``. The
-tip of ``ltibia`` (the ankle) is thus the joint ``lfoot``.
+A bone becomes a joint of the same name at the bone's start; its offset is the parent bone. The tip
+of a leaf bone becomes the end site ``NAME_end``. The tip of ``ltibia`` (the ankle) is thus the
+joint ``lfoot``.
 
-Source: Acclaim Advanced Technologies, ASF/AMC definition; Vicon, "Acclaim
-Format - ASF line details", for the meaning of ``order``, ``axis``, ``dof``.
+Source: Acclaim Advanced Technologies, ASF/AMC definition; Vicon, "Acclaim Format - ASF line
+details", for the meaning of ``order``, ``axis``, ``dof``.
 """
 
 from __future__ import annotations
@@ -38,16 +36,16 @@ _BLANKS = str.maketrans("(),", "   ")
 
 @dataclass
 class Figure:
-    """All an AMC needs to know of its ASF.
+    """The content of an ASF.
 
-    ``bones`` run from the root, parents first; ``skeleton`` is in metres;
-    ``scale`` is metres per file unit; ``turn`` radians per unit of angle.
+    ``bones`` start with the root, parents first; ``skeleton`` is in metres; ``scale`` is metres per
+    file unit; ``angle_unit`` radians per unit of angle.
     """
 
     bones: dict[str, Bone]
     skeleton: Skeleton
     scale: float
-    turn: float
+    angle_unit: float
 
 
 def read_asf(content: FileContent, scale: float | None = None) -> Figure:
@@ -58,15 +56,15 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
             raise content.error(f"no :{needed} section, so this is not a whole ASF file")
     units = {words[0].lower(): (n, words[1:]) for n, words in sections.get("units", [])}
     angle = "".join(units.get("angle", (0, ["deg"]))[1][:1]).lower()
-    turn = 1.0 if angle.startswith("rad") else radians(1)
+    angle_unit = 1.0 if angle.startswith("rad") else radians(1)
     if scale is None:
-        scale = INCH
+        scale = INCH  # `length` divides it
         if "length" in units:
             line, words = units["length"]
             scale /= read_values(content, line, words, 1, positive=True)[0]
-    bones = {ROOT: read_root(content, sections["root"], turn)}
+    bones = {ROOT: read_root(content, sections["root"], angle_unit)}
     for block in _split_blocks(content, sections["bonedata"]):
-        bone = read_bone(content, block, turn)
+        bone = read_bone(content, block, angle_unit)
         if bone.name in bones:
             raise content.error(f"a second bone is called {bone.name!r}", bone.line)
         bones[bone.name] = bone
@@ -76,7 +74,7 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
         {name: bones[name] for name in order},
         _build_skeleton(order, parents, bones, scale),
         scale,
-        turn,
+        angle_unit,
     )
 
 
@@ -84,31 +82,32 @@ def _build_skeleton(
     order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
 ) -> Skeleton:
     names: list[str] = []
-    at: dict[str, int] = {}
-    above: list[int] = []
+    indices: dict[str, int] = {}
+    joint_parents: list[int] = []
     offsets: list[Floats] = []
     ends = []
     inner = set(parents.values())
     for name in order:
         parent = parents.get(name)
-        above.append(-1 if parent is None else at[parent])
+        joint_parents.append(-1 if parent is None else indices[parent])
         offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
-        at[name] = len(names)
+        indices[name] = len(names)
         names.append(name)
-        # A leaf of some length ends in an end site.
+        # A leaf bone of non-zero length gets an end site.
         if name not in inner and bones[name].tip.any():
-            above.append(len(names) - 1)
+            joint_parents.append(len(names) - 1)
             offsets.append(bones[name].tip)
             ends.append(len(names))
             names.append(f"{name}_end")
-    return Skeleton(tuple(names), tuple(above), scale * np.array(offsets), frozenset(ends))
+    return Skeleton(tuple(names), tuple(joint_parents), scale * np.array(offsets), frozenset(ends))
 
 
 def _split_sections(content: FileContent) -> dict[str, list[Line]]:
-    """Return the lines of each section as words, comments and blank lines left out."""
+    """Return the lines of each section as words, without comments and blank lines."""
     sections: dict[str, list[Line]] = {}
     current: list[Line] = []
     for number, line in enumerate(content.text.splitlines(), 1):
+        # Parentheses and commas of `limits` count as blanks.
         words = line.split("#")[0].translate(_BLANKS).split()
         if not words:
             continue
@@ -161,16 +160,17 @@ def _parse_parents(
 def _order_bones(
     content: FileContent, parents: dict[str, str], bones: dict[str, Bone]
 ) -> list[str]:
-    """Bones depth first, siblings in the order of the hierarchy."""
+    """Return bones depth first, siblings in the order of the hierarchy."""
     children: dict[str, list[str]] = {name: [] for name in bones}
     for name, parent in parents.items():
         children[parent].append(name)
     order, waiting = [], [ROOT]
     while waiting:
         order.append(waiting.pop())
-        # Reversed, since the last one is taken first.
+        # Reversed, since the stack pops the last one first.
         waiting.extend(reversed(children[order[-1]]))
     reached = set(order)
+    # Bones in a cycle are never reached from the root.
     lost = [name for name in bones if name not in reached]
     if lost:
         raise content.error(
@@ -182,7 +182,7 @@ def _order_bones(
 
 @dataclass
 class Bone:
-    """A bone as its file has it, in the file's length unit and in radians."""
+    """A bone in the file's length unit and radians."""
 
     name: str
     direction: Floats = field(default_factory=lambda: np.zeros(3))
@@ -197,8 +197,8 @@ class Bone:
         return self.direction * self.length
 
 
-def read_bone(content: FileContent, block: list[Line], turn: float) -> Bone:
-    """A bone from its lines, ``begin`` and ``end`` apart; ``turn``: radians per unit of angle."""
+def read_bone(content: FileContent, block: list[Line], angle_unit: float) -> Bone:
+    """Return a bone from the lines between ``begin`` and ``end``."""
     entries = {words[0].lower(): (n, words[1:]) for n, words in block}
     first = block[0][0]
     for needed in ("name", "direction", "length"):
@@ -211,13 +211,13 @@ def read_bone(content: FileContent, block: list[Line], turn: float) -> Bone:
     bone.direction = np.array(read_values(content, *entries["direction"], 3))
     bone.length = read_values(content, *entries["length"], 1)[0]
     if "axis" in entries:
-        bone.frame = _parse_frame(content, *entries["axis"], turn)
+        bone.frame = _parse_frame(content, *entries["axis"], angle_unit)
     if "dof" in entries:
         bone.dof = _parse_dof(content, *entries["dof"])
     return bone
 
 
-def read_root(content: FileContent, lines: list[Line], turn: float) -> Bone:
+def read_root(content: FileContent, lines: list[Line], angle_unit: float) -> Bone:
     """Return the root from the lines of its section."""
     entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
     root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
@@ -228,19 +228,19 @@ def read_root(content: FileContent, lines: list[Line], turn: float) -> Bone:
     if "orientation" in entries:
         line, words = entries["orientation"]
         letters = entries.get("axis", (0, ["xyz"]))[1]
-        root.frame = _parse_frame(content, line, words[:3] + letters, turn)
+        root.frame = _parse_frame(content, line, words[:3] + letters, angle_unit)
     return root
 
 
-def _parse_frame(content: FileContent, line: int, words: list[str], turn: float) -> Floats:
+def _parse_frame(content: FileContent, line: int, words: list[str], angle_unit: float) -> Floats:
     letters = (words[3] if len(words) > 3 else "xyz").lower()
     if sorted(letters) != ["x", "y", "z"]:
         raise content.error(f"axis order {letters!r} is not made of X, Y and Z", line)
     angles = dict(zip("xyz", read_values(content, line, words[:3], 3), strict=True))
-    # The first letter acts first, so it is the last factor of the product.
-    inner_first = letters[::-1]
-    turns = np.array([[turn * angles[letter] for letter in inner_first]])
-    frame: Floats = rot.from_euler(turns, inner_first)[0]
+    # The first letter is applied first, so it is the last factor of the product.
+    product_order = letters[::-1]
+    turns = np.array([[angle_unit * angles[letter] for letter in product_order]])
+    frame: Floats = rot.from_euler(turns, product_order)[0]
     return frame
 
 
@@ -257,7 +257,7 @@ def _parse_dof(content: FileContent, line: int, words: list[str]) -> tuple[str, 
 def read_values(
     content: FileContent, line: int, words: list[str], count: int, *, positive: bool = False
 ) -> list[float]:
-    """So many numbers from the words of a line; an error that names the line where they are not."""
+    """Return ``count`` numbers from the words of a line; raise an error that states the line."""
     try:
         values = parse_numbers(words)
     except ValueError as error:

@@ -1,21 +1,18 @@
-"""BVH: the Biovision hierarchy, as its many dialects have it.
+"""Read BVH: the Biovision hierarchy in its many variants.
 
-A tree of joints with an offset and named channels each, then one line of
-channel values per frame. A joint's rotation is the product of its rotation
-channels in the order of the file, in degrees: ``Zrotation Yrotation
-Xrotation`` is Rz Ry Rx. Joints may differ in their channels; names may hold
-blanks, dots and colons; braces and line breaks may stand anywhere.
+The file has a tree of joints with an offset and named channels each, then a line of channel values
+per frame. A joint's rotation is the product of its rotation channels in the order of the file, in
+degrees: ``Zrotation Yrotation Xrotation`` is Rz Ry Rx. Joints may have different channels; names
+may contain blanks, dots and colons; braces and line breaks may be anywhere.
 
-Position channels replace the joint's offset and do not add to it. In PyMO's
-``AV_8Walk.bvh``, one of the files that give both, the hips have an offset 35.4
-high and a first position 35.6 high (inches): replacing puts the feet on the
-floor, adding puts them at the height of the hips.
+Position channels replace the joint's offset. In PyMO's ``AV_8Walk.bvh``, one of the files with
+both, the hips have an offset 35.4 high and a first position 35.6 high (inches): replacing puts the
+feet on the floor, adding would put them at the height of the hips.
 
-A BVH has no unit and no up axis; see `kineme.formats.units` for how they are
-found.
+A BVH has no unit and no up axis; `kineme.formats.units` infers them.
 
-Source: M. Meredith, S. Maddock, "Motion capture file formats explained",
-University of Sheffield CS-01-11, 2001, section 3.
+Source: M. Meredith, S. Maddock, "Motion capture file formats explained", University of Sheffield
+CS-01-11, 2001, section 3.
 """
 
 from __future__ import annotations
@@ -63,26 +60,26 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     )
     provenance = content.provenance("BVH", head.notes)
     content.release()
-    turned = _compute_local(head.joints, values)
-    del values  # before as much again is made of it
-    return _place_joints(head.joints, turned, head.fps, options, provenance)
+    local = _compute_local(head.joints, values)
+    del values  # release them before positions are computed
+    return _place_joints(head.joints, local, head.fps, options, provenance)
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
-    """So many frames of a BVH file at most, evenly apart; None where it has no more than those."""
+    """Return at most ``most`` evenly spaced frames; None if the file has no more than those."""
     head = _parse_head(content, options)
-    # Division rounded up.
+    # Divide, rounding up.
     every = -(-head.declared // most)
     values = sample_frames(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != -(-head.declared // every):
         return None
-    turned, provenance = _compute_local(head.joints, values), Provenance(str(content.path), "BVH")
-    motion = _place_joints(head.joints, turned, head.fps / every, options, provenance)
+    local, provenance = _compute_local(head.joints, values), Provenance(str(content.path), "BVH")
+    motion = _place_joints(head.joints, local, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
 class _Head(NamedTuple):
-    """All that stands before the frames."""
+    """Everything before the frames."""
 
     joints: list[Joint]
     declared: int
@@ -100,7 +97,7 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
-    joints = _Hierarchy(content, split.start()).joints
+    joints = _HierarchyParser(content, split.start()).joints
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
     if header is None:
@@ -115,53 +112,56 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
 
 def _place_joints(
     joints: list[Joint],
-    turned: tuple[Floats, dict[int, Floats]],
+    local: tuple[Floats, dict[int, Floats]],
     fps: float,
     options: ReadOptions,
     provenance: Provenance,
 ) -> Motion:
-    """Return the motion of joints as `_compute_local` gives them."""
+    """Return the motion of joints from the result of `_compute_local`."""
     parents = tuple(joint.parent for joint in joints)
-    above = {*parents}
+    inner = {*parents}
     skeleton = Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in above),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
     )
     return build_motion(
-        skeleton, *turned, fps, unit=options.unit, up=options.up, provenance=provenance
+        skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
     )
 
 
 def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
-    """Rotations (frames, joints, 4); where joints slide, (frames, 3) each, file units."""
+    """Return rotations (frames, joints, 4), and translations (frames, 3) of position channels.
+
+    Translations are in file units.
+    """
     rotations = np.empty((len(values), len(joints), 4))
     slides = {
-        # Channels of positions replace the offset, axis by axis.
+        # Position channels replace the offset per axis.
         j: np.tile(joint.offset, (len(values), 1))
         for j, joint in enumerate(joints)
         if any(kind == "position" for _, kind in joint.channels)
     }
     for span in iterate_blocks(len(values)):
-        # One contiguous row for each channel.
+        # One contiguous row per channel.
         columns = np.ascontiguousarray(values[span].T)
-        turned = np.zeros((len(joints), 4, columns.shape[1]))
-        turned[:, 0] = 1.0
-        at = 0
-        # Columns of the values follow the joints in order.
+        block_rotations = np.zeros((len(joints), 4, columns.shape[1]))
+        block_rotations[:, 0] = 1.0
+        column = 0
+        # Columns are in the order of the joints' channels.
         for j, joint in enumerate(joints):
-            turns, axes = [], ""
+            rotation_columns, axes = [], ""
             for axis, kind in joint.channels:
                 if kind == "position":
-                    slides[j][span, "xyz".index(axis)] = columns[at]
+                    slides[j][span, "xyz".index(axis)] = columns[column]
                 else:
-                    turns.append(at)
+                    rotation_columns.append(column)
                     axes += axis
-                at += 1
-            if turns:
-                turned[j] = rot.from_euler(np.radians(columns[turns]).T, axes).T
-        rotations[span] = turned.transpose(2, 0, 1)
+                column += 1
+            if rotation_columns:
+                block_rotations[j] = rot.from_euler(np.radians(columns[rotation_columns]).T, axes).T
+        rotations[span] = block_rotations.transpose(2, 0, 1)
     return rotations, slides
 
 
@@ -177,7 +177,7 @@ def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, st
 
 @dataclass
 class Joint:
-    """A joint as its file has it; ``channels`` are ("x", "rotation") and so on."""
+    """A joint in the file; ``channels`` are ("x", "rotation") and so on."""
 
     name: str
     parent: int
@@ -187,22 +187,22 @@ class Joint:
     channels: list[tuple[str, str]] = field(default_factory=list)
 
 
-class _Hierarchy:
-    """Joints of the HIERARCHY section, the bytes before ``stop``; parents first."""
+class _HierarchyParser:
+    """Joints of the HIERARCHY section, which ends at byte ``stop``; parents first."""
 
     def __init__(self, content: FileContent, stop: int):
         self.content = content
         text = content.data[:stop].decode("utf-8", "replace").removeprefix("\ufeff")
         lines = enumerate(text.replace("{", " { ").replace("}", " } ").splitlines(), 1)
         self.words = [(word, number) for number, line in lines for word in line.split()]
-        self.at = 0
+        self.position = 0
         self.joints: list[Joint] = []
         open_joints: list[int] = []
         if not self.words or self.words[0][0].upper() != "HIERARCHY":
             raise content.error("a BVH file begins with the word HIERARCHY", 1)
-        self.at = 1
-        while self.at < len(self.words):
-            word, line = self._next()
+        self.position = 1
+        while self.position < len(self.words):
+            word, line = self._take_word()
             key = word.upper()
             if key in ("ROOT", "JOINT", "END"):
                 parent = open_joints[-1] if open_joints else -1
@@ -211,15 +211,15 @@ class _Hierarchy:
                         f"{word} {'outside' if parent < 0 else 'inside'} a joint", line
                     )
                 open_joints.append(len(self.joints))
-                self.joints.append(Joint(self._name(line), parent, line, key == "END"))
+                self.joints.append(Joint(self._parse_name(line), parent, line, key == "END"))
             elif not open_joints:
                 raise content.error(f"ROOT expected, found {word[:40]!r}", line)
             elif key == "}":
                 open_joints.pop()
             elif key == "OFFSET":
-                self.joints[open_joints[-1]].offset = self._offset(line)
+                self.joints[open_joints[-1]].offset = self._parse_offset(line)
             elif key == "CHANNELS":
-                self.joints[open_joints[-1]].channels = self._channels(line)
+                self.joints[open_joints[-1]].channels = self._parse_channels(line)
             else:
                 raise content.error(
                     f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}", line
@@ -233,16 +233,16 @@ class _Hierarchy:
             )
         self._name_end_sites()
 
-    def _next(self) -> tuple[str, int]:
-        if self.at >= len(self.words):
+    def _take_word(self) -> tuple[str, int]:
+        if self.position >= len(self.words):
             raise self.content.error("the hierarchy breaks off", self.words[-1][1])
-        self.at += 1
-        return self.words[self.at - 1]
+        self.position += 1
+        return self.words[self.position - 1]
 
-    def _name(self, line: int) -> str:
-        """Return all words up to the brace, which has to come before the next line's end."""
+    def _parse_name(self, line: int) -> str:
+        """Return all words up to the brace, which must precede the next keyword."""
         words = []
-        while (word := self._next())[0] != "{":
+        while (word := self._take_word())[0] != "{":
             if word[1] > line and word[0].upper() in ("OFFSET", "CHANNELS", "JOINT", "END"):
                 raise self.content.error("'{' expected after a joint's name", word[1])
             words.append(word[0])
@@ -250,32 +250,31 @@ class _Hierarchy:
             raise self.content.error("a joint without a name", line)
         return " ".join(words)
 
-    def _offset(self, line: int) -> list[float]:
-        words = [self._next()[0] for _ in range(3)]
+    def _parse_offset(self, line: int) -> list[float]:
+        words = [self._take_word()[0] for _ in range(3)]
         try:
             return parse_numbers(words)
         except ValueError as error:
             raise self.content.error(f"OFFSET: {error}", line) from None
 
-    def _channels(self, line: int) -> list[tuple[str, str]]:
-        declared = self._next()[0]
+    def _parse_channels(self, line: int) -> list[tuple[str, str]]:
+        declared = self._take_word()[0]
         if not declared.isdecimal() or len(declared) > 18:
             raise self.content.error(f"CHANNELS needs a number, found {declared[:40]!r}", line)
         channels = []
-        # A joint has as many channels as it declares.
         for _ in range(int(declared)):
-            word = self._next()[0]
+            word = self._take_word()[0]
             match = _CHANNEL.fullmatch(word)
             if match is None:
                 raise self.content.error(f"unknown channel {word[:40]!r} of {declared}", line)
             channels.append((match.group(1).lower(), match.group(2).lower()))
-        places = [channel for channel in channels if channel[1] == "position"]
-        if len(set(places)) != len(places):
+        positions = [channel for channel in channels if channel[1] == "position"]
+        if len(set(positions)) != len(positions):
             raise self.content.error("a position channel is named twice", line)
         return channels
 
     def _name_end_sites(self) -> None:
-        """End sites are called after their parent; all names are unique."""
+        """Name end sites after their parent, and make all names unique."""
         names: set[str] = set()
         for joint in self.joints:
             joint.end = joint.end and not joint.channels
@@ -283,7 +282,7 @@ class _Hierarchy:
                 if joint.name in names:
                     raise self.content.error(f"a second joint is called {joint.name!r}", joint.line)
                 names.add(joint.name)
-        tried: dict[str, int] = {}  # the last number behind each name
+        tried: dict[str, int] = {}  # last number appended to each name
         for joint in self.joints:
             if joint.end:
                 stem = joint.name = f"{self.joints[joint.parent].name}_end"
@@ -294,53 +293,52 @@ class _Hierarchy:
 
 
 def read_frames(content: FileContent, start: int, width: int, declared: int) -> Floats:
-    """Channel values, (frames, width), from the bytes after ``start``.
+    """Return the channel values (frames, width) from the bytes after ``start``.
 
-    The last line may break off, which is warned about. Lines laid out otherwise than one per
-    frame are taken as one stream of numbers, if exactly the declared frames come of it.
+    A truncated last line is dropped with a warning. If lines do not match frames, all numbers are
+    read as one sequence, provided that it gives exactly the declared frames.
     """
     if width == 0:
         raise content.error("no joint has a channel, so there is no motion")
     values = array("d")
-    odd: list[tuple[int, int]] = []
+    odd_lines: list[tuple[int, int]] = []
     fault: ReadError | None = None
-    joined = 0
+    repaired = 0
     last = number = content.line_at(start)
     for number, line in enumerate(_split_lines(content.data, start), last):
         last = number
-        if fault is not None:  # which is pardoned in the last line alone
+        if fault is not None:  # faults are tolerated only in the last line
             raise fault
         try:
-            row, apart = _parse_row(line)
+            row, is_repaired = _parse_row(line)
         except ValueError as error:
             fault = content.error(str(error), number)
             continue
-        joined += apart
+        repaired += is_repaired
         values.extend(row)
         if row and len(row) != width:
-            # Lines of another width are only right if all numbers together make the declared
-            # frames.
-            odd.append((number, len(row)))
-    if odd and (fault or len(values) != width * declared):
-        number, found = odd[0]
-        fault = content.error(f"{found} values, but the hierarchy has {width} channels", number)
-        if number < last or found > width:
+            # Other widths are valid only if all numbers together give the declared frames.
+            odd_lines.append((number, len(row)))
+    if odd_lines and (fault or len(values) != width * declared):
+        number, count = odd_lines[0]
+        fault = content.error(f"{count} values, but the hierarchy has {width} channels", number)
+        if number < last or count > width:
             raise fault
-        # The last line broke off: its values are taken out again.
-        del values[-found:]
+        # Drop the values of the truncated last line.
+        del values[-count:]
     if not values:
         raise fault or content.error("the file ends before its first frame: there is no motion")
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
-    if joined:
+    if repaired:
         content.warn(
-            f"blanks before minus signs are missing in {format_count(joined, 'frame')}: put there"
+            f"blanks before minus signs are missing in {format_count(repaired, 'frame')}: put there"
         )
     return np.frombuffer(values).reshape(-1, width)
 
 
 def sample_frames(data: bytes, start: int, width: int, every: int) -> Floats | None:
-    """Return the values of each ``every``-th frame only; None where lines are not one per frame."""
+    """Return the values of every ``every``-th frame; None if lines do not match frames."""
     lines = (line for line in _split_lines(data, start) if line.strip())
     try:
         rows = [parse_numbers(line.split()) for line in islice(lines, 0, None, every)]
@@ -350,34 +348,34 @@ def sample_frames(data: bytes, start: int, width: int, every: int) -> Floats | N
 
 
 def _split_lines(data: bytes, start: int) -> Iterator[bytes]:
-    """Yield the lines from ``start`` on, without the blank ones at the end; a chunk at a time."""
+    """Yield the lines from ``start`` on, in chunks, without blank ones at the end."""
     stop = _find_end(data, start)
     while start < stop:
-        # Cut after a line break, so that no line is parted.
+        # Cut after a line break to keep lines whole.
         cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
         yield from data[start:cut].splitlines()
         start = cut
 
 
 def _find_end(data: bytes, start: int) -> int:
-    """Where blanks and empty lines follow only."""
-    # From the end in chunks, since most files end in few blanks.
-    for at in range(len(data), start, -CHUNK):
-        first = max(start, at - CHUNK)
-        if kept := data[first:at].rstrip():
-            return first + len(kept)
+    """Return the offset after which only blanks and empty lines follow."""
+    # Search backwards in chunks, since most files end with few blanks.
+    for stop in range(len(data), start, -CHUNK):
+        first = max(start, stop - CHUNK)
+        if text := data[first:stop].rstrip():
+            return first + len(text)
     return start
 
 
 def _parse_row(line: bytes) -> tuple[list[float], bool]:
-    """Return numbers of a line, and whether some were not apart (``0.0-7.5``, as SlimeVR wrote)."""
+    """Return the numbers of a line, and whether blanks were missing (``0.0-7.5``, from SlimeVR)."""
     try:
         return parse_numbers(line.split()), False
     except ValueError:
-        apart = _JOINED.sub(b" -", line)
-        if apart == line:
+        repaired = _JOINED.sub(b" -", line)
+        if repaired == line:
             raise
-        return parse_numbers(apart.split()), True
+        return parse_numbers(repaired.split()), True
 
 
 FORMAT = Format(

@@ -1,11 +1,10 @@
-"""Writing BVH: rotations as Z Y X in degrees; units and axes of the BVH it came from.
+"""Write BVH: rotations as Z Y X in degrees, in units and axes of the original BVH.
 
-Of other recordings it is centimetres, y up, and the rest pose is that of their rig: a BVH has no
-rotations at rest, so they become part of the rotations of each frame.
+Recordings of other formats are written in centimetres with y up and the rest pose of their rig. A
+BVH has no rotations at rest, so these become part of the rotations of each frame.
 
-Joints whose bone changes its length or direction get six channels, the others
-three (roots always six). An end site that moves, or that has children,
-becomes a joint. A BVH has no name for an end site: reading one calls it
+Joints whose offset varies get six channels, others three; roots always get six. An end site that
+moves or has children becomes a joint. A BVH has no names for end sites: reading names them
 ``PARENT_end``.
 """
 
@@ -26,39 +25,39 @@ from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.posing import align_to_rest
 
 UNIT = 0.01
-"""Metres: that of recordings from other formats."""
+"""Metres per unit for recordings from other formats."""
 RIGID = 5e-7
 """Metres by which a bone may differ from its offset and still count as rigid.
 
-Animations of single precision differ so much from the rest pose of their file. Along twenty bones
-it is 0.01 mm.
+Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
+adds up to 0.01 mm.
 """
 
 
 def write_bvh(motion: Motion, path: Path) -> None:
-    """Leave ``motion`` in a BVH file."""
+    """Write a motion to a BVH file."""
     skeleton = motion.skeleton
     turns, translations, offsets, slides = compute_local_pose(motion, path, "a BVH")
     slides |= np.array(skeleton.parents) < 0
-    unit, back = UNIT, rot.IDENTITY
-    own = motion.provenance.format == "BVH"
-    if own and skeleton.rig is not None and skeleton.rig.is_plain:
-        # In the units and axes of the file, those of the world and of the joints alike.
-        unit, back = skeleton.rig.unit, rot.conjugate(skeleton.rig.turn)
-        turns = rot.multiply(rot.multiply(back, turns), skeleton.rig.turn)
-    translations, offsets = (rot.rotate(back, each) / unit for each in (translations, offsets))
+    unit, inverse = UNIT, rot.IDENTITY
+    is_from_bvh = motion.provenance.format == "BVH"
+    if is_from_bvh and skeleton.rig is not None and skeleton.rig.is_plain:
+        # Convert the axes of both the world and the joints back to the file's.
+        unit, inverse = skeleton.rig.unit, rot.conjugate(skeleton.rig.turn)
+        turns = rot.multiply(rot.multiply(inverse, turns), skeleton.rig.turn)
+    translations, offsets = (rot.rotate(inverse, each) / unit for each in (translations, offsets))
     angles = np.degrees(rot.to_euler_zyx(turns))
-    ends = {j for j in skeleton.end_sites if not slides[j]}
+    fixed_ends = {j for j in skeleton.end_sites if not slides[j]}
     order = list(_order_depth_first(motion))
     columns: list[Floats] = []
     for j in order:
-        if j in ends:
+        if j in fixed_ends:
             continue
         if slides[j]:
             columns.append(translations[:, j])
         columns.append(angles[:, j])
     head = "\n".join(
-        _format_hierarchy(skeleton, offsets, order, slides, _name_joints(motion, ends, path))
+        _format_hierarchy(skeleton, offsets, order, slides, _name_joints(motion, fixed_ends, path))
     )
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
     save(path, [head, "\n", timing, *format_table(np.concatenate(columns, axis=1))])
@@ -67,21 +66,21 @@ def write_bvh(motion: Motion, path: Path) -> None:
 def compute_local_pose(
     motion: Motion, path: Path, what: str
 ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
-    """Return rotations and translations for a format that has no rotations at rest.
+    """Return rotations and translations for a format without rotations at rest.
 
     Returns
     -------
     rotations, translations : ndarray of shape (frames, joints, 4), (frames, joints, 3)
-        Local to the parent; metres.
+        Relative to the parent; metres.
     offsets : ndarray of shape (joints, 3)
         The translations at rest.
     slides : ndarray of shape (joints,)
-        Whether a joint leaves its offset.
+        Whether the translation of a joint varies.
 
     Raises
     ------
     WriteError
-        A motion has no rotations for ``what`` is to be written.
+        The motion has no rotations, which ``what`` needs.
     """
     require_rotations(motion, path, what)
     aligned = align_to_rest(motion)
@@ -91,7 +90,7 @@ def compute_local_pose(
 
 
 def _name_joints(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
-    """Return the names of joints as a line holds them; end sites have none."""
+    """Return the names of joints that a line can hold; end sites have none."""
     named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
     return dict(
         zip(
@@ -103,7 +102,7 @@ def _name_joints(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
 
 
 def _clean_name(name: str) -> str:
-    """No braces, and nothing that the motion begins with."""
+    """Return a name without braces, and without the text that starts the motion section."""
     plain = re.sub(r"[{}\s]+", " ", name).strip()
     return re.sub(r"(\bmotion frames) ?:", r"\1", plain, flags=re.IGNORECASE)
 
@@ -138,7 +137,7 @@ def _format_hierarchy(
 
 def _order_depth_first(motion: Motion) -> Iterator[int]:
     children = motion.skeleton.children
-    # Reversed, since the last one is taken first.
+    # Reversed, since the stack pops the last one first.
     waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
     while waiting:
         joint = waiting.pop()

@@ -1,11 +1,11 @@
-"""MVNX: what Xsens' MVN exports of a suit, as XML.
+"""Read MVNX: exports of Xsens' MVN suits, as XML.
 
-A ``subject`` has ``segments`` with labels, a ``frameRate``, and ``frames``. Each ``frame`` of the
-type ``normal`` has the ``position`` of the origin of each segment (metres, z up) and its
-``orientation`` (quaternions w, x, y, z, from the segment to the world). Frames of other types are
-poses of calibration. The origin of a segment is the joint that it hangs on. The 23 segments of the
-body are read; props, fingers, sensors and joint angles are passed over. Where no orientations were
-exported, the motion has positions only.
+A ``subject`` has ``segments`` with labels, a ``frameRate``, and ``frames``. Each ``frame`` of type
+``normal`` has the ``position`` of each segment's origin (metres, z up) and its ``orientation``
+(quaternions w, x, y, z, from the segment to the world). Frames of other types are calibration
+poses. The origin of a segment is the joint at its start. The 23 segments of the body are read;
+props, fingers, sensors and joint angles are ignored. Without orientations the motion has positions
+only.
 
 Source: Xsens, "MVN User Manual", chapter on the file format MVNX.
 """
@@ -30,7 +30,7 @@ from kineme.formats.units import to_metres, turn_upright
 from kineme.recordings import Motion, Skeleton
 
 KINDS = ("position", "orientation")
-"""What is read of a frame."""
+"""Elements of a frame that are read."""
 
 _LIMBS = {
     "Shoulder": "T8", "UpperArm": "Shoulder", "ForeArm": "UpperArm", "Hand": "ForeArm",
@@ -42,12 +42,12 @@ PARENTS = {
     **{f"{side}{part}": parent if parent in ("T8", "Pelvis") else f"{side}{parent}"
        for side in ("Right", "Left") for part, parent in _LIMBS.items()},
 }  # fmt: skip
-"""Of each segment of the body that which it hangs on."""
+"""Parent of each segment of the body."""
 
 
 @dataclass
 class Subject:
-    """What is read of somebody: the values of each frame as they stand."""
+    """A subject with the values of each frame."""
 
     name: str
     rate: float
@@ -56,13 +56,13 @@ class Subject:
 
 
 def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
-    """Return the motion of a suit in an MVNX file."""
+    """Return the motion of a subject in an MVNX file."""
     people = _parse_subjects(content)
     if not people:
         raise content.error("there is no subject in it")
-    called = [each.name for each in people]
-    who = choose_person(content.path, called, options.person, "subjects")
-    subject = people[called.index(who)]
+    names_of_people = [each.name for each in people]
+    person = choose_person(content.path, names_of_people, options.person, "subjects")
+    subject = people[names_of_people.index(person)]
     names = [name for name in PARENTS if name in subject.segments]
     if "Pelvis" not in names:
         raise content.error("none of its segments is a 'Pelvis'")
@@ -74,15 +74,15 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     fps = options.fps or subject.rate
     if not fps > 0:
         raise content.error("it tells no frameRate: give fps= (--fps)")
-    left = [name for name in subject.segments if name not in PARENTS]
-    notes = [f"segments left out: {', '.join(left)}"] if left else []
+    left_out = [name for name in subject.segments if name not in PARENTS]
+    notes = [f"segments left out: {', '.join(left_out)}"] if left_out else []
     provenance = content.provenance("MVNX", notes)
     if len(people) > 1:
-        provenance = provenance.of_person(who, called)
+        provenance = provenance.of_person(person, names_of_people)
     if not subject.values["orientation"]:
         positions = to_metres(options.unit or "m") * turn_upright(positions, options.up or "z")
-        # The frame in which the body is highest.
-        tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]  # bones at full length
+        # Offsets come from the frame with the largest height.
+        tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
         skeleton = Skeleton(tuple(names), tuple(parents), offsets)
         return Motion(skeleton, positions, fps, None, provenance)
@@ -92,16 +92,16 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     lengths = np.linalg.norm(world, axis=2, keepdims=True)
     if not (np.isfinite(lengths).all() and (lengths > 0).all()):
         raise content.error("orientations are not all numbers")
-    world = world / lengths
+    world = world / lengths  # unit quaternions
     local, offsets = world.copy(), np.zeros((len(names), 3))
-    # From the world's rotations to those relative to the parent.
+    # Convert world rotations to rotations relative to the parent.
     for joint, parent in enumerate(parents):
         if parent >= 0:
-            back = rot.conjugate(world[:, parent])
-            local[:, joint] = rot.multiply(back, world[:, joint])
-            apart = rot.rotate(back, positions[:, joint] - positions[:, parent])
-            # Bones of a suit change a little: the median is the usual offset.
-            offsets[joint] = np.median(apart, axis=0)
+            inverse = rot.conjugate(world[:, parent])
+            local[:, joint] = rot.multiply(inverse, world[:, joint])
+            offset_per_frame = rot.rotate(inverse, positions[:, joint] - positions[:, parent])
+            # Measured bone lengths vary slightly, so use the median.
+            offsets[joint] = np.median(offset_per_frame, axis=0)
     return build_motion(
         Skeleton(tuple(names), tuple(parents), offsets),
         local,
@@ -113,14 +113,14 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     )
 
 
-class _Subjects(NoEntities):
-    """People in a file, made of its elements as they come; nothing else is kept."""
+class _SubjectParser(NoEntities):
+    """Parser target that collects subjects and keeps nothing else."""
 
     def __init__(self, content: FileContent) -> None:
         self.content = content
         self.people: list[Subject] = []
         self._normal = False
-        self._text: list[str] | None = None  # of the element that is read
+        self._text: list[str] | None = None  # text of the current element
 
     def start(self, tag: str, attributes: Mapping[str, str]) -> None:
         name = tag.rpartition("}")[2]
@@ -150,31 +150,28 @@ class _Subjects(NoEntities):
 
 
 def _parse_subjects(content: FileContent) -> list[Subject]:
-    """Return the people in a file; ReadError where it breaks off."""
-    found = _Subjects(content)
-    parser = ET.XMLParser(target=found)  # noqa: S314 (see NoEntities)
+    """Return the subjects in a file; raise ReadError if it is truncated."""
+    target = _SubjectParser(content)
+    parser = ET.XMLParser(target=target)  # noqa: S314 (see NoEntities)
     try:
         parser.feed(content.data)
         parser.close()
     except ET.ParseError as error:
         raise content.error(f"is no whole XML: {error}") from None
-    return found.people
+    return target.people
 
 
-def _stack_frames(content: FileContent, subject: Subject, what: str, width: int) -> Floats:
-    frames = subject.values[what]
+def _stack_frames(content: FileContent, subject: Subject, kind: str, width: int) -> Floats:
+    frames = subject.values[kind]
     if not frames:
-        raise content.error(f"no frame has a {what} of segments: export it with them")
+        raise content.error(f"no frame has a {kind} of segments: export it with them")
     if any(len(values) != width for values in frames):
-        raise content.error(f"a frame has another number of values in {what} than {width}")
+        raise content.error(f"a frame has another number of values in {kind} than {width}")
     return np.stack(frames)
 
 
 def _find_parent(name: str, names: list[str]) -> int:
-    """Return the place of the nearest segment that is there of those that one hangs on.
-
-    -1 for none.
-    """
+    """Return the index of the nearest ancestor of a segment that exists, -1 for none."""
     parent = PARENTS[name]
     while parent and parent not in names:
         parent = PARENTS[parent]

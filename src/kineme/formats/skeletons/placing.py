@@ -1,7 +1,7 @@
-"""From a skeleton's own rotations, units and axes to a motion in metres with y up.
+"""Build a motion in metres with y up from a skeleton's own rotations, units and axes.
 
-An hour of a whole body is a gigabyte, so what is made of it is made once, in its final
-arrays, in blocks of frames that stay in the processor's cache.
+An hour of a whole body is a gigabyte, so results are written once to their final arrays, in blocks
+of frames that fit into the processor's cache.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.units import (
-    BODIES,
+    PLAUSIBLE_HEIGHTS,
     estimate_height,
     infer_unit,
     infer_up,
@@ -27,7 +27,7 @@ from kineme.recordings.kinematics import forward_kinematics
 from kineme.recordings.rig import make_rig
 
 BYTES_PER_JOINT = 2 * 8 * (4 + 3)
-"""What a joint takes in a frame: rotation, position, and as much again."""
+"""Bytes of a joint in a frame: rotation and position, twice."""
 
 
 def build_motion(
@@ -41,22 +41,22 @@ def build_motion(
     provenance: Provenance,
     frames: Floats | None = None,
 ) -> Motion:
-    """Return the motion in metres with y up, from one in a file's own units and axes.
+    """Return the motion in metres with y up, from rotations in a file's own units and axes.
 
-    Rotations (frames, joints, 4) become the motion's and are changed in place. ``slides`` are
-    places (frames, 3) of joints in the frames of their parents, instead of their offsets. A unit
-    or an up axis of None is inferred. ``frames`` are those of the nodes, as `make_rig` takes them,
-    of a skeleton that has no rig yet.
+    Rotations (frames, joints, 4) are changed in place and used in the motion. ``slides`` are
+    translations (frames, 3) of joints relative to their parents that replace the offsets. A unit
+    or up axis of None is inferred. ``frames`` are those of the nodes, as for `make_rig`; they are
+    used if the skeleton has no rig.
     """
     means = skeleton.offsets.copy()
-    for joint, places in slides.items():
-        means[joint] = places.mean(axis=0)
+    for joint, translations in slides.items():
+        means[joint] = translations.mean(axis=0)
     if unit is None:
         unit, note = infer_unit(skeleton, means)
         provenance = provenance.noted(note)
     else:
         height = estimate_height(skeleton, means) * to_metres(unit)
-        if not BODIES[0] <= height <= BODIES[1]:
+        if not PLAUSIBLE_HEIGHTS[0] <= height <= PLAUSIBLE_HEIGHTS[1]:
             provenance = provenance.noted(
                 f"with unit {unit} the skeleton is about {height:.4g} m tall: look whether it fits"
             )
@@ -73,7 +73,7 @@ def build_motion(
         turn = make_up_rotation(up)
         skeleton = replace(skeleton, offsets=rot.rotate(turn, skeleton.offsets))
         for span in iterate_blocks(len(rotations)):
-            # The turn changes the axes of the world and of the joints alike: conjugation.
+            # Conjugation turns the axes of both the world and the joints.
             rotations[span] = rot.multiply(rot.multiply(turn, rotations[span]), rot.conjugate(turn))
             positions[span] = rot.rotate(turn, positions[span])
     if skeleton.rig is None:
@@ -87,13 +87,13 @@ def build_motion(
 def _compute_positions(
     skeleton: Skeleton, rotations: Floats, slides: Mapping[int, Floats], scale: float
 ) -> Floats:
-    """(frames, joints, 3), metres."""
+    """Return the positions (frames, joints, 3) in metres."""
     positions = np.empty((*rotations.shape[:2], 3))
     for span in iterate_blocks(len(rotations)):
         n = span.stop - span.start
         shift = np.repeat(skeleton.offsets[:, :, None], n, axis=2)  # a row per joint and axis
-        for joint, places in slides.items():
-            shift[joint] = scale * places[span].T
+        for joint, translations in slides.items():
+            shift[joint] = scale * translations[span].T
         positions[span] = forward_kinematics(
             skeleton, rotations[span], translations=shift.transpose(2, 0, 1)
         )
