@@ -302,9 +302,9 @@ class SegmentTable:
 
     def __repr__(self) -> str:
         n = len(self)
-        of = f"{format_count(n, 'segment')}"
+        count = f"{format_count(n, 'segment')}"
         span = f", {self.start_s.min():.2f} to {self.stop_s.max():.2f} s" if n else ""
-        return f"<SegmentTable of {of}{span}>"
+        return f"<SegmentTable of {count}{span}>"
 
     def _repr_html_(self) -> str:
         from kineme.segments.html import make_page

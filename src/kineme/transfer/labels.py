@@ -55,8 +55,8 @@ def find_by_search(
     borders = np.concatenate([[0], np.cumsum(knowledge.lengths)])
     matches: list[LabelMatch] = []
     for label, start, stop in zip(knowledge.labels, borders[:-1], borders[1:], strict=True):
-        found = search(knowledge.features[start:stop], features, threshold=threshold)
-        spans = zip(*(column.tolist() for column in found), strict=True)
+        example_matches = search(knowledge.features[start:stop], features, threshold=threshold)
+        spans = zip(*(column.tolist() for column in example_matches), strict=True)
         matches += [LabelMatch(a, b, str(label), distance) for a, b, distance in spans]
     occupied = np.zeros(len(features), np.bool_)
     kept = []

@@ -91,10 +91,10 @@ def find_mutual_matches(unknown: Primitives, examples: Primitives, radius: float
     pairs, medians = _compute_medians(unknown_run * n + examples.runs[k], backward, run_sizes)
     keys = unknown.runs[u] * n + example_run
     # Keep forward matches whose pair of runs also has backward matches.
-    at = np.searchsorted(pairs, keys)
-    both = at < len(pairs)
-    both[both] = pairs[at[both]] == keys[both]
-    return u[both], example_run[both], np.maximum(forward[both], medians[at[both]])
+    positions = np.searchsorted(pairs, keys)
+    both = positions < len(pairs)
+    both[both] = pairs[positions[both]] == keys[both]
+    return u[both], example_run[both], np.maximum(forward[both], medians[positions[both]])
 
 
 def number_movements(primitives: Primitives, radius: float) -> Ints:

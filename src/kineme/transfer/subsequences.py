@@ -78,9 +78,9 @@ class Searched:
         max_cost = most * np.sqrt(2 * max(variance, STILL))
         ends = np.flatnonzero(costs <= max_cost)
         smaller = np.maximum(np.minimum(self._variances(starts[ends], ends), variance), STILL)
-        found = (costs[ends] / np.sqrt(2 * smaller)).astype(np.float32)
+        match_distances = (costs[ends] / np.sqrt(2 * smaller)).astype(np.float32)
         distances = np.full(len(costs), np.inf, np.float32)
-        distances[ends] = np.where(found <= np.float32(most), found, np.inf)
+        distances[ends] = np.where(match_distances <= np.float32(most), match_distances, np.inf)
         return distances, starts
 
     @cached_property
