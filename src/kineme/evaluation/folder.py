@@ -176,6 +176,7 @@ def evaluate_folder(
     options, others = read_options or ReadOptions(), dict(constants or {})
     for name in methods:
         check_method(name)
+    # One job for each recording and method; results arrive in any order.
     jobs = [
         Job(path, source, name, options, without, mapping == "folder", others)
         for path, source in labels.items()

@@ -133,6 +133,7 @@ def _analyze(
             features = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
         unit = compute_median_distance(features, preset.comparison_width)
         sample_frames = choose_frames(n, preset.working_fps, preset.rate)
+        # Price of a cluster in one part, as parts were segmented on their own.
         price = preset.cluster_price(len(parts[0].view))
         level = link_parts(
             features, sample_frames, [part.level for part in parts], unit=unit, price=price
