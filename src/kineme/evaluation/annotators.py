@@ -410,6 +410,7 @@ def gather_labels(
     names = [path.name for path in paths]
     labelled: dict[str, dict[str, Segmentation]] = {}
     failures: list[str] = []
+    # A failure is reported and does not affect the other recordings and people.
     for path in sorted(paths):
         found = {who: by_path[path] for who, by_path in sources.items() if path in by_path}
         if len(found) < 2:

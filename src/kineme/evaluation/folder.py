@@ -78,11 +78,11 @@ class FolderScores:
     def pool_scores(self, method: str) -> dict[str, float]:
         """Return the scores of a method over all recordings by name, and ``seconds_per_hour``."""
         good = [one for one in self.methods[method] if not one.error]
-        found = {n: pool_scores(one.results.get(n) for one in good) for n in scores() if good}
+        pooled = {n: pool_scores(one.results.get(n) for one in good) for n in scores() if good}
         length = sum(one.length_s for one in good)
         if length:
-            found["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
-        return found
+            pooled["seconds_per_hour"] = 3600 * sum(one.seconds for one in good) / length
+        return pooled
 
     def records(self) -> list[dict[str, Any]]:
         """Return one record per method and recording, then one per method over all (``*``)."""
@@ -176,6 +176,7 @@ def evaluate_folder(
     options, others = read_options or ReadOptions(), dict(constants or {})
     for name in methods:
         check_method(name)
+    # One job for each recording and method; results arrive in any order.
     jobs = [
         Job(path, source, name, options, without, mapping == "folder", others)
         for path, source in labels.items()

@@ -282,6 +282,7 @@ def pool_scores(results: Iterable[Value]) -> float:
     (0.5, 0.30000000000000004)
     """
     kept = list(results)
+    # Ratios are pooled by their sums.
     ratios = [result for result in kept if isinstance(result, Ratio)]
     if ratios:
         return Ratio(sum(r.part for r in ratios), sum(r.total for r in ratios)).value

@@ -108,15 +108,15 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
             (_find_by_names(skeleton), "by name")]  # fmt: skip
     if len({part for joints, _ in ways for part in joints}) < len(PARTS):
         ways.append((find_by_shape(skeleton.parents, _find_upright_pose(source)), "by shape"))
-    found = {part: (at, how) for joints, how in reversed(ways) for part, at in joints.items()}
-    missing = [part.replace("_", " ") for part in PARTS if part not in found]
+    found_parts = {part: (at, how) for joints, how in reversed(ways) for part, at in joints.items()}
+    missing = [part.replace("_", " ") for part in PARTS if part not in found_parts]
     if missing:
         raise EndEffectorError(
             f"{_list_words(missing)} not found among the joints "
             f"{join_names(skeleton.names, MAX_SHOWN)}; " + suggest_remedy(skeleton),
             reason=f"no {_list_words(missing, 'or')} among the joints",
         )
-    joints = [found[part][0] for part in PARTS]
+    joints = [found_parts[part][0] for part in PARTS]
     # A joint must not serve as two parts.
     if len(set(joints)) < len(PARTS):
         duplicate = next(joint for joint in joints if joints.count(joint) > 1)
@@ -124,7 +124,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
         raise EndEffectorError(
             f"{reason}; name five different joints with --effectors", reason=reason
         )
-    return EndEffectors(*joints, how=tuple(found[part][1] for part in PARTS))
+    return EndEffectors(*joints, how=tuple(found_parts[part][1] for part in PARTS))
 
 
 def suggest_remedy(skeleton: Skeleton) -> str:

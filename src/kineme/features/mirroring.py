@@ -125,10 +125,10 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
     )
     image = _reflect_rest(skeleton, places, partners)
     reflections = np.empty((skeleton.n_joints, 3, 3))
-    for joint, (other, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
+    for joint, (partner, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
         parent_reflection = np.diag(FLIP) if parent < 0 else reflections[parent]
-        if other < joint:
-            reflections[joint] = reflections[other].T
+        if partner < joint:
+            reflections[joint] = reflections[partner].T
             continue
         if joint in skeleton.end_sites:
             reflections[joint] = parent_reflection
@@ -140,20 +140,20 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
             np.sum(own_offsets**2),
         )
         if image is not None:
-            default = frames[joint].T @ image @ frames[other]
+            default = frames[joint].T @ image @ frames[partner]
         else:
             # Mean rotations determine the twist about the bone, which offsets do not.
             estimate = (
-                FIT * fit / max(size, TINY) + means[joint].T @ parent_reflection @ means[other]
+                FIT * fit / max(size, TINY) + means[joint].T @ parent_reflection @ means[partner]
             )
             default = np.diag(max(FLIPS, key=lambda flip: float(flip @ np.diag(estimate))))
         # Nearest reflection to the fit of the children, or to the default if that is ambiguous.
         u, _, v = np.linalg.svd(fit + max(TWIST * size, TINY) * default)
         reflections[joint] = u @ np.diag([1.0, 1.0, -np.linalg.det(u @ v)]) @ v
     flips = from_matrices(-reflections)
-    for joint, other in enumerate(partners):
-        if other > joint:  # exact inverse, so that mirroring twice restores the signs
-            flips[other] = -rot.conjugate(flips[joint])
+    for joint, partner in enumerate(partners):
+        if partner > joint:  # exact inverse, so that mirroring twice restores the signs
+            flips[partner] = -rot.conjugate(flips[joint])
     ends = sorted(skeleton.end_sites)
     flips[ends] = flips[[skeleton.parents[end] for end in ends]]
     return flips
@@ -164,9 +164,9 @@ def _reflect_rest(skeleton: Skeleton, places: Floats, partners: list[int]) -> Fl
 
     This happens in BVH files whose bones lie along their local axes.
     """
-    apart = places - places[partners]
+    differences = places - places[partners]
     # Normal of the mirror plane: the principal direction of the lines from left to right.
-    normal = np.linalg.eigh(apart.T @ apart)[1][:, -1]
+    normal = np.linalg.eigh(differences.T @ differences)[1][:, -1]
     if np.abs(normal).max() > UPRIGHT:
         # Bodies are modelled along an axis, apart from small differences of their sides.
         normal = np.eye(3)[np.abs(normal).argmax()]
@@ -217,7 +217,7 @@ def _find_partners(skeleton: Skeleton) -> list[int]:
     names = skeleton.names
     index = {name: joint for joint, name in enumerate(names)}
     partners = [
-        next((index[other] for other in _swap_side(name) if other in index), joint)
+        next((index[partner] for partner in _swap_side(name) if partner in index), joint)
         for joint, name in enumerate(names)
     ]
     if partners == list(range(len(names))):
@@ -225,10 +225,10 @@ def _find_partners(skeleton: Skeleton) -> list[int]:
             f"no two joints are named as left and right of each other: {', '.join(names)}"
         )
     for joint, parent in enumerate(skeleton.parents):
-        other = partners[joint]
-        beside = skeleton.parents[other]
+        partner = partners[joint]
+        beside = skeleton.parents[partner]
         # Parents of partners must be partners, too, or mirrored limbs would be torn apart.
-        if partners[other] != joint or beside != (partners[parent] if parent >= 0 else -1):
+        if partners[partner] != joint or beside != (partners[parent] if parent >= 0 else -1):
             raise MotionError(
                 f"joint {names[joint]!r} has no counterpart on the other side of the body"
             )

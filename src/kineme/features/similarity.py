@@ -89,9 +89,9 @@ def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) 
     [483, 242]
     """
     try:
-        found = end_effectors(motion, names=effectors)
-        values = pose_features(motion, effectors=found)
-        values /= BODY_SCALE * measure_body_size(motion, found)
+        ends = end_effectors(motion, names=effectors)
+        values = pose_features(motion, effectors=ends)
+        values /= BODY_SCALE * measure_body_size(motion, ends)
     except MotionError:
         motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
         values = _measure_distances(motion)
@@ -199,10 +199,10 @@ def _stack_levels(values: Floats, fps: float, seconds: float) -> SimilarityMatri
 
 def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
     """Interpolate values at times in seconds; frame i is at (i + 0.5) / fps."""
-    at = np.clip(times * fps - 0.5, 0, len(values) - 1)
-    before = np.floor(at).astype(np.intp)
+    positions = np.clip(times * fps - 0.5, 0, len(values) - 1)
+    before = np.floor(positions).astype(np.intp)
     after = np.minimum(before + 1, len(values) - 1)
-    share = (at - before)[:, None]
+    share = (positions - before)[:, None]
     return np.asarray((1 - share) * values[before] + share * values[after])
 
 

@@ -61,14 +61,14 @@ def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
         return {}
     # The legs end lower than the arms.
     legs, arms = sorted(pairs, key=lambda pair: float(pose[[limb.end for limb in pair], 1].sum()))
-    found = _find_head(parents, arms, paths, lengths)
+    joints = _find_head(parents, arms, paths, lengths)
     left = _find_left(legs, pose)
     if left is not None:
         for part, pair in (("ankle", legs), ("wrist", arms)):
             # Sorted along the direction to the left, the right limb comes first.
             right_limb, left_limb = sorted(pair, key=lambda limb: float(pose[limb.top] @ left))
-            found |= {f"left_{part}": left_limb.end, f"right_{part}": right_limb.end}
-    return found
+            joints |= {f"left_{part}": left_limb.end, f"right_{part}": right_limb.end}
+    return joints
 
 
 def _find_longest_paths(
@@ -121,9 +121,9 @@ def _pair_limbs(
     if np.abs(bones[0] - bones[1]).sum() > _SAME_LENGTH * bones[0].sum():
         return None
     # Bones such as clavicles begin at the same place on both sides.
-    apart = np.any(pose[starts[0]] != pose[starts[1]], axis=1)
+    is_separate = np.any(pose[starts[0]] != pose[starts[1]], axis=1)
     # The two longest bones, in order down the limb; at ties the upper ones.
-    long_bones = np.sort(np.argsort(-(bones[0] * apart), kind="stable")[:2])
+    long_bones = np.sort(np.argsort(-(bones[0] * is_separate), kind="stable")[:2])
     first, second = (long_bones[0], long_bones[-1])
     left_and_right = [
         _Limb(parents[path[0]], path[0], parents[path[first]], path[second], path[-1], length)

@@ -38,8 +38,8 @@ def _list_doubtful_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
         border = float(columns["border_confidence"][row])
         cluster = float(columns["confidence"][row])
         if border < MIN_CONFIDENCE:
-            at = columns["start_frame"][row] / fps
-            yield border, _append_confidence(f"look at the border at {at:.2f} s", border)
+            start_s = columns["start_frame"][row] / fps
+            yield border, _append_confidence(f"look at the border at {start_s:.2f} s", border)
         if cluster < MIN_CONFIDENCE:
             where = _format_span(columns, row, fps)
             yield (

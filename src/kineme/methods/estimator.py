@@ -123,6 +123,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         signals, frames = self._read(X, reset=True)
         result = self._choose(self._segment(signals))
         states = _fill_states(result, self.level, signals)
+        # Rows of X may differ from frames if times are uneven.
         starts = result.rows().get("start_row", result.table.start_frame)
         starts = np.unique(starts[result.table.level == self.level])
         self.segmentation_ = result
@@ -249,7 +250,9 @@ def _get_constants(preset: str | Preset) -> Mapping[str, Any]:
 def _fill_states(result: Segmentation, level: Level, signals: Signals) -> Ints:
     """Return the state of each frame: its cluster; see `Segmenter.labels_`."""
     states = result.per_frame("cluster", level=level).astype(np.int64)
+    # All transitions (-1) form one additional state.
     states[states < 0] = states.max() + 1
+    # Gaps take the state before them, or after them at the start.
     for start, stop in signals.gaps:
         states[start:stop] = states[start - 1] if start else states[min(stop, len(states) - 1)]
     return states

@@ -99,6 +99,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
             f"a preset is a name or a Preset, not {type(preset).__name__}: "
             f"there are {', '.join(PRESETS)}"
         )
+    # A constant of another method gets a specific message.
     for name in overrides:
         others = [other for other, candidate in PRESETS.items() if hasattr(candidate, name)]
         if others and not hasattr(chosen, name):

@@ -479,6 +479,7 @@ def convert_to_frames(
         last = first + span.n_samples
         begin = np.maximum(columns["start_frame"], first)
         end = np.minimum(columns["stop_frame"], last)
+        # Move borders near a gap to it; the outer ends of the recording have no gap.
         for borders in (begin, end):
             inner = (first < borders) & (borders < last)
             if k + 1 < len(spans):

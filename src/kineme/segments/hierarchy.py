@@ -80,17 +80,20 @@ class Hierarchy:
         -------
         Hierarchy
         """
-        kept = [DEFAULT_DETAIL]
+        kept_details = [DEFAULT_DETAIL]
         for detail in sorted(each for each in tables if each > DEFAULT_DETAIL):
-            if not _have_same_spans(tables[detail], tables[kept[-1]]):
-                kept.append(detail)
+            if not _have_same_spans(tables[detail], tables[kept_details[-1]]):
+                kept_details.append(detail)
         for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
             # Of two equal neighbours the coarser is kept, except if the finer is detail 1.
-            if _have_same_spans(tables[detail], tables[kept[0]]) and kept[0] < DEFAULT_DETAIL:
-                kept[0] = detail
-            elif not _have_same_spans(tables[detail], tables[kept[0]]):
-                kept.insert(0, detail)
-        return cls(tuple(kept), tuple(tables[detail] for detail in kept))
+            if (
+                _have_same_spans(tables[detail], tables[kept_details[0]])
+                and kept_details[0] < DEFAULT_DETAIL
+            ):
+                kept_details[0] = detail
+            elif not _have_same_spans(tables[detail], tables[kept_details[0]]):
+                kept_details.insert(0, detail)
+        return cls(tuple(kept_details), tuple(tables[detail] for detail in kept_details))
 
     @property
     def table(self) -> SegmentTable:
@@ -116,8 +119,8 @@ class Hierarchy:
         """
         check_detail(detail)
         # The factor tolerates rounding errors of the requested detail.
-        place = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
-        return Hierarchy(self.details, self.tables, self.details[max(0, int(place))])
+        index = np.searchsorted(self.details, detail * (1 + 1e-9), side="right") - 1
+        return Hierarchy(self.details, self.tables, self.details[max(0, int(index))])
 
     def borders(self, level: Level = "activity") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Return the borders of the finest table, and the coarsest detail that has each.
@@ -140,8 +143,10 @@ class Hierarchy:
 
     def __repr__(self) -> str:
         n = len(self.details)
-        of = f"{format_count(n, 'detail')} from {self.details[0]:g} to {self.details[-1]:g}"
-        return f"<Hierarchy of {of}, {self.detail:g} is looked at>"
+        details_text = (
+            f"{format_count(n, 'detail')} from {self.details[0]:g} to {self.details[-1]:g}"
+        )
+        return f"<Hierarchy of {details_text}, {self.detail:g} is looked at>"
 
 
 def check_detail(detail: object) -> None:

@@ -85,6 +85,7 @@ def make_page(title: str, timelines: Sequence[Rows], rows: Rows) -> str:
         start = min(float(table.start_s.min()) for table in shown)
         stop = max(float(table.stop_s.max()) for table in shown)
         picture = draw_timeline(shown, start, stop)
+    # Long tables are cut.
     more = len(rows) - FIRST_ROWS
     below = f"<p>and {more} more</p>" if more > 0 else ""
     return f"<div><p>{escape(title)}</p>{picture}{_make_rows(rows)}{below}</div>"

@@ -302,9 +302,9 @@ class SegmentTable:
 
     def __repr__(self) -> str:
         n = len(self)
-        of = f"{format_count(n, 'segment')}"
+        count = f"{format_count(n, 'segment')}"
         span = f", {self.start_s.min():.2f} to {self.stop_s.max():.2f} s" if n else ""
-        return f"<SegmentTable of {of}{span}>"
+        return f"<SegmentTable of {count}{span}>"
 
     def _repr_html_(self) -> str:
         from kineme.segments.html import make_page
@@ -315,6 +315,7 @@ class SegmentTable:
 
 def make_segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentTable:
     """Create a table from columns in any row order; see `Segmentation.from_columns`."""
+    # Derived columns are computed below.
     needed = {name: column for name, column in COLUMNS.items() if not column.derived}
     for name, column in needed.items():
         if column.default is None and name not in columns:
@@ -331,6 +332,7 @@ def make_segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentT
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
     arrays = _compute_derived(arrays, fps) | arrays
     arrays["kind"] = choose_kinds(arrays["level"], arrays["kind"])
+    # `lexsort` sorts by the last key first: level, then start, then stop.
     order = np.lexsort((arrays["stop_frame"], arrays["start_frame"], arrays["level"]))
     return SegmentTable(**{name: arrays[name][order] for name in COLUMNS})
 
@@ -349,6 +351,7 @@ def _compute_derived(arrays: Mapping[str, NDArray[Any]], fps: float) -> dict[str
     start = arrays["start_frame"]
     activities = np.flatnonzero(arrays["level"] == "activity")
     activities = activities[np.argsort(start[activities], kind="stable")]
+    # Activity of each row: the last one that begins at or before it.
     enclosing = np.searchsorted(start[activities], start, side="right") - 1
     clusters = np.append(arrays["cluster"][activities], -1)  # appended for index -1
     return {

@@ -50,14 +50,14 @@ def compute_channel_samples(signals: Signals) -> ChannelSamples:
     for first, stop in signals.spans():
         values = signals.values[first:stop]
         n = len(values)
-        at = np.arange(0, n, signals.fps / RATE).astype(np.int64)
-        spans = np.maximum(at - half, 0), np.minimum(at + half, n)
+        frames = np.arange(0, n, signals.fps / RATE).astype(np.int64)
+        spans = np.maximum(frames - half, 0), np.minimum(frames + half, n)
         # Centre first: cumulative sums of a large offset would lose precision.
         middle = values.mean(axis=0)
         means = _compute_means(values - middle, *spans)
         squares = _compute_means((values - middle) ** 2, *spans)
         deviations = np.sqrt(np.maximum(squares - means**2, 0.0))
-        parts.append(np.column_stack([(first + at) / signals.fps, means + middle, deviations]))
+        parts.append(np.column_stack([(first + frames) / signals.fps, means + middle, deviations]))
     return ChannelSamples(tuple(signals.names), np.concatenate(parts))
 
 

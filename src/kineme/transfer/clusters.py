@@ -140,7 +140,7 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
     The typical segment is the repetition of median length, or else the activity.
     """
     active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
-    found = []
+    local_clusters = []
     for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
         members = np.flatnonzero((table.cluster == cluster) & active)
         repeated = members[finer[members]]
@@ -160,8 +160,8 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
         example = middle - half, middle + half
         context = max(first, middle - reach), min(last, middle + reach)
         typical = row, start_s, stop_s
-        found.append(LocalCluster(recording, cluster, *typical, spans, example, context))
-    return found
+        local_clusters.append(LocalCluster(recording, cluster, *typical, spans, example, context))
+    return local_clusters
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,8 +217,8 @@ def link_clusters(
         # Sort each cluster by spread; the first few members represent it.
         order = np.lexsort((linked.spread, linked.cluster))
         ordered = linked.cluster[order]
-        place = np.arange(len(order)) - np.searchsorted(ordered, ordered)
-        chosen = order[place < constants.typical]
+        rank = np.arange(len(order)) - np.searchsorted(ordered, ordered)
+        chosen = order[rank < constants.typical]
         typical = Representatives(clusters.select(sample[chosen]), linked.cluster[chosen])
         for first in range(0, len(others), BLOCK):
             block = others[first : first + BLOCK]
@@ -292,9 +292,9 @@ def _are_apart(
     silhouettes = []
     for group, other in ((ones, others), (others, ones)):
         # Divide by size - 1: the distance of a member to itself is 0.
-        own = distances[np.ix_(group, group)].sum(axis=1) / (len(group) - 1)
-        away = distances[np.ix_(group, other)].mean(axis=1)
-        silhouettes += ((away - own) / np.maximum(np.maximum(away, own), 1e-9)).tolist()
+        within = distances[np.ix_(group, group)].sum(axis=1) / (len(group) - 1)
+        between = distances[np.ix_(group, other)].mean(axis=1)
+        silhouettes += ((between - within) / np.maximum(np.maximum(between, within), 1e-9)).tolist()
     return float(np.mean(silhouettes)) > constants.apart
 
 
@@ -310,29 +310,29 @@ def assign(
 ) -> Assignment:
     """Return the nearest cluster of each local cluster, -1 if none is within the threshold."""
     # Compare only with the representatives of the clusters with the nearest embeddings.
-    near = np.zeros((len(clusters.local), len(typical.cluster)), np.bool_)
+    is_near = np.zeros((len(clusters.local), len(typical.cluster)), np.bool_)
     for row, embedding in enumerate(clusters.embeddings):
-        apart = ((typical.clusters.embeddings - embedding) ** 2).sum(axis=1)
-        order = typical.cluster[np.argsort(apart, kind="stable")].tolist()
-        near[row] = np.isin(typical.cluster, list(dict.fromkeys(order))[: constants.nearest])
-    distances = measure_distances(clusters, typical.clusters, near)
+        distances_to = ((typical.clusters.embeddings - embedding) ** 2).sum(axis=1)
+        order = typical.cluster[np.argsort(distances_to, kind="stable")].tolist()
+        is_near[row] = np.isin(typical.cluster, list(dict.fromkeys(order))[: constants.nearest])
+    distances = measure_distances(clusters, typical.clusters, is_near)
     same = clusters.recording[:, None] == typical.clusters.recording
-    distances = np.where(near, np.where(same, SAME_RECORDING, distances), 0.0)
+    distances = np.where(is_near, np.where(same, SAME_RECORDING, distances), 0.0)
     members = np.eye(int(typical.cluster.max()) + 1)[typical.cluster]
-    counts = near @ members
+    counts = is_near @ members
     means = np.where(counts > 0, distances @ members / np.maximum(counts, 1), np.inf)
     least = means.min(axis=1)
-    found = _compare_with_next(means.argmin(axis=1), least, means)
-    return found._replace(cluster=np.where(least <= constants.join, found.cluster, -1))
+    assignment = _compare_with_next(means.argmin(axis=1), least, means)
+    return assignment._replace(cluster=np.where(least <= constants.join, assignment.cluster, -1))
 
 
 def _compare_with_next(cluster: Ints, spread: Floats, distances: Floats) -> Assignment:
     """Add next cluster and confidence, from distances (n, clusters), inf if not compared."""
     others = distances.copy()
     others[np.arange(len(cluster)), cluster] = np.inf
-    least = others.min(axis=1)
-    following = np.where(np.isinf(least), -1, others.argmin(axis=1))
-    confidence = np.clip(1 - spread / np.maximum(least, 1e-9), 0, 1)
+    nearest = others.min(axis=1)
+    following = np.where(np.isinf(nearest), -1, others.argmin(axis=1))
+    confidence = np.clip(1 - spread / np.maximum(nearest, 1e-9), 0, 1)
     return Assignment(cluster, following, np.where(following < 0, np.nan, confidence), spread)
 
 
@@ -440,8 +440,8 @@ def fit_centres(points: Float32s, n_clusters: int) -> tuple[Float32s, float]:
 
     count = min(n_clusters, len(np.unique(points, axis=0)))
     with threadpool_limits(1):  # so that sums do not depend on the number of cores
-        found = KMeans(count, n_init=N_STARTS, random_state=0).fit(points)
-    return found.cluster_centers_, float(found.inertia_)
+        model = KMeans(count, n_init=N_STARTS, random_state=0).fit(points)
+    return model.cluster_centers_, float(model.inertia_)
 
 
 def estimate_n_clusters(points: Float32s) -> int:

@@ -221,10 +221,12 @@ class KnowledgeBase:
                 f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"
             )
         rows = _select_labelled(segments)
+        # Features have their own rate, so spans are converted to it.
         features = matching_features(motion, effectors=effectors)
         starts, stops = find_working_frames(rows, segments.fps, len(features))
         source = motion.provenance
         path, digest = source.path, source.sha256
+        # Several people in one file are distinct sources.
         if digest and len(source.people) > 1:
             digest = f"{digest} {source.person}"
         return cls(
@@ -248,6 +250,7 @@ class KnowledgeBase:
         """
         if not bases:
             raise ParameterError("nothing to merge: give at least one knowledge base")
+        # Drop primitives whose recording is also in a later knowledge base.
         kept = []
         for number, base in enumerate(bases):
             later = {d for other in bases[number + 1 :] for d in set(other.digests.tolist()) if d}
@@ -298,6 +301,7 @@ class KnowledgeBase:
 
     def primitives(self) -> Primitives:
         """Return the primitives for matching; adjacent ones with the same label form a run."""
+        # A run continues if neighbours are adjacent and equal in these columns.
         follows = self.start_s[1:] == self.stop_s[:-1]
         for column in (self.labels, self.sources, self.digests):
             follows &= column[1:] == column[:-1]
@@ -314,6 +318,7 @@ class KnowledgeBase:
 
 def _select_labelled(segments: Segmentation) -> SegmentTable:
     """Return the labelled rows of a segmentation: primitives, or else activities."""
+    # Primitives inherit the label of their activity.
     rows = segments.primitives
     if len(rows):
         inherited = segments.activities.label[rows.activity]

@@ -55,8 +55,8 @@ def find_by_search(
     borders = np.concatenate([[0], np.cumsum(knowledge.lengths)])
     matches: list[LabelMatch] = []
     for label, start, stop in zip(knowledge.labels, borders[:-1], borders[1:], strict=True):
-        found = search(knowledge.features[start:stop], features, threshold=threshold)
-        spans = zip(*(column.tolist() for column in found), strict=True)
+        example_matches = search(knowledge.features[start:stop], features, threshold=threshold)
+        spans = zip(*(column.tolist() for column in example_matches), strict=True)
         matches += [LabelMatch(a, b, str(label), distance) for a, b, distance in spans]
     occupied = np.zeros(len(features), np.bool_)
     kept = []
@@ -83,6 +83,7 @@ def segment_by_matches(segmentation: Segmentation, matches: list[LabelMatch]) ->
         primitives.append((start, stop, match.label))
     activities: list[Row] = []
     for start, stop, label in primitives:
+        # Adjacent primitives with the same label extend the activity.
         follows = bool(activities) and activities[-1][1:] == (start, label)
         activities.append((activities.pop()[0] if follows else start, stop, label))
     names = {label: number for number, label in enumerate(sorted({row[2] for row in activities}))}
@@ -188,6 +189,7 @@ def transfer_labels(
     table = segmentation.table
     if not ((table.kind != "transition") | (table.label != "")).any():
         return _search_labels(segmentation, features, knowledge, threshold, spread=spread)
+    # Work on one level; activities then follow from their primitives.
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     rows = segmentation.level(level)
     labels = rows.label.astype(object)
@@ -285,6 +287,7 @@ def _choose_cheapest(
     costs: Floats, names: NDArray[np.str_], threshold: float
 ) -> tuple[NDArray[Any], Floats, Floats]:
     """Return label, margin and cost of each row; empty and nan if none is within the threshold."""
+    # Cheapest label, and the cost of the next cheapest.
     best = costs.argmin(axis=1)
     cost = costs[np.arange(len(costs)), best]
     others = costs.copy()
@@ -347,6 +350,7 @@ def _label_activities(segmentation: Segmentation, labels: NDArray[Any]) -> list[
 
 def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
     array = as_floats(features, "features")
+    # Tolerate two samples, for rounding of the rate and the length.
     expected = segmentation.n_frames * FPS / segmentation.fps
     if array.ndim != 2 or abs(len(array) - expected) > 2:
         raise ParameterError(

@@ -91,10 +91,10 @@ def find_mutual_matches(unknown: Primitives, examples: Primitives, radius: float
     pairs, medians = _compute_medians(unknown_run * n + examples.runs[k], backward, run_sizes)
     keys = unknown.runs[u] * n + example_run
     # Keep forward matches whose pair of runs also has backward matches.
-    at = np.searchsorted(pairs, keys)
-    both = at < len(pairs)
-    both[both] = pairs[at[both]] == keys[both]
-    return u[both], example_run[both], np.maximum(forward[both], medians[at[both]])
+    positions = np.searchsorted(pairs, keys)
+    both = positions < len(pairs)
+    both[both] = pairs[positions[both]] == keys[both]
+    return u[both], example_run[both], np.maximum(forward[both], medians[positions[both]])
 
 
 def number_movements(primitives: Primitives, radius: float) -> Ints:
@@ -118,6 +118,7 @@ def _find_matches(
 
     def match_one(p: np.int64) -> tuple[Ints, Floats]:
         costs, _ = warp(features[starts[p] : starts[p + 1]], separated)
+        # Cheapest warping that ends in each run.
         cheapest = np.minimum.reduceat(costs, first)
         runs = np.flatnonzero(cheapest <= radius)
         return runs, cheapest[runs].astype(np.float64)
@@ -131,6 +132,7 @@ def _find_matches(
 
 def _append_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
     """Append a separator to each run; return the features and the start of each run in them."""
+    # Each frame is shifted by the number of separators before it: its run.
     frames = np.arange(len(primitives.frame_runs)) + primitives.frame_runs
     n_runs = int(primitives.runs[-1]) + 1
     separated = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)

@@ -148,6 +148,7 @@ def assign_to_labels(
 def _share_by_search(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
+    # Features for the search, and poses for embeddings.
     described = [compute_features_and_poses(motion) for motion in motions]
     local = [
         each
@@ -168,6 +169,7 @@ def _share_by_search(
     clusters = ClusterSet(local, np.array(embeddings), load)
     constants = replace(CONSTANTS, join=threshold)
     keys = [str(number) for number in range(len(motions))]
+    # Common cluster of each local cluster, as a renumbering of each recording.
     shared = link_clusters(clusters, keys, constants).cluster.tolist()
     numbers: list[dict[int, int]] = [{} for _ in motions]
     for each, cluster in zip(local, shared, strict=True):
@@ -175,6 +177,7 @@ def _share_by_search(
     result = [renumber_clusters(*each) for each in zip(segmentations, numbers, strict=True)]
     if not result:
         return result
+    # Clusters of the first recording keep the numbers that they had.
     first = segmentations[0].table
     kept_numbers = keep_numbers(
         {0: list_spans(first.columns(), first.cluster)},
@@ -211,6 +214,7 @@ def share_by_samples(
     shared = list(segmentations)
     for i, clusters in zip(order, parts, strict=True):
         found, table = segmentations[i], segmentations[i].table
+        # Rows of both levels take the cluster of their activity, except transitions.
         action = np.where(found.activities.kind == "activity", clusters, -1)[table.activity]
         cluster = np.where(table.kind != "transition", action, -1)
         changed = table.with_columns(cluster=cluster, action=action)

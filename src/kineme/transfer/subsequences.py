@@ -78,9 +78,9 @@ class Searched:
         max_cost = most * np.sqrt(2 * max(variance, STILL))
         ends = np.flatnonzero(costs <= max_cost)
         smaller = np.maximum(np.minimum(self._variances(starts[ends], ends), variance), STILL)
-        found = (costs[ends] / np.sqrt(2 * smaller)).astype(np.float32)
+        match_distances = (costs[ends] / np.sqrt(2 * smaller)).astype(np.float32)
         distances = np.full(len(costs), np.inf, np.float32)
-        distances[ends] = np.where(found <= np.float32(most), found, np.inf)
+        distances[ends] = np.where(match_distances <= np.float32(most), match_distances, np.inf)
         return distances, starts
 
     @cached_property
@@ -144,6 +144,7 @@ def search(
     if top is not None and not (is_number(top) and top >= 1):
         raise ParameterError(f"top must be a whole number above 0, not {top!r:.60}")
     distances, starts = Searched(recording).distances(example, most=threshold)
+    # Choose matches that do not overlap greedily, the nearest first.
     ends = np.flatnonzero(np.isfinite(distances))
     ends = ends[np.argsort(distances[ends], kind="stable")]
     chosen = np.empty(len(ends), np.int64)
@@ -165,6 +166,7 @@ def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np
     costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)
     sums = np.full((3, m + 1), np.inf, np.float32)
     begins, rows = np.zeros((3, m + 1), np.int32), np.zeros((2, m), np.float32)
+    # |x - y|² = |x|² + |y|² - 2 x·y, by a matrix product for each block of samples.
     twice, example_squares = -2 * short.T, _sum_squares(short)
     for first in range(0, n, BLOCK):
         part, span = long[first : first + BLOCK], slice(first, first + BLOCK)

@@ -63,12 +63,12 @@ def match_canonical_joints(motion: Motion, *, effectors: Names | None = None) ->
     """
     check_motion(motion, "canonical_joints")
     ends = end_effectors(motion, names=effectors)
-    found = find_limbs(motion.skeleton, dict(zip(PARTS, ends.indices, strict=True)))
-    found["head"] = (ends.head,)
+    joints = find_limbs(motion.skeleton, dict(zip(PARTS, ends.indices, strict=True)))
+    joints["head"] = (ends.head,)
     for side in SIDES:
-        if f"{side}_hip" not in found:
+        if f"{side}_hip" not in joints:
             raise MotionError(f"the {side} leg has no hip: nothing joins it to a pelvis")
-    return {joint: found[joint] for joint in JOINTS if joint in found}
+    return {joint: joints[joint] for joint in JOINTS if joint in joints}
 
 
 def find_limbs(
@@ -85,7 +85,7 @@ def find_limbs(
         Return only joints that are a single point, not the mean of several.
     """
     named = find_joints(skeleton.names, _NAMED, single=single)
-    found: dict[str, Points] = {}
+    joints: dict[str, Points] = {}
     for top, middle, end in LIMBS:
         tips = [
             ends.get(joint, named.get(joint, (-1,))[0]) for joint in (f"left_{end}", f"right_{end}")
@@ -99,8 +99,8 @@ def find_limbs(
                 joint = f"{side}_{part}"
                 points = (index,) if index >= 0 else named.get(joint)
                 if points:
-                    found[joint] = points
-    return found
+                    joints[joint] = points
+    return joints
 
 
 def _find_top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int]:

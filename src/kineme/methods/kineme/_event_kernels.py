@@ -220,14 +220,14 @@ def count_recurrences(
         begin, end = round(partners[base + low]), round(partners[base + high - 1]) + 1
         # The partner must lie outside the span and have at least half of its length.
         if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
-            place = n  # insertion sort by descending gain
-            while place > 0 and gains[place - 1] < score:
+            position = n  # insertion sort by descending gain
+            while position > 0 and gains[position - 1] < score:
                 for column in range(4):
-                    spans[place, column] = spans[place - 1, column]
-                gains[place] = gains[place - 1]
-                place -= 1
-            spans[place, 0], spans[place, 1], gains[place] = begin, end, score
-            spans[place, 2], spans[place, 3] = low, high
+                    spans[position, column] = spans[position - 1, column]
+                gains[position] = gains[position - 1]
+                position -= 1
+            spans[position, 0], spans[position, 1], gains[position] = begin, end, score
+            spans[position, 2], spans[position, 3] = low, high
             n += 1
     # Keep the recurrences with the largest gains that do not overlap and are free.
     total, count = 0.0, 0

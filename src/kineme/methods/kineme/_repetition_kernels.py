@@ -84,26 +84,26 @@ def find_dips(distances, least):
             turns[n] = turns[t]
             n += 1
             while n > 3:
-                at, climb = n - 3, abs(row[turns[n - 2]] - row[turns[n - 3]])
+                turn, climb = n - 3, abs(row[turns[n - 2]] - row[turns[n - 3]])
                 before = abs(row[turns[n - 3]] - row[turns[n - 4]])
                 if climb >= before or climb >= abs(row[turns[n - 1]] - row[turns[n - 2]]):
                     break
-                depths_found[count], columns_found[count] = climb, turns[at + at % 2]
+                depths_found[count], columns_found[count] = climb, turns[turn + turn % 2]
                 count += 1
-                turns[at] = turns[n - 1]
+                turns[turn] = turns[n - 1]
                 n -= 2
         while n > 1:
             # The smallest climb is the depth of the shallowest dip: remove its minimum and maximum.
-            at, climb = 0, FAR
+            turn, climb = 0, FAR
             for t in range(n - 1):
                 if abs(row[turns[t + 1]] - row[turns[t]]) < climb:
-                    at, climb = t, abs(row[turns[t + 1]] - row[turns[t]])
+                    turn, climb = t, abs(row[turns[t + 1]] - row[turns[t]])
             # For an odd turn, a maximum, remove the minimum that follows it.
-            depths_found[count], columns_found[count] = climb, turns[at + at % 2]
+            depths_found[count], columns_found[count] = climb, turns[turn + turn % 2]
             count += 1
             n -= 2
             # Close the gap of two turns.
-            for t in range(at, n):
+            for t in range(turn, n):
                 turns[t] = turns[t + 2]
         # The last minimum is the deepest dip; its depth is the range of the row.
         top = row[0]
@@ -111,11 +111,11 @@ def find_dips(distances, least):
             top = max(top, row[c])
         depths_found[count], columns_found[count] = top - row[turns[0]], turns[0]
         # Sort by depth, and leave out dips at the ends of the row.
-        place = 0
+        rank = 0
         for i in np.argsort(-depths_found, kind="mergesort"):
             if depths_found[i] >= least[r] and 0 < columns_found[i] < columns - 1:
-                depths[r, place], lowest[r, place] = depths_found[i], columns_found[i]
-                place += 1
+                depths[r, rank], lowest[r, rank] = depths_found[i], columns_found[i]
+                rank += 1
     return depths, lowest
 
 
@@ -223,11 +223,11 @@ def find_upper_median(values):
     ordered = np.empty(len(values))
     # Insertion sort: a division has few repetitions.
     for k in range(len(values)):
-        place = k
-        while place > 0 and ordered[place - 1] > values[k]:
-            ordered[place] = ordered[place - 1]
-            place -= 1
-        ordered[place] = values[k]
+        position = k
+        while position > 0 and ordered[position - 1] > values[k]:
+            ordered[position] = ordered[position - 1]
+            position -= 1
+        ordered[position] = values[k]
     return ordered[len(values) // 2]
 
 

@@ -44,7 +44,7 @@ def measure_near_distances(features, chosen, width):
                 break
             count += 1
     distances = np.empty(count)
-    at = 0
+    pair = 0
     for i in range(len(chosen)):
         for j in range(i + 1, len(chosen)):
             if chosen[j] - chosen[i] >= width:
@@ -53,8 +53,8 @@ def measure_near_distances(features, chosen, width):
             for d in range(features.shape[1]):
                 difference = np.float64(features[chosen[i], d]) - features[chosen[j], d]
                 square += difference * difference
-            distances[at] = np.sqrt(square)
-            at += 1
+            distances[pair] = np.sqrt(square)
+            pair += 1
     return distances
 
 
@@ -134,15 +134,15 @@ def _measure_distance(sums, lengths, g, h, spread_share):
     "void(float64[:, ::1], float64[::1], int64[::1], int64, float64, int64[::1], float64[::1])",
     **OPTIONS,
 )
-def _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart):
-    """Set ``nearest[g]`` to the cluster nearest to cluster g, and ``apart[g]`` to its distance."""
-    apart[g] = np.inf
+def _find_nearest(sums, lengths, owner, g, spread_share, nearest, gaps):
+    """Set ``nearest[g]`` to the cluster nearest to cluster g, and ``gaps[g]`` to its distance."""
+    gaps[g] = np.inf
     # A cluster exists while it owns itself.
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
             distance = _measure_distance(sums, lengths, g, h, spread_share)
-            if distance < apart[g]:
-                apart[g] = distance
+            if distance < gaps[g]:
+                gaps[g] = distance
                 nearest[g] = h
 
 
@@ -162,9 +162,9 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
     k = len(lengths)
     owner = np.arange(k)
     nearest = np.zeros(k, np.int64)
-    apart = np.full(k, np.inf)
+    gaps = np.full(k, np.inf)
     for g in range(k):
-        _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
+        _find_nearest(sums, lengths, owner, g, spread_share, nearest, gaps)
     cheapest = np.inf
     for clusters in range(k, 0, -1):
         # Cost of this grouping.
@@ -183,13 +183,13 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
         if clusters == 1:
             break
         # Merge the two nearest clusters, h into g; the smaller number stays the owner.
-        g = int(np.argmin(apart))
+        g = int(np.argmin(gaps))
         h = nearest[g]
         if h < g:
             g, h = h, g
         lengths[g] += lengths[h]
         # h is gone: it is never chosen by `argmin` again.
-        apart[h] = np.inf
+        gaps[h] = np.inf
         for other in range(k):
             sums[g, other] += sums[h, other]
             if owner[other] == h:
@@ -197,15 +197,15 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
         for other in range(k):
             sums[other, g] += sums[other, h]
         # Only distances to g have changed.
-        _find_nearest(sums, lengths, owner, g, spread_share, nearest, apart)
+        _find_nearest(sums, lengths, owner, g, spread_share, nearest, gaps)
         for other in range(k):
             if owner[other] != other or other == g:
                 continue
             if nearest[other] in (g, h):
-                _find_nearest(sums, lengths, owner, other, spread_share, nearest, apart)
+                _find_nearest(sums, lengths, owner, other, spread_share, nearest, gaps)
                 continue
             distance = _measure_distance(sums, lengths, other, g, spread_share)
-            if distance < apart[other]:  # a union can be nearer than both of its parts
-                apart[other] = distance
+            if distance < gaps[other]:  # a union can be nearer than both of its parts
+                gaps[other] = distance
                 nearest[other] = g
     return cheapest

@@ -117,8 +117,8 @@ def collect_evidence(
 
     map_threads(correlate, np.unique(parents[repeats]).tolist())
     # Inner borders in samples of the view.
-    at = np.rint(segments.borders[1:-1] / (preset.working_fps / preset.rate)).astype(np.int64)
-    sharpness = compute_sharpness(view, at, max(1, round(preset.samples(SIDE))))
+    borders = np.rint(segments.borders[1:-1] / (preset.working_fps / preset.rate)).astype(np.int64)
+    sharpness = compute_sharpness(view, borders, max(1, round(preset.samples(SIDE))))
     return Evidence(
         np.log(seconds * np.maximum(segments.preference, MIN_PREFERENCE)),
         np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS))),
@@ -162,8 +162,8 @@ def compute_changes(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
     """Return the energy distance between the `side` samples before and after some samples."""
     # Cumulative sums along both axes give the sum over any block from four values.
     sums = np.zeros((len(view) + 1, len(view) + 1))
-    apart = view[:, None].astype(np.float64) - view
-    sums[1:, 1:] = np.linalg.norm(apart, axis=2).cumsum(axis=0).cumsum(axis=1)
+    differences = view[:, None].astype(np.float64) - view
+    sums[1:, 1:] = np.linalg.norm(differences, axis=2).cumsum(axis=0).cumsum(axis=1)
     starts, stops = np.maximum(at - side, 0), np.minimum(at + side, len(view))
 
     def average(low: Frames, high: Frames, left: Frames, right: Frames) -> Floats:

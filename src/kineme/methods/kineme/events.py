@@ -183,14 +183,16 @@ def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstan
     # Movement time is the integral of the relative speed; its inverse gives the sampled frames.
     rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(speeds.mean(), 1e-12)
     time = np.append(0, np.cumsum(rates))
-    at = np.interp(np.arange(0, time[-1], _count_step_frames(preset)), time, np.arange(n + 1))
-    edges = np.append(np.minimum(at.astype(np.int64), n - 1), n)
+    positions = np.interp(
+        np.arange(0, time[-1], _count_step_frames(preset)), time, np.arange(n + 1)
+    )
+    edges = np.append(np.minimum(positions.astype(np.int64), n - 1), n)
     spans = np.column_stack([edges[:-1], edges[1:]])
     kept = np.flatnonzero(free[spans[:, 0]])
     # A free span begins where the indices of free samples have a gap.
     begins = np.diff(kept, prepend=-2) > 1
     rows = np.hstack([poses, preset.event_velocity * velocities])[spans[kept, 0]]
-    seconds = np.diff(at, append=n)[kept] / _count_step_frames(preset)
+    seconds = np.diff(positions, append=n)[kept] / _count_step_frames(preset)
     return _Samples(np.ascontiguousarray(rows.T), spans[kept], seconds, begins)
 
 

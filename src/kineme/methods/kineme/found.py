@@ -119,6 +119,7 @@ class KinemeFound:
         frames = np.rint(borders * per_sample).astype(np.int64)
         # Default borders are known to the frame.
         frames[np.searchsorted(borders, coarse)] = self.borders
+        # Cluster at detail 1 of the default segment that contains each fine one.
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
         return FineSegments(borders, np.arange(len(parents)), parents, sums), frames

@@ -162,8 +162,8 @@ def compare_sides(
     evenness = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
     if evenness < preset.same_set or score_one_movement(centered, preset) < MIN_ONE_MOVEMENT:
         return 0.0
-    near = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
-    beside, across = compare_at_border(near, min(before, N_COMPARED), preset.centering)
+    compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
+    beside, across = compare_at_border(compared, min(before, N_COMPARED), preset.centering)
     # If each side is very uniform, even a small difference across the border is significant.
     if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
         return 0.0

@@ -132,9 +132,12 @@ def _analyze(
             scale = int(np.bincount([part.scale for part in parts]).argmax())
             features = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
         unit = compute_median_distance(features, preset.comparison_width)
-        at = choose_frames(n, preset.working_fps, preset.rate)
+        sample_frames = choose_frames(n, preset.working_fps, preset.rate)
+        # Price of a cluster in one part, as parts were segmented on their own.
         price = preset.cluster_price(len(parts[0].view))
-        level = link_parts(features, at, [part.level for part in parts], unit=unit, price=price)
+        level = link_parts(
+            features, sample_frames, [part.level for part in parts], unit=unit, price=price
+        )
     with stage("borders"):
         starts, stops = refine_borders(rows, level.borders, preset)
         fine = move_fine_borders(level.fine, level.borders, np.append(starts, n))

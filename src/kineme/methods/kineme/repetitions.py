@@ -296,7 +296,7 @@ def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     # Then move each cut to the slowest frame nearby, as rests are never exactly even.
     rests = cuts + shifts[shifted_speeds.argmin()]
     reach = int(REST_RANGE * period)
-    near = np.arange(-reach, reach + 1)
-    around = np.clip(rests[:, None] + near, 1, n - 1)
-    slowest = np.take_along_axis(around, speeds[around].argmin(axis=1)[:, None], axis=1)[:, 0]
+    offsets = np.arange(-reach, reach + 1)
+    nearby = np.clip(rests[:, None] + offsets, 1, n - 1)
+    slowest = np.take_along_axis(nearby, speeds[nearby].argmin(axis=1)[:, None], axis=1)[:, 0]
     return slowest if (np.diff(slowest) > 0).all() else rests

@@ -140,8 +140,10 @@ def find_level(
         return repeating.measure_saving(fine.features, fine.unit, start, stop)
 
     level = choose_level(fine.borders, fine.sums, preset, measure_saving)
-    at = np.searchsorted(fine.borders, level.borders[:-1])
-    preference = measure_preferences(sum_runs(fine.sums, at), np.diff(level.borders), level.labels)
+    first = np.searchsorted(fine.borders, level.borders[:-1])
+    preference = measure_preferences(
+        sum_runs(fine.sums, first), np.diff(level.borders), level.labels
+    )
     return Level(fine.borders, level.borders, level.labels, preference)
 
 
@@ -256,15 +258,15 @@ def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
 
     losses = [compute_loss(g, h) for g, h in pairwise(alive)]
     while losses:
-        at = int(np.argmin(losses))
-        g, h = alive[at], alive[at + 1]
+        index = int(np.argmin(losses))
+        g, h = alive[index], alive[index + 1]
         # Row and column g become those of the union; those of h are not read again.
         sums[g] += sums[h]
         sums[:, g] += sums[:, h]
         lengths[g] += lengths[h]
-        del alive[at + 1], losses[at]
+        del alive[index + 1], losses[index]
         # Only the losses of the union with its two neighbours have changed.
-        for left in (at - 1, at):
+        for left in (index - 1, index):
             if 0 <= left < len(losses):
                 losses[left] = compute_loss(alive[left], alive[left + 1])
         levels.append(np.append(alive, len(lengths)))
@@ -293,8 +295,10 @@ def choose_level(
     tree = list_levels(borders, sums.copy())
     # Levels with few segments differ most, so all of them are tried, and fewer of the others.
     tried = {*range(min(len(tree), EXHAUSTIVE_UP_TO))}
-    tried |= {int(at) for at in np.geomspace(1, len(tree), SPARSE_LEVELS).astype(np.int64) - 1}
-    chosen = [tree[at] for at in sorted(tried)]
+    tried |= {
+        int(index) for index in np.geomspace(1, len(tree), SPARSE_LEVELS).astype(np.int64) - 1
+    }
+    chosen = [tree[index] for index in sorted(tried)]
     levels = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
     segment_cost = preset.samples(preset.segment_cost)
     savings: dict[tuple[int, int], float] = {}
@@ -370,19 +374,19 @@ def absorb_short_clusters(
     long = np.flatnonzero(longest[labels] >= shortest)
     if not len(long):
         return np.zeros_like(labels)
-    kept = labels.copy()
+    absorbed = labels.copy()
     # Segments before the first long one and after the last have only one neighbour.
-    kept[: long[0]], kept[long[-1] :] = labels[long[0]], labels[long[-1]]
+    absorbed[: long[0]], absorbed[long[-1] :] = labels[long[0]], labels[long[-1]]
     members = np.eye(len(longest))[labels]
-    apart = (sums @ members) / np.maximum(lengths @ members, 1.0)
+    distances = (sums @ members) / np.maximum(lengths @ members, 1.0)
     for before, after in pairwise(long.tolist()):
         short = slice(before + 1, after)
-        gained = apart[short, labels[after]] - apart[short, labels[before]]
+        gained = distances[short, labels[after]] - distances[short, labels[before]]
         # The cumulative sum of the gains of the cluster before is largest at the best split.
         border = before + 1 + int(np.cumsum([0.0, *-gained]).argmin())
-        kept[before + 1 : border] = labels[before]
-        kept[border:after] = labels[after]
-    return kept
+        absorbed[before + 1 : border] = labels[before]
+        absorbed[border:after] = labels[after]
+    return absorbed
 
 
 def sum_runs(sums: Floats, first: Samples) -> Floats:
@@ -445,20 +449,24 @@ def choose_part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
     reach = int(MAX_SHIFT * n / count)
     for part in range(1, count):
         middle = round(n * part / count)
-        near = np.arange(max(middle - reach, ends[-1] + 1), middle + reach + 1)
-        near = near[(near >= side) & (near <= n - side)]
-        ends.append(int(near[_measure_changes(rows, near, side).argmax()]) if len(near) else middle)
+        candidates = np.arange(max(middle - reach, ends[-1] + 1), middle + reach + 1)
+        candidates = candidates[(candidates >= side) & (candidates <= n - side)]
+        ends.append(
+            int(candidates[_measure_changes(rows, candidates, side).argmax()])
+            if len(candidates)
+            else middle
+        )
     return [*ends, n]
 
 
-def _measure_changes(rows: Rows | Floats, at: Samples, side: int) -> Floats:
+def _measure_changes(rows: Rows | Floats, frames: Samples, side: int) -> Floats:
     """Measure how much the mean of rows, and their mean change, differ before and after frames."""
-    first, last = int(at[0]) - side, int(at[-1]) + side
+    first, last = int(frames[0]) - side, int(frames[-1]) + side
     span = np.asarray(rows[first:last], np.float64)
     values = np.hstack([span, np.abs(np.diff(span, axis=0, prepend=span[:1]))])
     values /= np.maximum(values.std(axis=0), TINY)
     sums = np.vstack([np.zeros(values.shape[1]), np.cumsum(values, axis=0)])
-    middle = at - first
+    middle = frames - first
     # Second differences of cumulative sums: sum after minus sum before.
     return np.asarray(
         np.linalg.norm(sums[middle + side] - 2 * sums[middle] + sums[middle - side], axis=1)

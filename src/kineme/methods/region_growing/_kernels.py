@@ -54,12 +54,12 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
     """
     n = len(indptr) - 1
     counts = np.full(n, -1, np.int64)
-    start = last = still = found = 0
+    start = last = still = count = 0
     for i in range(1, n):
         for e in range(indptr[i], indptr[i + 1]):
             # Count pairs with both frames in the square from `start` to i.
-            found += earlier[e] >= start
-        counts[i] = found
+            count += earlier[e] >= start
+        counts[i] = count
         if counts[i] != counts[i - 1]:
             still = 0
             continue
@@ -70,9 +70,9 @@ def grow_squares_forward(indptr, earlier, min_gap, min_count):
                 last = i - still
                 start = i
                 # The new square begins with the pairs of frame i alone.
-                found = 0
+                count = 0
                 for e in range(indptr[i], indptr[i + 1]):
-                    found += earlier[e] >= start
+                    count += earlier[e] >= start
             still = 0
     return counts
 
@@ -87,12 +87,12 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
     n = len(indptr) - 1
     counts = np.full(n, -1, np.int64)
     end = last = n - 1
-    still = found = 0
+    still = count = 0
     # Start at the last frame but one: the last frame has no later frame.
     for i in range(n - 2, -1, -1):
         for e in range(indptr[i], indptr[i + 1]):
-            found += later[e] <= end
-        counts[i] = found
+            count += later[e] <= end
+        counts[i] = count
         # At a forward cut another activity ends: start a new region.
         restart = forward_cuts[i]
         if not restart:
@@ -105,9 +105,9 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
                 restart = find_most(counts, i, last) > min_count
         if restart:
             last = end = i
-            found = 0
+            count = 0
             for e in range(indptr[i], indptr[i + 1]):
-                found += later[e] <= end
+                count += later[e] <= end
     return counts
 
 
@@ -117,11 +117,11 @@ def scan_lines_forward(indptr, indices, min_gap, min_count):
     cuts = []
     start = region = still = 0
     for i in range(len(indptr) - 1):
-        found = 0
+        count = 0
         for e in range(indptr[i], indptr[i + 1]):
-            found += start <= indices[e] <= i
-        region += found
-        still = 0 if found else still + 1
+            count += start <= indices[e] <= i
+        region += count
+        still = 0 if count else still + 1
         if still >= min_gap and region > min_count:
             start = i - still
             cuts.append(start)
@@ -136,11 +136,11 @@ def scan_lines_backward(indptr, indices, forward_cuts, min_gap, min_count):
     end = len(indptr) - 2
     region = still = 0
     for i in range(len(indptr) - 2, -1, -1):
-        found = 0
+        count = 0
         for e in range(indptr[i], indptr[i + 1]):
-            found += i <= indices[e] <= end
-        region += found
-        still = 0 if found else still + 1
+            count += i <= indices[e] <= end
+        region += count
+        still = 0 if count else still + 1
         if forward_cuts[i]:
             end = i
             region = still = 0
@@ -187,10 +187,10 @@ def mark_coherent_paths(ptr, rows, columns, share):
 @njit("int64(int32[::1], int32[::1], int64)", **OPTIONS)
 def find_row_at_column(rows, columns, column):
     """Return the row at which a path passes a column; between two nodes, their rounded mean."""
-    at = max(np.searchsorted(columns, column, side="right") - 1, 0)
-    if columns[at] < column and at + 1 < len(rows):
-        return (rows[at] + rows[at + 1] + 1) // 2
-    return rows[at]
+    node = max(np.searchsorted(columns, column, side="right") - 1, 0)
+    if columns[node] < column and node + 1 < len(rows):
+        return (rows[node] + rows[node + 1] + 1) // 2
+    return rows[node]
 
 
 @njit(

@@ -24,6 +24,7 @@ def select_smallest(values, count, rank):
     """
     low, high = 0, count - 1
     while low < high:
+        # Partition: values up to the pivot to the left, values from the pivot on to the right.
         pivot = values[(low + high) // 2]
         left, right = low, high
         while left <= right:
@@ -35,6 +36,7 @@ def select_smallest(values, count, rank):
                 values[left], values[right] = values[right], values[left]
                 left += 1
                 right -= 1
+        # Continue in the part that contains the rank.
         if rank <= right:
             high = right
         elif rank >= left:

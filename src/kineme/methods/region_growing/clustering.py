@@ -72,6 +72,7 @@ def cluster_segments(
     """
     n = len(borders) - 1
 
+    # Rows are those of segment g, columns those of the whole recording.
     def find_links(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         paths = warping_paths(
             graph,

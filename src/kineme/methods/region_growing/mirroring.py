@@ -35,8 +35,8 @@ def merge_cuts(
 
     Mirrored cuts are not compared with each other.
     """
-    apart = ~(np.abs(mirrored[:, None] - main) <= gap).any(axis=1)
-    return np.union1d(main, mirrored[apart])
+    is_far = ~(np.abs(mirrored[:, None] - main) <= gap).any(axis=1)
+    return np.union1d(main, mirrored[is_far])
 
 
 def classify_symmetry(

@@ -269,8 +269,8 @@ def _shorten_row(
     """Shorten a row to a span; if few frames are left, merge it with the row beside it."""
     row, rows = rows[at], list(rows)
     rows[at] = _change_span(row, *span)
-    few = 2 * count_frames(rows[at]) < count_frames(row) and len(rows) > 1
-    if few and _list_edges(rows[beside]) not in edges:
+    is_small = 2 * count_frames(rows[at]) < count_frames(row) and len(rows) > 1
+    if is_small and _list_edges(rows[beside]) not in edges:
         # Convert negative indices.
         i, j, k = (k % len(rows) for k in (min(at, beside), max(at, beside), beside))
         return join_rows(rows, min(i, j), max(i, j), k)
@@ -282,8 +282,8 @@ def _adopt_primitives(primitives: Rows, activity: Segment, found: Segmentation) 
     inside = [i for i, row in enumerate(primitives) if _measure_overlap(row, activity)]
     old_parent = _find_middle_row(found.activities, activity)
     if activity.kind == "transition" and old_parent.kind != "transition":
-        one = replace(activity, level="primitive", label="")
-        return [*primitives[: inside[0]], one, *primitives[inside[-1] + 1 :]]
+        transition = replace(activity, level="primitive", label="")
+        return [*primitives[: inside[0]], transition, *primitives[inside[-1] + 1 :]]
     for i in inside:
         primitives[i] = change_parent(primitives[i], old_parent, activity)
     return primitives

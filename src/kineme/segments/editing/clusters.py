@@ -406,13 +406,13 @@ def _move_members(
     moved = segmentation
     # First the members with the name of their cluster, then those with their own name.
     for inherits in (True, False):
-        some = [
+        group = [
             (level, row)
             for level, row in members
             if (row.label in ("", names.get(row.cluster, ""))) == inherits
         ]
         label = {"label": names.get(cluster, "")} if inherits else {}
-        if some:
-            moved = change_columns(moved, some, cluster=cluster, confidence=math.nan, **label)
+        if group:
+            moved = change_columns(moved, group, cluster=cluster, confidence=math.nan, **label)
     # Store an empty name for a nameless cluster, or labels of members might be taken for its name.
     return set_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)

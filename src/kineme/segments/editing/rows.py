@@ -73,10 +73,10 @@ class Part:
 def find_segment_at(segmentation: Segmentation, level: Level, frame: int) -> Segment:
     """Return the segment of a level that starts at ``frame``, or raise ParameterError."""
     rows = segmentation.level(level)
-    at = int(np.searchsorted(rows.start_frame, frame))
-    if at == len(rows) or rows.start_frame[at] != frame:
+    index = int(np.searchsorted(rows.start_frame, frame))
+    if index == len(rows) or rows.start_frame[index] != frame:
         raise ParameterError(f"no segment of level {level!r} starts at frame {frame}")
-    return rows[at]
+    return rows[index]
 
 
 def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
