@@ -148,6 +148,7 @@ def from_movement(
     axes = [str(axis) for axis in position["space"].values]
     if sorted(axes) not in (["x", "y"], ["x", "y", "z"]):
         raise ParameterError(f"space must be x, y and perhaps z, not {', '.join(axes)}")
+    # A missing z axis stays 0.
     places = np.zeros((*position.shape[:2], 3))
     for axis in axes:
         places[..., "xyz".index(axis)] = position.sel(space=axis)
