@@ -72,7 +72,7 @@ def compile_tables(
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = keep_numbers(before, new, following=following)
-    renumbered = np.array([*numbers.values(), -1], np.int64)  # index -1 stays -1
+    renumbered = np.array([*numbers.values(), -1], np.int64)  # index -1 (no cluster) gives -1
     tables = {
         "recordings": _tabulate_recordings(entries, analyses),
         "segments": _tabulate_segments(entries, analyses, [renumbered[each] for each in shared]),

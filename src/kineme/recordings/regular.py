@@ -44,8 +44,8 @@ _FEW = 0.01  # up to this fraction of steps back in time the clock was reset, no
 _PACKETS = 1 / 3  # from this fraction of rows with repeated times on, rows come in packets
 _SAME = 1e-6  # times closer than this fraction of a step are equal
 _SLOWEST_S = 2.0  # longest period of a slow channel, seconds
-_MOST_FRAMES_PER_ROW = 8  # limits the grid, which may have so many values besides:
-_VALUES = 1_000_000
+_MOST_FRAMES_PER_ROW = 8  # limits the size of the grid
+_VALUES = 1_000_000  # additional values that the grid may always have
 _HOUR, _DAY = 3600.0, 86400.0
 
 
