@@ -123,8 +123,8 @@ def from_movement(
         Frame rate that overrides the dataset, as for `kineme.read`.
     unit : str or float, optional
         Unit of length that overrides the dataset.
-        up : str, optional
-            Vertical axis that overrides the dataset.
+    up : str, optional
+        Vertical axis that overrides the dataset.
     confidence : float, optional
         Points with a lower confidence are missing.
 
