@@ -188,7 +188,7 @@ def _close_rotations(
     gaps = after - before
     # The step of pose along the shorter arc; the steps of speed are differences of vectors.
     gaps[0] = rot.to_rotation_vectors(rot.multiply(rot.conjugate(left), right))
-    # (frames, 3) times (3, joints, 3): what is added to each joint in each frame.
+    # (frames, 3) times (3, joints, 3): correction of each joint in each frame.
     added = np.tensordot(_compute_shares(len(rotations), fps), gaps, axes=1)
     return rot.normalize(rot.multiply(rotations, rot.from_rotation_vectors(added)))
 

@@ -169,7 +169,7 @@ def _format_carry(carry: Carry) -> tuple[float, float, float]:
 def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bool) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        # Columns of ranks and carries only where there are loops.
+        # Only loops have ranks and carries.
         more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
         table.writerow(["file", "source", *SPANS, TAGGED, *more])
         for clip in clips:

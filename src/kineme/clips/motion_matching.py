@@ -72,6 +72,7 @@ class Database:
         ParameterError
             The recording has no rotations or feet, or other bones than the first one.
         """
+        # End sites are dropped, and bone 0 is the root, so joints are renumbered.
         bones = [j for j in range(motion.skeleton.n_joints) if j not in motion.skeleton.end_sites]
         numbers = {joint: bone for bone, joint in enumerate(bones, 1)}
         parents = tuple(numbers.get(motion.skeleton.parents[joint], 0) for joint in bones)
@@ -145,6 +146,7 @@ def _describe_motion(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[
     back = rot.conjugate(turn)
     skeleton, rotations = motion.skeleton, np.array(motion.rotations)
     places = compute_local_translations(skeleton, motion.positions, motion.rotations)
+    # Former roots become children of the new root bone.
     for joint in (j for j, parent in enumerate(skeleton.parents) if parent < 0):
         places[:, joint] = rot.rotate(back, motion.positions[:, joint] - place)
         rotations[:, joint] = rot.multiply(back, rotations[:, joint])
@@ -174,6 +176,7 @@ def _compute_features(
     velocities = _compute_velocities(motion.positions)
     parts = [rot.rotate(back, motion.positions[:, foot] - place) for foot in feet]
     parts += [rot.rotate(back, velocities[:, joint]) for joint in (*feet, pelvis)]
+    # Frames ahead of each frame, clamped to the last one.
     then = [np.minimum(np.arange(n) + ahead, n - 1) for ahead in AHEAD]
     forward = rot.rotate(turn, np.array([0.0, 0.0, 1.0]))
     parts += [rot.rotate(back, place[at] - place)[:, [0, 2]] for at in then]
@@ -195,6 +198,7 @@ def _smooth(values: Floats, window: int) -> Floats:
     """Smooth values (frames, dims) with a Savitzky-Golay filter of degree 3."""
     from scipy.signal import savgol_filter  # heavy, and seldom needed
 
+    # The longest odd window that fits; cubic polynomials need at least 5 frames.
     window = min(window, len(values) - 1 + len(values) % 2)
     smoothed: Floats = values if window < 5 else savgol_filter(values, window, 3, axis=0)
     return smoothed

@@ -77,7 +77,7 @@ def _align_landmarks(curves: Floats) -> Floats:
         if margin <= at < GRID - margin:
             first, last = max(margin, at - reach), min(GRID - margin, at + reach + 1)
             found.append(grid[first + (sign * curves[:, first:last]).argmax(axis=1)])
-    # (cycles, landmarks); the reshape keeps the shape where no landmark was found.
+    # (cycles, landmarks); the reshape keeps the shape if no landmark was found.
     extremes = np.array(found).reshape(len(found), len(curves)).T
     # Knots of an interpolation must increase, so landmarks are put in the order of time.
     extremes = extremes[:, np.argsort(extremes.mean(axis=0))]

@@ -164,7 +164,7 @@ def _measure_landmark_shift(runs: list[Run], features: list[Floats], rates: list
     If the mean cycle rests at the border, this is the middle of the rest. Otherwise it is the
     nearest reversal of the main movement, the first principal component.
     """
-    # A single repetition has no neighbour that shows where the movement turns.
+    # Single repetitions have no neighbours that show where the movement reverses.
     repeated = [run for run in runs if len(run.borders) > 2]
     # Weighted by repetitions. The sum need not be divided: only its shape counts.
     mean = sum(_average_cycles(run, features, rates) * (len(run.borders) - 1) for run in repeated)
@@ -265,7 +265,7 @@ def _make_template(
     # (borders, window, dims).
     all_windows = np.concatenate(windows)
     template = np.asarray(all_windows.mean(axis=0))
-    # Variance of the template in the window, as a share of all: high where repetitions agree.
+    # Share of the variance explained by the template: high if repetitions agree.
     explained, total = template.var(axis=0), all_windows.var(axis=(0, 1))
     shares = np.where(total > 0, explained / np.where(total > 0, total, 1.0), 0.0)
     return template, shares
@@ -287,7 +287,7 @@ def _move_borders(
     shifts = np.linspace(-reach, reach, 13)
     borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)
     for i, border in enumerate(run.borders):
-        # At an end of a run nothing comparable lies outside.
+        # Outside of the run there is nothing to compare.
         used = np.ones(len(offsets), bool)
         if i == 0:
             used &= offsets >= 0

@@ -108,7 +108,7 @@ def _compare_values(
     n = int(both.sum())
     if n == 0:
         return 0, *[np.nan] * 6
-    # Paired: the differences within each cycle are what is averaged.
+    # Paired test: average the differences within cycles.
     differences = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):

@@ -4,7 +4,8 @@
 rises (fastest just before toe-off), back during the swing, and the first way again as it lands.
 Principal components give the axis of rotation, and this order its sign. Foot off is where the first
 rotation has fallen to a fraction of its peak, foot strike where the last one has risen to another
-fraction. Both fractions were chosen without bias on recordings with manually checked contacts.
+fraction. Both fractions were fitted to recordings with manually checked contacts, so that contacts
+are neither early nor late on average.
 
 *Positions.* Heel and toe stand while they are low and slow; the foot stands while one of them does.
 Speed is relative to the ground, which is the belt on a treadmill.

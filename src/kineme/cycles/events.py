@@ -205,7 +205,7 @@ def foot_events(
             "channels of its gyroscope, as in left='lf_gyr_*' (--left 'lf_gyr_*'), or the force "
             "under it (of a C3D --columns '*' --left Fz1 --right Fz2)"
         )
-    # Stable: of simultaneous events the left foot stays first.
+    # The stable sort keeps the left foot first at equal times.
     order = np.argsort(times, kind="stable")
     return Events(
         np.array(times, np.float64)[order],
@@ -273,7 +273,7 @@ def _find_contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tup
         swings_from_gyroscope(values[start:stop], recording.fps) + start / recording.fps
         for start, stop in recording.spans()
     ]
-    # The empty array keeps the shape (0, 2) where there is no span.
+    # The empty array keeps the shape (0, 2) if there is no span.
     return np.concatenate([np.empty((0, 2)), *swings]), False
 
 
@@ -381,7 +381,7 @@ def _measure_strides(events: Events, side: str, recording: Motion | Signals | No
     others = events.at(f"{OTHER_SIDE[side]} {STRIKE}")
     pairs = np.column_stack([strikes[:-1], strikes[1:]])
     lengths = np.diff(pairs, axis=1)[:, 0]
-    # A median of nothing would warn.
+    # The median of an empty array would warn.
     if len(pairs):
         pairs = pairs[lengths <= LONGEST * np.median(lengths)]
     rows = []
@@ -391,7 +391,7 @@ def _measure_strides(events: Events, side: str, recording: Motion | Signals | No
         step = others[(others > start) & (others < stop)]
         off = between[0] if len(between) == 1 else np.nan
         rows.append((start, off, stop, stop - step[0] if len(step) == 1 else np.nan))
-    # The reshape keeps four columns where there are no strides.
+    # The reshape keeps four columns if there are no strides.
     start, off, stop, step = np.array(rows, np.float64).reshape(-1, 4).T
     stride = stop - start
     found = {

@@ -325,7 +325,7 @@ def find_hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats)
     # (frames, 3, 3): rows are the axes of the upper limb; the shank is then given in them.
     frame = np.stack([aside, np.cross(along, aside), along], axis=1)
     seen = np.einsum("fij,fj->fi", frame, limb)
-    # Eigenvalues ascend: the axis has least of the shank in it, the second tells how it swings.
+    # Eigenvalues ascend: the first belongs to the axis, the second measures the swing.
     spreads, axes = np.linalg.eigh(seen.T @ seen / len(seen))
     if spreads[1] < MOVES**2:
         return None
@@ -366,7 +366,7 @@ def cardan(rotations: Floats) -> Floats:
     >>> cardan(turned).round(6)
     array([[40., 10., -5.]])
     """
-    # Rx Rz Ry is Rz Ry Rx with the axes named anew: x for z, z for y, y for x.
+    # Rx Rz Ry is Rz Ry Rx with renamed axes: x for z, z for y, y for x.
     w, x, y, z = rot.split_components(rotations)
     renamed = rot.join_components(w, y, z, x)
     return np.degrees(rot.to_euler_zyx(renamed))

@@ -64,8 +64,8 @@ def cycles(
         all channels of signals.
     anchor : str or sequence of float, optional
         Start of a cycle; a common phase by default. ``knee_r max`` (or ``min``), ``knee_r > 40``
-        (``<`` for falling below), an event of the file, a foot contact such as ``left foot
-        strike``, or times in seconds. Cycles without the event are kept but marked.
+        (``<`` for falling below), an event of the file, ``left foot strike`` or another foot
+        contact, or times in seconds. Cycles without the event are kept but marked.
     beside : sequence of Signals
         Signals recorded at the same time as the recording, such as force plates.
     common : bool
@@ -293,7 +293,7 @@ def _measure_cycles(
     """
     channels = measured[0]
     curves = np.empty((len(spans), len(channels), points))
-    # Values of a channel are computed for one channel at a time, so memory stays small.
+    # Compute one channel at a time to save memory.
     for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
         for number, channels_of_one in enumerate(measured):
@@ -323,7 +323,7 @@ def _measure_cycle(
 ) -> tuple[Floats, list[float]]:
     """Return the curve and the statistics of a cycle; nan if part of it was not recorded."""
     last = len(values) - 1
-    # The last border may lie after the last frame, where nothing is recorded.
+    # The last border may lie after the last frame.
     first, end = min(start * fps, last), min(stop * fps, last)
     # False for nan, which marks a missing border.
     if not np.isfinite([first, end]).all() or end <= first:

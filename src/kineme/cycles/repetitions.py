@@ -148,7 +148,7 @@ class _FineFeatures:
                 # A single point has no distances: its path is compared.
                 is_point = recording.skeleton.n_joints < 2
                 values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
-        # The mean about each frame, of which every n-th is kept.
+        # Average around each frame, then keep every n-th frame.
         if n_averaged > 1:
             values = uniform_filter1d(values, n_averaged, axis=0, mode="nearest")[::n_averaged]
         # Channels have different units: each counts by its own deviation, a constant one is only 0.
@@ -360,7 +360,7 @@ def _find_nearest_events(repetitions: Sequence[Repetition], times: Sequence[Floa
         events = times[each.recording]
         inside = events[(events >= each.start) & (events < each.stop)]
         phases.append(CYCLE * (inside - each.start) / (each.stop - each.start))
-    # nan where there are no events; then no window holds one.
+    # nan if there are no events; then no window contains one.
     phase = compute_mean_phase(np.concatenate(phases)) / CYCLE
     chosen = np.full(len(repetitions), np.nan)
     for i, each in enumerate(repetitions):

@@ -123,8 +123,8 @@ def from_movement(
         Frame rate that overrides the dataset, as for `kineme.read`.
     unit : str or float, optional
         Unit of length that overrides the dataset.
-        up : str, optional
-            Vertical axis that overrides the dataset.
+    up : str, optional
+        Vertical axis that overrides the dataset.
     confidence : float, optional
         Points with a lower confidence are missing.
 
@@ -148,6 +148,7 @@ def from_movement(
     axes = [str(axis) for axis in position["space"].values]
     if sorted(axes) not in (["x", "y"], ["x", "y", "z"]):
         raise ParameterError(f"space must be x, y and perhaps z, not {', '.join(axes)}")
+    # A missing z axis stays 0.
     places = np.zeros((*position.shape[:2], 3))
     for axis in axes:
         places[..., "xyz".index(axis)] = position.sel(space=axis)

@@ -72,6 +72,7 @@ def read(path: Path) -> Segmentation | Labels:
     with path.open(encoding="utf-8-sig", newline="") as file:
         first = file.readline()
         comma = find_separator(first)
+        # Tables of intervals have no such pair of columns.
         if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
             return _read_intervals(path)
         file.seek(0)

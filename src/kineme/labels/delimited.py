@@ -38,6 +38,7 @@ def read_rows(
     try:
         for cells in rows:
             if names and any(cells):
+                # Rows may be shorter or longer than the header.
                 texts = dict(zip(names, map(from_text, cells), strict=False))
                 yield rows.line_num, dict.fromkeys(names, "") | texts
             elif not names and any(set(needed) <= set(cells) for needed in header):

@@ -147,6 +147,7 @@ def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
 def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
     """Return the frame rate computed from the stop of a row, or None."""
     text = cells.get("stop_frame", MISSING)
+    # Longer numbers exceed the integers that a float represents exactly.
     valid = text.isdecimal() and len(text) < 16 and 0 < stop_s < math.inf
     return int(text) / stop_s if valid else None
 

@@ -72,6 +72,7 @@ def dumps(segmentation: Segmentation) -> str:
     """Return the JSON text: an indented head, and one line per segment."""
     content = make_head(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
+    # Levels and rows are inserted before the closing braces, one per line.
     head = _indent(content).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)

@@ -279,6 +279,7 @@ def _read_unnamed_columns(
     chosen = clocks or columns
     if len(chosen) < 2:
         raise ReadError(path, "has no begin and end of annotations", line=rows[0][0])
+    # Without clock times, whole numbers are milliseconds, others seconds.
     is_ms = not clocks and not any("." in row[i] for _, row in rows for i in chosen[:1])
     for line, row in rows:
         if len(row) <= chosen[1]:
@@ -352,6 +353,7 @@ def _format_lines(rows: Sequence[Segment]) -> Iterator[str]:
 def _split_tokens(path: Path) -> Iterator[str | float]:
     """Yield the texts and numbers of a TextGrid in order."""
     data = path.read_bytes()
+    # A byte order mark identifies UTF-16.
     wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
     for match in TOKEN.finditer(data.decode("utf-16" if wide else "utf-8-sig")):
         if match[1] is not None:

@@ -84,7 +84,7 @@ def measure_coverage(tables: OpenTables) -> list[Coverage]:
             span, labels[row.cluster] = (row.start_frame, row.stop_frame), row.label
             tags, speed = travel.tags(*span), float(np.hypot(*travel.velocity(*span)))
             fact = row.duration_s, speed, travel.turn(*span), "start" in tags, "stop" in tags
-            facts_by_group[row.cluster, tags[0]].append(fact)
+            facts_by_group[row.cluster, tags[0]].append(fact)  # the first tag is the direction
     coverages = []
     for (cluster, direction), facts in facts_by_group.items():
         seconds, speeds, turns, starts, stops = zip(*facts, strict=True)

@@ -72,7 +72,7 @@ def compile_tables(
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
     numbers = keep_numbers(before, new, following=following)
-    renumbered = np.array([*numbers.values(), -1], np.int64)  # index -1 stays -1
+    renumbered = np.array([*numbers.values(), -1], np.int64)  # index -1 (no cluster) gives -1
     tables = {
         "recordings": _tabulate_recordings(entries, analyses),
         "segments": _tabulate_segments(entries, analyses, [renumbered[each] for each in shared]),
@@ -91,6 +91,7 @@ def list_activities(folder: Path, tables: str | None) -> dict[str, Spans]:
     table = read_table(folder, tables, "segments")
     names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
     columns = {name: as_array(table.column(name)) for name in names}
+    # Rows are grouped by recording, so first occurrences are the borders.
     first = np.unique(columns["recording"], return_index=True)[1]
     edges = [*np.sort(first).tolist(), len(table)]
     found = {}
@@ -186,6 +187,7 @@ def _tabulate_segments(
         name: _concatenate(getattr(table, name) for table in tables) for name in COLUMNS
     }
     actions = [
+        # Cluster of the activity that contains each row.
         numbers[np.flatnonzero(table.level == "activity")][table.activity]
         for numbers, table in zip(clusters, tables, strict=True)
     ]
@@ -216,6 +218,7 @@ def _tabulate_local_clusters(
 def _tabulate_embeddings(entries: Sequence[Entry], analyses: Sequence[Analysis]) -> Columns:
     pa, _ = import_arrow()
     values = _concatenate(analysis.embeddings for analysis in analyses).reshape(-1, EMBEDDED)
+    # Rows of zeros are segments without an embedding.
     embedded = np.flatnonzero(values.any(axis=1))
     rows = {
         name: np.asarray(column)[embedded] if len(column) else column

@@ -159,8 +159,10 @@ def _make_hit(tables: OpenTables, row: int, start: int, stop: int, distance: flo
     rows = slice(*tables.rows.get(recording, (0, 0)))
     if rows.stop == rows.start:
         return Hit(recording, start_s, stop_s, round(distance, 4), -1, "")
+    # Overlap of each segment with the span, rounded so that ties are exact.
     shared = np.minimum(segments["stop_s"][rows], stop_s)
     shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
+    # The last key of `lexsort` is the primary one: largest overlap, then primitives.
     covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
     cluster = int(segments["cluster"][rows][covers])
     label = tables.edits.name(cluster) if cluster >= 0 else ""

@@ -92,6 +92,7 @@ class OpenTables:
     def rows(self) -> dict[str, tuple[int, int]]:
         """Return the first row and the end of each recording's segments."""
         names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
+        # Rows are grouped by recording: borders are where the dictionary code changes.
         codes = np.from_dlpack(names.indices)
         edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
         called = names.dictionary.to_pylist()

@@ -119,6 +119,7 @@ def find_matches(
     matches = _merge_matches(features, examples, threshold, None if counterexamples else top)
     if counterexamples and len(matches.starts):
         others = _merge_matches(features, counterexamples, threshold, None)
+        # (matches, others): samples shared by each pair of spans.
         first = np.maximum(matches.starts[:, None], others.starts[None])
         shared = np.minimum(matches.stops[:, None], others.stops[None]) - first
         covers = shared >= REFUSED * (matches.stops - matches.starts)[:, None]
@@ -262,6 +263,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
     """Return the matches in the parts of a task by row, the best first."""
     parts, query = task.parts, task.query
     lasts = parts.stops - parts.starts
+    # Concatenate all parts, separated by one sample that matches nothing.
     firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
     features = np.full((firsts[-1], query.examples[0].shape[1]), BETWEEN_PARTS, np.float32)
     for row, key in sorted(task.analyses.items()):
@@ -275,6 +277,7 @@ def search_parts(task: Task) -> dict[int, Matches]:
         threshold=query.threshold,
         top=query.top,
     )
+    # Convert positions in the concatenation back to samples of recordings.
     owners = np.searchsorted(firsts, matches.starts, side="right") - 1
     offsets = parts.starts[owners] - firsts[owners]
     moved = Matches(matches.starts + offsets, matches.stops + offsets, matches.distances)
@@ -295,6 +298,7 @@ def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
 
     map_threads(compare, range(0, n, BLOCK))
     most = min(max(round(SHARE * n), MORE * top), n)
+    # `argpartition` finds the smallest distances without sorting all.
     chosen: NDArray[np.int64] = np.sort(np.argpartition(least, most - 1)[:most])
     return chosen
 
@@ -303,6 +307,7 @@ def _make_batches(parts: Parts) -> Iterator[Parts]:
     """Yield batches of parts with about `BATCH_SAMPLES` samples; a longer part is alone."""
     reached = np.cumsum(parts.stops - parts.starts)
     batches = (reached - (parts.stops - parts.starts)) // BATCH_SAMPLES
+    # Borders between batches, including both ends.
     edges = np.flatnonzero(np.diff(batches, prepend=-1, append=-1))
     for first, stop in pairwise(edges.tolist()):
         yield Parts(*(column[first:stop] for column in parts))

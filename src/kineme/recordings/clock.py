@@ -121,8 +121,7 @@ class Clock:
         begin, shown = np.asarray(self.seconds), np.asarray(self.times)
         # Each span lasts until the next one; the last one has no end.
         end = np.append(begin[1:], np.inf)
-        # Latest time shown up to the end of each span; the accumulation holds where the clock goes
-        # back.
+        # Latest time up to the end of each span; the running maximum handles steps back.
         k = np.searchsorted(np.maximum.accumulate(shown + end - begin), at, side="right")
         since = at - shown[k]
         # Times in a pause are negative here and belong to the start of the next span.

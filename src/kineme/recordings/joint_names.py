@@ -39,7 +39,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         "MIDHIP",  # OpenPose
         "HIPS", "LHIP RHIP", "LASI RASI", "LASIS RASIS",
     ),
-    # One side of the pelvis stands for the hip in sets without one.
+    # One side of the pelvis replaces the hip in marker sets without it.
     "*_waist": ("*ASI *PSI", "*FWT *BWT", "*WAISTFRONT *WAISTBACK", "*IAS *IPS", "*ASIS *PSIS",
                 "*ASI", "*ASIS"),
     "*_waist_front": ("*ASIS", "*ASI", "*IAS", "*FWT"),

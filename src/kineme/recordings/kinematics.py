@@ -67,7 +67,7 @@ def forward_kinematics(
         bone = skeleton.offsets[j] if translations is None else shift[j].T
         positions[j] = positions[parent] + rot.rotate(world[parent], bone).T
         leaf = j in skeleton.end_sites
-        # An end site has no rotation of its own, so its parent's stands for it.
+        # An end site has no rotation of its own: use its parent's.
         world.append(world[parent] if leaf else rot.multiply(world[parent], local[j].T))
     return positions.transpose(2, 0, 1)
 

@@ -36,6 +36,7 @@ def draw_poses(skeleton: Skeleton, positions: Floats) -> str:
     """Return an SVG of poses side by side, evenly spaced in time, from the broader side."""
     at = np.linspace(0, len(positions) - 1, min(_POSES, len(positions))).round().astype(int)
     poses = positions[at] - positions[at].mean(axis=1, keepdims=True)
+    # View along the axis in which the body is narrower; y points down in SVG.
     wide, deep = np.ptp(poses[..., [0, 2]], axis=1).mean(axis=0)
     across = 0 if wide >= deep else 2
     flat = poses[..., [across, 1]] * (1.0, -1.0)
@@ -48,6 +49,7 @@ def draw_poses(skeleton: Skeleton, positions: Floats) -> str:
     drawn[..., 1] += _HEIGHT / 2
     bones = [(parent, j) for j, parent in enumerate(skeleton.parents) if parent >= 0]
     dots = [(j, j) for j, parent in enumerate(skeleton.parents) if parent < 0]
+    # One path for all bones; roots become dots by the round line cap.
     path = "".join(
         f"M{pose[a, 0]:.1f} {pose[a, 1]:.1f}L{pose[b, 0]:.1f} {pose[b, 1]:.1f}"
         for pose in drawn
@@ -63,6 +65,7 @@ def draw_channels(values: Floats) -> str:
     band = _HEIGHT / shown.shape[1]
     x = np.linspace(_MARGIN, _WIDTH - _MARGIN, len(at))
     low, span = shown.min(axis=0), np.ptp(shown, axis=0)
+    # Scale each channel to 0..1; a constant channel becomes 0.
     level = (shown - low) / np.where(span > 0, span, 1)
     lines = []
     for channel in range(shown.shape[1]):

@@ -112,7 +112,7 @@ class Provenance:
         found = {"path": self.path, "format": self.format, "sha256": self.sha256}
         if len(self.takes) > 1:
             found["take"] = self.take
-        # A person matters only where the file holds several.
+        # Name the person only if the file holds several.
         if len(self.people) > 1:
             found["person"] = self.person
         return found

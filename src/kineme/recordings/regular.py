@@ -44,8 +44,8 @@ _FEW = 0.01  # up to this fraction of steps back in time the clock was reset, no
 _PACKETS = 1 / 3  # from this fraction of rows with repeated times on, rows come in packets
 _SAME = 1e-6  # times closer than this fraction of a step are equal
 _SLOWEST_S = 2.0  # longest period of a slow channel, seconds
-_MOST_FRAMES_PER_ROW = 8  # limits the grid, which may have so many values besides:
-_VALUES = 1_000_000
+_MOST_FRAMES_PER_ROW = 8  # limits the size of the grid
+_VALUES = 1_000_000  # additional values that the grid may always have
 _HOUR, _DAY = 3600.0, 86400.0
 
 
@@ -184,6 +184,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         raise ParameterError("the times are too few or not numbers: give fps= (--fps)")
     if known.all() and not fps and _is_even(shown, steps := np.diff(shown)):
         duration = float(shown[-1] - shown[0])
+        # Relative error of the duration by the limited precision of large times.
         doubt = 2 * np.spacing(np.abs(shown).max()) / duration
         fps = _round_rate(len(steps) / duration, max(1e-6, float(doubt)))
         return Timing(fps, clock=Clock.from_times(shown, fps))
@@ -194,6 +195,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         untimed = format_count(len(known) - len(rows), "row")
         notes.append(Note(f"{untimed} without a time left out"))
     if (np.diff(at) < 0).any():
+        # A stable sort keeps the file order of rows with equal times.
         sequence = np.argsort(at, kind="stable")
         rows, at, shown = rows[sequence], at[sequence], shown[sequence]
         was_set = None if was_set is None else was_set[sequence]
@@ -221,6 +223,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         rate = _round_rate(rate, max(1e-6, UNEVEN / max(1.0, float(frames[-1]))))
     exact = bool((frames == np.rint(frames)).all())
     notes += _describe_timing(np.diff(moments), len(at) - len(moments), rate, exact=exact)
+    # The limit on frames bounds memory: fewer frames for more channels.
     channels = 1 if taken is None else max(1, taken.shape[1])
     timing = Timing(rate, rows, frames, notes=tuple(notes))
     return _add_clock_and_gaps(
@@ -255,6 +258,7 @@ def _add_clock_and_gaps(
         clock = Clock(begins.tolist(), shown.tolist())
     split = cut if was_set is None else cut | was_set[1:]
     ends = ((frames[k], frames[k + 1]) for k in np.flatnonzero(split).tolist())
+    # Whole frames strictly between the two rows at a split.
     gaps = ((int(np.floor(a)) + 1, int(np.ceil(b))) for a, b in ends)
     return replace(
         timing,
@@ -374,6 +378,7 @@ def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
 
 def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
     """Return each time once, and the mean values of rows with that time."""
+    # First row of each distinct time; `reduceat` sums the rows up to the next start.
     starts = np.flatnonzero(np.diff(at, prepend=-np.inf) > 0)
     if len(starts) == len(at):
         return at, values
@@ -407,6 +412,7 @@ def _is_even(times: Floats, steps: Floats) -> bool:
     period = float(np.median(steps))
     if steps.min() <= 0:
         return False
+    # Deviation from evenly spaced times; the mean removes the offset.
     drift = times - period * np.arange(len(times))
     return bool(
         np.abs(drift - drift.mean()).max() <= UNEVEN * period or np.ptp(steps) <= UNEVEN * period
@@ -437,6 +443,7 @@ def _correct_clock(
         notes.append(
             Note("local times change by an hour, as for summer time: the hour is undone", "warning")
         )
+    # Correction at each step; the cumulative sum applies it to all later rows.
     shift = np.where(hours, -_HOUR * np.sign(steps), np.where(days, _DAY, 0.0))
     at = shown + np.append(0.0, np.cumsum(shift)) if shift.any() else shown
     steps = np.diff(at)
@@ -463,6 +470,7 @@ def _was_clock_set(at: Floats, usual: float, values: Floats | None) -> bool:
         # duplicate rows are no evidence
         one, other = values[order[:-1]], values[order[1:]]
         close &= ~((steps == 0) & ((one == other) | (np.isnan(one) & np.isnan(other))).all(axis=1))
+    # Sorting a reset clock interleaves rows, which creates many short steps.
     crowded = int(close.sum()) - int((np.abs(before) < 0.5 * usual).sum())
     if crowded > 4 * int((before < -LONGEST_S).sum()):
         return True
@@ -486,6 +494,7 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
     # seconds between rows in each packet, and the median
     period = np.append(np.diff(begins), np.nan) / sizes
     usual = float(np.nanmedian(period[1:])) if len(period) > 2 else float(period[0])
+    # `fmin` ignores nan, and limits the period before a pause.
     period = np.fmin(period, 1.5 * usual)
     period[-1] = usual
     within = np.arange(len(at)) - np.repeat(starts[:-1], sizes)
@@ -532,9 +541,11 @@ def _snap_to_grid(frames: Floats, fps: float) -> Floats:
 
     After a pause rows may be off the grid by a constant fraction of a frame, which is removed.
     """
+    # Number the parts between holes, and measure frames from the first of each part.
     part = np.append(0, np.cumsum(np.diff(frames) > LONGEST_S * fps + 1))
     firsts = np.flatnonzero(np.diff(part, prepend=-1))
     since = np.rint(frames - frames[firsts][part])
+    # Mean offset of each part from whole frames.
     ahead = np.bincount(part, frames - since) / np.bincount(part)
     if np.abs(frames - since - ahead[part]).max() > 2 * UNEVEN:
         return frames
@@ -552,6 +563,7 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
     excess = frames[-1] - most
     if excess > 0:
         longest = np.argsort(-steps, kind="stable")
+        # Frames saved by cutting the n longest pauses; two remain of each.
         saved = np.cumsum(np.floor(steps[longest]) - 2)
         count = int(np.searchsorted(saved, excess)) + 1
         if count > len(steps) or steps[longest[count - 1]] <= 3:

@@ -110,6 +110,7 @@ class Rig:
         places, turns, sizes = np.zeros((n, 3)), np.empty((n, 4)), np.empty(n)
         for node in range(n):
             place, turn, size = self.parent_world(node, places, turns, sizes)
+            # Compose x -> t + R s x of the node with the transform of its parent.
             places[node] = place + size * rot.rotate(turn, self.translations[node])
             turns[node] = rot.multiply(turn, self.rotations[node])
             sizes[node] = size * self.scales[node].mean()
@@ -145,6 +146,7 @@ class Rig:
         parents = tuple(max(parent - above, -1) for parent in self.parents[above:])
         for joint, parent in enumerate(parents):
             if parent < 0:
+                # Roots get their world transform; the scale above moves into `unit`.
                 moved[joint], turned[joint] = places[above + joint] / size, turns[above + joint]
         return replace(
             self,

@@ -188,6 +188,7 @@ def _convert_frame(frame: Any) -> _Samples:
     timing = [i for i, name in enumerate(called) if is_time(name)]
     rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
     chosen = [i for i in numbers if i not in (*timing, *rates)]
+    # If all names look like counters or labels, keep all numeric columns.
     chosen = [i for i in chosen if is_channel_name(called[i])] or chosen
     if not chosen:
         raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
@@ -207,6 +208,7 @@ def _convert_frame(frame: Any) -> _Samples:
         return replace(found, times=columns[timing[0]], unit=find_time_unit(called[timing[0]]))
     if rates:
         rate = _convert_numbers(columns[rates[0]])
+        # A rate column must be constant.
         if rate[0] > 0 and np.ptp(rate) == 0:
             return replace(found, rate=float(rate[0]))
     if kind in "iu" and not index.is_monotonic_increasing and index.is_unique:
@@ -265,6 +267,7 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     fps = max(sensor.fps for sensor in signals)
     first = next(k for k, sensor in enumerate(signals) if sensor.fps == fps)
     # frames of the fastest sensor are kept
+    # The first frame of the fastest sensor at which all have started.
     start = begins[first] + np.ceil((max(begins) - begins[first]) * fps - 1e-3) / fps
     n_frames = int(np.floor((min(ends) - start) * fps + 1e-3)) + 1
     if n_frames < 1:
@@ -281,6 +284,7 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         seconds = clock.second(times)
         at = np.clip(seconds * sensor.fps, 0, sensor.n_frames - 1)
         columns.append(interpolate_frames(sensor.values, at))
+        # Mask of this sensor's gaps, which is looked up at the nearest frames.
         hidden = np.zeros(sensor.n_frames + 1, np.bool_)
         for begin, stop in sensor.gaps:
             hidden[begin:stop] = True

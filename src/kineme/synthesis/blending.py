@@ -372,7 +372,7 @@ def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Mo
     rotations = np.array(motion.rotations)
     for joint, turn in turned.items():
         parent = motion.skeleton.parents[joint]
-        # Relative to the parent as it is now, which may have been turned as well.
+        # Relative to the parent's new rotation, which may have changed as well.
         above = turned.get(parent, world[:, parent])
         rotations[:, joint] = rot.multiply(rot.conjugate(above), turn)
     positions = forward_kinematics(

@@ -242,7 +242,7 @@ class MotionGraph:
     def _adjacency(self) -> Any:
         from scipy.sparse import csr_array
 
-        # The reshape keeps two columns where there are no edges.
+        # The reshape keeps two columns if there are no edges.
         ends = np.array([(e.tail, e.head) for e in self.edges], np.int64).reshape(-1, 2)
         shape = (len(self.nodes), len(self.nodes))
         return csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=shape)

@@ -161,6 +161,7 @@ def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.fl
 
 def _read_header(file: IO[bytes]) -> tuple[int, int]:
     """Return the offset of the rows in an npy file, and the float32 values per row."""
+    # Bytes 8 and 9 of an npy file (version 1) hold the length of its header.
     length = int.from_bytes(file.read(10)[8:], "little")
     header = re.search(rb"'descr': '<f4'.*'shape': \(\d+, (\d+)\)", file.read(length))
     if header is None:

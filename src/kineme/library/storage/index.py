@@ -63,6 +63,7 @@ def write_index(folder: Path, tables: str, recordings: dict[str, list[Any]]) -> 
             for length in LENGTHS
         }
         firsts = dict.fromkeys(LENGTHS, 0)
+        # Write into memory-mapped files, since all windows may not fit into memory.
         for row in np.flatnonzero(samples):
             windows = read_windows(folder / ANALYSES, recordings["piece"][row])
             for length, part in group_by_length(windows, int(samples[row])):
