@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -45,14 +46,19 @@ def write_squats(
     path: Path,
     times: Sequence[float],
     people: Callable[[float], Sequence[Pose]] = lambda time: [squat(time)],
+    moves: Mapping[float, float] = MappingProxyType({}),
     **told: object,
 ) -> Path:
-    """Write the table of poses that `estimate_poses` leaves of such people at these times."""
+    """Write the table of poses that `estimate_poses` leaves of such people at these times.
+
+    ``moves`` maps times to the seconds before them in which the camera moved.
+    """
     rows = []
     for time in times:
         poses = people(time)
         frame = np.zeros(max(1, len(poses)), row_type(len(NAMES)))
         frame["time"], frame["person"], frame["metres"] = time, NOBODY, np.nan
+        frame["moved"] = moves.get(round(float(time), 3), 0.0)
         for i, pose in enumerate(poses):
             frame[i]["person"], frame[i]["image"] = i, pose.image
             frame[i]["confidence"] = pose.confidence

@@ -21,7 +21,9 @@ from squats import drawn_estimator, write_video
 
 av = pytest.importorskip("av")
 
-AT_30_HZ = np.arange(90) / 30
+AT_30_HZ = np.arange(180) / 30
+USED = AT_30_HZ[::2]
+"""Times of the frames whose poses are estimated by default."""
 
 
 @pytest.fixture
@@ -42,9 +44,9 @@ def video(tmp_path: Path) -> Path:
 def test_a_video_is_a_recording(video: Path, pictures: list[float]) -> None:
     motion = kineme.read(video)
     assert motion.n_frames == 90
-    assert motion.fps == pytest.approx(30, abs=0.01)
+    assert motion.fps == pytest.approx(15, abs=0.01)
     assert motion.provenance.path == str(video)
-    assert np.allclose(pictures, AT_30_HZ, atol=1e-3)
+    np.testing.assert_allclose(pictures, USED, atol=1e-3)
 
 
 def test_it_is_done_once(video: Path, pictures: list[float]) -> None:
@@ -54,7 +56,7 @@ def test_it_is_done_once(video: Path, pictures: list[float]) -> None:
     assert estimate_poses(video) == video.with_name("squats.mp4.poses.parquet")
     estimate_poses(video, video.with_name("copy.parquet"))
     assert len(pictures) == 90
-    write_video(video, AT_30_HZ[:60])  # another video of this name
+    write_video(video, AT_30_HZ[:120])  # another video of this name
     assert kineme.read(video).n_frames == 60
     assert len(pictures) == 150
 
@@ -74,7 +76,7 @@ def test_what_was_interrupted_goes_on(video: Path, pictures: list[float]) -> Non
     poses = read_poses(estimate_poses(video))
     assert not part.exists()
     assert len(pictures) == 40 + 90 - 38  # the last whole frame is done again
-    np.testing.assert_allclose(poses.rows["time"], AT_30_HZ, atol=1e-3)
+    np.testing.assert_allclose(poses.rows["time"], USED, atol=1e-3)
     assert poses.head["frames"] == 90
 
 
@@ -116,15 +118,32 @@ def test_pictures_stand_upright(tmp_path: Path, rotation: int) -> None:
 
 
 def test_times_are_those_of_the_container(tmp_path: Path, pictures: list[float]) -> None:
-    times = [*np.arange(30) / 30, *(1 + np.arange(30) / 15)]
-    estimate_poses(write_video(tmp_path / "a.mp4", times))
-    np.testing.assert_allclose(pictures, times, atol=2e-3)
+    times = [*np.arange(60) / 30, *(2 + np.arange(15) / 15)]
+    estimate_poses(write_video(tmp_path / "a.mp4", times), rate=12)
+    # Of the frames that come slowly, none is left out.
+    np.testing.assert_allclose(pictures, [*times[:60:2], *times[60:]], atol=2e-3)
 
 
-def test_of_60_frames_a_second_each_other_is_taken(tmp_path: Path, pictures: list[float]) -> None:
-    motion = kineme.read(write_video(tmp_path / "a.mp4", np.arange(240) / 60))
-    assert motion.fps == pytest.approx(30, abs=0.1)
-    assert len(pictures) == 120
+@pytest.mark.parametrize(
+    ("fps", "rate", "expected"), [(60, None, 15), (24, None, 24), (50, None, 12.5), (60, 30, 30)]
+)
+def test_every_nth_frame_is_used(
+    tmp_path: Path, pictures: list[float], fps: float, rate: float | None, expected: float
+) -> None:
+    video = write_video(tmp_path / "a.mp4", np.arange(4 * fps) / fps)
+    estimate_poses(video, rate=rate)
+    assert kineme.read(video).fps == pytest.approx(expected, rel=0.01)
+    assert len(pictures) == pytest.approx(4 * expected, abs=1)
+
+
+def test_another_rate_estimates_again(video: Path, pictures: list[float]) -> None:
+    kineme.read(video)
+    estimate_poses(video, rate=30)
+    assert len(pictures) == 90 + 180
+    assert kineme.read(video).fps == pytest.approx(30, abs=0.01)
+    assert len(pictures) == 90 + 180
+    with pytest.raises(ParameterError, match="rate must be"):
+        estimate_poses(video, rate=0)
 
 
 def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float]) -> None:

@@ -115,7 +115,7 @@ class PoseQueue:
         with cancellable(run.go_on):
             keep_poses(
                 load_head(listed.path),
-                watch=lambda share, pace: self._tell(share=share, pace=pace),
+                report=lambda share, pace: self._tell(share=share, pace=pace),
             )
 
     def _tell(self, **news: object) -> None:

@@ -16,9 +16,9 @@ the video (``start``) at which the first is shown.
 Frames are those of an even rate: each row belongs to the one that is nearest to its time. A
 keypoint of low confidence is drawn to where it is surer within a tenth of a second. The recording
 is split where the camera cuts: where most keypoints jump at once, or jump a little while the
-colours of the picture change (``changes`` in the metadata has the seconds). The positions are
-smoothed by a Butterworth low-pass filter of second order, forwards and backwards,
-with its cutoff at `CUTOFF` hertz.
+colours of the picture change (``changes`` in the metadata has the seconds). A note tells when the
+camera moves (``camera_moves`` has the seconds). The positions are smoothed by a Butterworth
+low-pass filter of second order, forwards and backwards, with its cutoff at `CUTOFF` hertz.
 
 Source of the filter: D. A. Winter, Biomechanics and Motor Control of Human Movement, 2009, ch. 3.
 """
@@ -61,6 +61,8 @@ LEAP = 8.0
 """Body heights a second: what most keypoints do not do at once but in a cut."""
 CHANGE = 0.4
 """Share of a picture whose colours are others than in the one before, in a cut."""
+PAUSE_S = 1.0
+"""Seconds between two moves of the camera up to which they are one."""
 NOBODY = -1
 """Number of the person in a row of a frame without one."""
 
@@ -86,13 +88,15 @@ class Poses:
 def row_type(keypoints: int) -> np.dtype[np.void]:
     """Return the type of a row: time, person, and image, metres and confidence of each keypoint.
 
-    ``change`` is the share of the picture whose colours are others than in the one before.
+    ``change`` is the share of the picture whose colours are others than in the one before,
+    ``moved`` the seconds before ``time`` in which the camera moved, 0 if it did not.
     """
     return np.dtype(
         [
             ("time", "<f8"),
             ("person", "<i4"),
             ("change", "<f4"),
+            ("moved", "<f4"),
             ("image", "<f4", (keypoints, 2)),
             ("metres", "<f4", (keypoints, 3)),
             ("confidence", "<f4", (keypoints,)),
@@ -128,6 +132,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
         "fps": round(place_rows(times).fps, 3) if len(times) > 1 else 1.0,
         "start": float(times[0]) - float(head.get("begins", 0.0)),
         "duration": float(times[-1] - times[0]),
+        "camera_moves": find_camera_moves(rows, float(times[0])),
         "changes": np.unique(rows["time"][rows["change"] >= CHANGE] - times[0]).tolist(),
     }
     for column, (field, k, axis) in _columns(told).items():
@@ -221,6 +226,10 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     if cuts:
         at = join_names([f"{cut:.1f} s" for cut in cuts])
         motion = motion.noted(Note(f"the camera cuts at {at}: it is split there", "warning"))
+    if moves := head.get("camera_moves", []):
+        at = join_names([f"{begin:.1f} to {end:.1f} s" for begin, end in moves])
+        note = f"the camera moves at {at}: positions in the picture contain this movement"
+        motion = motion.noted(note if head["depth"] else Note(note, "warning"))
     return _smooth(motion)
 
 
@@ -242,6 +251,20 @@ def find_cuts(rows: Rows, head: Head) -> list[float]:
     cut = is_next & ((jumps > limits) | (changed & (jumps > limits / 4)))
     found: list[float] = rows["time"][1:][cut].tolist()
     return found
+
+
+def find_camera_moves(rows: Rows, start: float) -> list[list[float]]:
+    """Return the spans in which the camera moves, in seconds after ``start``."""
+    moving = rows[rows["moved"] > 0]
+    spans: list[list[float]] = []
+    for begin, end in zip(
+        moving["time"] - moving["moved"] - start, moving["time"] - start, strict=True
+    ):
+        if spans and begin <= spans[-1][1] + PAUSE_S:
+            spans[-1][1] = round(float(end), 3)
+        else:
+            spans.append([round(float(begin), 3), round(float(end), 3)])
+    return spans
 
 
 def _steady(points: Floats, confidence: Floats, fps: float) -> Floats:
