@@ -7,8 +7,8 @@ of the camera, of MediaPipe, of its start, and of `kineme pose` as a whole. Proc
 other work on the machine leaves alone, and seconds by the clock. Then the squats that are counted
 in the two videos as they are, and twice and three times as fast, at each rate of poses.
 
-Promise: 30 s a minute on two cores. It is judged by processor time, so one core is enough. Needs MediaPipe up to 0.10.21, which includes its
-model.
+Promise: 30 s a minute on two cores. It is judged by processor time, so one core is enough.
+Needs MediaPipe up to 0.10.21, which includes its model.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import wave
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,11 +14,19 @@ from typer.testing import CliRunner
 
 import kineme
 from kineme.cli.app import app
-from kineme.errors import MissingDependencyError, ParameterError, ReadError, WriteError
+from kineme.errors import (
+    KinemeWarning,
+    MissingDependencyError,
+    ParameterError,
+    ReadError,
+    SeveralPeopleError,
+    WriteError,
+)
 from kineme.formats.keypoints.poses import read_poses
 from kineme.pose import Pose, estimate_poses, estimator_names, register
+from kineme.pose.decoding import open_video
 from kineme.pose.estimators import ESTIMATORS
-from squats import drawn_estimator, write_video
+from squats import drawn_estimator, squat, write_video
 
 av = pytest.importorskip("av")
 
@@ -105,8 +114,6 @@ def test_a_folder_that_cannot_be_written(
 
 @pytest.mark.parametrize("rotation", [0, 90, 180, -90])
 def test_pictures_stand_upright(tmp_path: Path, rotation: int) -> None:
-    from kineme.pose.decoding import open_video
-
     path = write_video(tmp_path / "a.mp4", AT_30_HZ, rotation=rotation)
     with open_video(path) as video:
         picture = next(iter(video.frames())).picture
@@ -146,17 +153,59 @@ def test_another_rate_estimates_again(video: Path, pictures: list[float]) -> Non
         estimate_poses(video, rate=0)
 
 
+def faint(time: float) -> Pose:
+    """What an estimator guesses where nobody is."""
+    return replace(squat(time), confidence=np.full(33, 0.1))
+
+
 def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float]) -> None:
-    estimator = drawn_estimator()
-    faint = ESTIMATORS["drawn"].__class__(
-        "drawn", estimator.keypoints, "numpy", _faint, estimator.limit
-    )
-    register(faint, replace=True)
+    register(drawn_estimator(people=lambda time: [faint(time)]), replace=True)
     with pytest.raises(ReadError, match="nobody is found"):
         kineme.read(video)
     result = CliRunner().invoke(app, ["pose", str(video)])
     assert result.exit_code == 1
     assert "nobody is found" in result.output
+
+
+def test_while_nobody_is_seen_there_is_a_gap(video: Path, pictures: list[float]) -> None:
+    estimator = drawn_estimator(people=lambda t: [faint(t) if 2 <= t < 3 else squat(t)])
+    register(estimator, replace=True)
+    with pytest.warns(KinemeWarning, match="the recording is split there"):
+        assert kineme.read(video).gaps == ((30, 45),)
+
+
+def test_two_people_who_cross(video: Path, pictures: list[float]) -> None:
+    """One is hidden behind the other for a moment, and the estimator's order changes."""
+
+    def cross(time: float) -> list[Pose]:
+        ahead = 150 * (time - 3)
+        two = [squat(time, 420 + ahead), squat(0, 420 - ahead)]
+        return two[:1] if abs(time - 3) < 0.08 else two[:: 1 if time < 3 else -1]
+
+    register(drawn_estimator(people=cross), replace=True)
+    with pytest.raises(SeveralPeopleError, match="choose one with person="):
+        kineme.read(video)
+    moved = [
+        np.ptp(kineme.read(video, person=who).positions[:, :, 1], axis=0).max() for who in "01"
+    ]
+    assert np.round(moved, 1).tolist() == [0.4, 0.0]
+
+
+def test_hdr_is_decoded(tmp_path: Path, pictures: list[float]) -> None:
+    path = write_video(tmp_path / "hdr.mkv", AT_30_HZ[:40], codec="libx264", pix_fmt="yuv420p10le")
+    with open_video(path) as video:
+        picture = next(video.frames()).picture
+    assert picture.dtype == np.uint8
+    assert picture[:20, :28, 0].min() > 200
+    assert picture[30:, 40:].max() < 50
+    assert kineme.read(path).n_frames == 20
+
+
+def test_large_pictures_are_reduced(tmp_path: Path) -> None:
+    path = write_video(tmp_path / "4k.mp4", AT_30_HZ[:2], size=(3840, 2160))
+    with open_video(path) as video:
+        frame = next(video.frames())
+    assert (frame.picture.shape, frame.scale) == ((720, 1280, 3), 3)
 
 
 def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Path) -> None:
@@ -172,6 +221,7 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
         ("text.mp4", b"not a video", "is no video"),
         ("empty.mp4", b"", "empty"),
         ("sound.mkv", sound.getvalue(), "sound"),
+        ("none.mp4", write_video(tmp_path / "none.mp4", []).read_bytes(), "no pictures"),
         ("head.mp4", video.read_bytes()[:500], "is no video"),
         ("tenth.mp4", whole[: len(whole) // 10], "part of"),
         ("half.mkv", matroska[: len(matroska) // 2], "breaks off"),
@@ -183,6 +233,11 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
             kineme.read(path)
     with pytest.raises(ReadError, match="still picture"):
         kineme.read(write_video(tmp_path / "still.mp4", [0.0]))
+    with pytest.raises(ReadError, match="still picture"):
+        estimate_poses(
+            write_video(tmp_path / "photo.jpg", [0.0], codec="mjpeg", pix_fmt="yuvj420p")
+        )
+    (tmp_path / "photo.jpg").unlink()
     left = {path.suffix for path in tmp_path.iterdir()}
     assert left <= {".mp4", ".mkv"}
 
@@ -209,10 +264,3 @@ def test_the_command(video: Path, pictures: list[float], tmp_path: Path) -> None
     assert kineme.read(table).n_frames == 90
     result = CliRunner().invoke(app, ["segment", str(tmp_path / "squats.mp4"), "--json"])
     assert result.exit_code == 0, result.output
-
-
-def _faint(model: Path | None):
-    from contextlib import nullcontext
-
-    pose = Pose(np.zeros((33, 2)), np.full(33, 0.1), np.zeros((33, 3)))
-    return nullcontext(lambda picture, time: [pose])

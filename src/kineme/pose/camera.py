@@ -61,7 +61,7 @@ def _reduce(picture: Picture) -> Floats:
     k = max(1, picture.shape[1] // COLUMNS)
     height, width = picture.shape[0] // k, picture.shape[1] // k
     blocks = picture[: height * k, : width * k, 1].reshape(height, k, width, k)
-    return blocks.mean(axis=(1, 3))
+    return np.asarray(blocks.mean(axis=(1, 3)), np.float64)
 
 
 def _cut_corners(grey: Floats) -> Floats:
