@@ -132,8 +132,8 @@ def show_counts(video: Path, squats: int, rates: list[float], speeds: list[float
 
 def main() -> None:
     parser = command_line(__doc__)
-    parser.add_argument("--rates", type=float, nargs="+", default=few([DEFAULT_RATE, 30], []))
-    parser.add_argument("--speeds", type=float, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--rates", type=float, nargs="*", default=few([DEFAULT_RATE, 30], []))
+    parser.add_argument("--speeds", type=float, nargs="*", default=[1, 2, 3])
     add_option(parser)
     options = parser.parse_args()
     folder = needed("video")
