@@ -171,6 +171,7 @@ def parse_head(content: FileContent, file: Any) -> Head:
         frames, most = head["fps"] * head["duration"], MOST_FRAMES_MORE * (head["frames"] + 1)
         is_whole = head["fps"] > 0 and 0 <= frames < most and bool(_columns(head))
         is_whole = is_whole and {"estimator", "limit"} <= head.keys()
+        _ = [(float(begin), float(end)) for begin, end in head.get("camera_moves", [])]
     except (ValueError, TypeError, LookupError):
         is_whole = False
     if not is_whole:
