@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from _joined import clusters_of
+from kineme._util.arrays import bridge_line
 from kineme.features.channels import resample_channels
+from kineme.features.filters import filter_low
+from kineme.formats.keypoints.poses import CUTOFF
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
@@ -19,6 +22,12 @@ from kineme.segments.segmentation import Segmentation
 RATES = (25.0, 30.0, 60.0, 120.0)
 CUT_S = 2.0
 NOISE_M = 0.002
+VIDEO_FPS, VIEW, DEPTH = 30.0, np.deg2rad(30), 0.5
+"""Of a camera: frames a second, the angle from which it looks, and the share of depth it keeps."""
+JITTER, ZOOM, ZOOM_S = 0.02, 0.05, 1.0
+"""Of poses from video: noise as a share of the height; change of scale, and its seconds."""
+HIDDEN_S, EVERY_S = 0.3, 10.0
+"""Seconds for which a joint is not seen, and in which that happens once to each."""
 NOISE_SHARE = 0.02
 """Of the deviation of each channel."""
 COMPARED = 30.0
@@ -58,6 +67,29 @@ def guises(recording: Motion | Signals) -> Iterator[Guise]:
     yield Guise("turned", turn(recording, 2.0))
     yield Guise("0.9 of the size", scale(recording, 0.9))
     yield Guise("1.1 of the size", scale(recording, 1.1))
+    yield Guise("as a video", _film(recording, noise))
+
+
+def _film(motion: Motion, noise: np.random.Generator) -> Motion:
+    """Return the motion as poses of a video have it, after reading has filled and smoothed them."""
+    from scipy.ndimage import gaussian_filter1d
+
+    seen = turn(resample(motion, VIDEO_FPS), VIEW)
+    root = seen.skeleton.parents.index(-1)
+    places = (seen.positions - seen.positions[:, [root]]) * (1, 1, DEPTH)
+    n, joints, _ = places.shape
+    height = float(np.median(np.ptp(places[..., 1], axis=1)))
+    drift = gaussian_filter1d(noise.normal(0, 1, n), ZOOM_S * VIDEO_FPS)
+    places *= (1 + ZOOM * drift / np.abs(drift).max())[:, None, None]
+    places += noise.normal(0, JITTER * height, places.shape)
+    for joint in range(joints):
+        for start in np.flatnonzero(noise.random(n) < 1 / (EVERY_S * VIDEO_FPS)).tolist():
+            hidden = np.zeros(n, np.bool_)
+            hidden[start : start + round(HIDDEN_S * VIDEO_FPS)] = True
+            for axis in range(3):
+                bridge_line(places[:, joint, axis], hidden)
+    flat = filter_low(places.reshape(n, -1), VIDEO_FPS, CUTOFF, round(VIDEO_FPS))
+    return Motion(seen.skeleton, flat.reshape(places.shape), VIDEO_FPS, gaps=seen.gaps)
 
 
 def _at(recording: Motion | Signals, rate: float) -> Motion | Signals:

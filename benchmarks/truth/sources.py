@@ -2,14 +2,14 @@
 
     python -m benchmarks sources [SOURCE ...] [--every N] [--presets kineme sensors] [--record]
     python -m benchmarks sources --free NAME=VALUE,VALUE,... [--free ...] [--presets NAME]
-    python -m benchmarks sources --same [--record]
+    python -m benchmarks sources [SOURCE ...] --same [--record]
 
 Sources (`_sources.py`) are bodies that people cut, tagged or counted, sensors that people labelled,
 and recordings that are made, HuGaDB once more with the files of each person joined. The second
 form tries every combination of values, on every source; for each source it then takes the one that
 is best in the mean of all others, and tells what that gives there, beside what is shipped and the
 choice by all of them: what was left out decides. The third asks whether the same movement gives
-the same answer: at other rates, cut, with noise, turned, larger, faster.
+the same answer: at other rates, cut, with noise, turned, larger, faster, as poses of a video.
 """
 
 from __future__ import annotations
@@ -105,10 +105,12 @@ def choose(
         print(f"{name:30}{own[0]:9.3f}{own[at]:9.3f}{own[everywhere]:9.3f}  {chosen}", flush=True)
 
 
-def same_answers(preset: str) -> None:
+def same_answers(preset: str, sources: Sequence[str]) -> None:
     """How far the answer to the same movement is the same, by guise."""
     shares: dict[str, list[float]] = {}
-    for source, every in few(SAME, {"subject_86": 5}).items():
+    chosen = {name: SAME.get(name, 1) for name in sources} or few(SAME, {"subject_86": 5})
+    place = ".".join(["sources.same", *sources, preset])
+    for source, every in chosen.items():
         for sample in SOURCES[source](every):
             here = kineme.segment(sample.recording, preset=preset)
             for guise in guises(sample.recording):
@@ -116,10 +118,10 @@ def same_answers(preset: str) -> None:
                 shares.setdefault(guise.name, []).append(agreement(here, there, guise))
     for name, values in shares.items():
         print(f"{preset}, {name:20}{np.mean(values):.3f} of {len(values)}")
-        record(f"sources.same.{preset}.{name.replace(' ', '_')}", float(np.mean(values)))
+        record(f"{place}.{name.replace(' ', '_')}", float(np.mean(values)))
     means = [float(np.mean(values)) for values in shares.values()]
     print(f"{preset}: {np.mean(means):.3f} in the mean, {min(means):.3f} at worst", flush=True)
-    record(f"sources.same.{preset}.mean", float(np.mean(means)))
+    record(f"{place}.mean", float(np.mean(means)))
 
 
 def constant(text: str) -> tuple[str, list[float]]:
@@ -148,7 +150,7 @@ def main() -> None:
         parser.error(f"no such source: {', '.join(sorted(unknown))}")
     if options.same:
         for name in options.presets:
-            same_answers(name)
+            same_answers(name, options.sources)
         return
     if options.free:
         names = [name for name, _ in options.free]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -123,6 +124,15 @@ def test_confidence_leaves_out_keypoints(tmp_path: Path) -> None:
     path = write_squats(tmp_path / "a.parquet", AT_30_HZ, hidden)
     assert "left_elbow" in kineme.read(path).skeleton.names
     assert "left_elbow" not in kineme.read(path, confidence=0.5).skeleton.names
+
+
+def test_damaged_moves_of_the_camera_are_refused(tmp_path: Path) -> None:
+    path = write_squats(tmp_path / "a.parquet", AT_30_HZ)
+    table = parquet.read_table(path)
+    head = json.loads(table.schema.metadata[KEY]) | {"camera_moves": [[1.0, "late"]]}
+    parquet.write_table(table.replace_schema_metadata({KEY: json.dumps(head)}), path)
+    with pytest.raises(ReadError, match="damaged table of poses"):
+        kineme.read(path)
 
 
 @pytest.mark.parametrize("head", [b"{", b"[]", b'{"keypoints": ["a"]}', b"null"])

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -45,14 +46,19 @@ def write_squats(
     path: Path,
     times: Sequence[float],
     people: Callable[[float], Sequence[Pose]] = lambda time: [squat(time)],
+    moves: Mapping[float, float] = MappingProxyType({}),
     **told: object,
 ) -> Path:
-    """Write the table of poses that `estimate_poses` leaves of such people at these times."""
+    """Write the table of poses that `estimate_poses` leaves of such people at these times.
+
+    ``moves`` maps times to the seconds before them in which the camera moved.
+    """
     rows = []
     for time in times:
         poses = people(time)
         frame = np.zeros(max(1, len(poses)), make_row_type(len(NAMES)))
         frame["time"], frame["person"], frame["metres"] = time, NOBODY, np.nan
+        frame["moved"] = moves.get(round(float(time), 3), 0.0)
         for i, pose in enumerate(poses):
             frame[i]["person"], frame[i]["image"] = i, pose.image
             frame[i]["confidence"] = pose.confidence
@@ -64,14 +70,20 @@ def write_squats(
     return path
 
 
-def drawn_estimator(watch: Callable[[float], None] = lambda time: None) -> PoseEstimator:
-    """Return an estimator that sees squats in any video; ``watch`` is told of each picture."""
+def drawn_estimator(
+    watch: Callable[[float], None] = lambda time: None,
+    people: Callable[[float], Sequence[Pose]] = lambda time: [squat(time)],
+) -> PoseEstimator:
+    """Return an estimator that sees squats, or these people, in any video.
+
+    ``watch`` is called with the time of each picture.
+    """
 
     @contextmanager
-    def start(model: Path | None) -> Iterator[Callable[..., list[Pose]]]:
-        def estimate(picture: np.ndarray, time: float) -> list[Pose]:
+    def start(model: Path | None) -> Iterator[Callable[..., Sequence[Pose]]]:
+        def estimate(picture: np.ndarray, time: float) -> Sequence[Pose]:
             watch(time)
-            return [squat(time)]
+            return people(time)
 
         yield estimate
 
@@ -79,19 +91,27 @@ def drawn_estimator(watch: Callable[[float], None] = lambda time: None) -> PoseE
 
 
 def write_video(
-    path: Path, times: Sequence[float], *, rotation: int = 0, size: tuple[int, int] = (64, 48)
+    path: Path,
+    times: Sequence[float],
+    *,
+    rotation: int = 0,
+    size: tuple[int, int] = (64, 48),
+    codec: str = "mpeg4",
+    pix_fmt: str = "yuv420p",
 ) -> Path:
     """Write a video whose pictures are red in the upper left quarter, shown at these times."""
     import av
 
     with av.open(str(path), "w", options={"movflags": "faststart"}) as container:
-        stream = container.add_stream("mpeg4", rate=30)
+        stream = container.add_stream(codec, rate=30)
         stream.width, stream.height = size
+        stream.pix_fmt = pix_fmt
         stream.codec_context.time_base = Fraction(1, 1000)
         if rotation:
             stream.set_display_rotation(rotation)
         picture = np.zeros((size[1], size[0], 3), np.uint8)
         picture[: size[1] // 2, : size[0] // 2, 0] = 255
+        container.start_encoding()  # so that there is a file without frames, too
         for time in times:
             frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
             frame.pts, frame.time_base = round(1000 * time), Fraction(1, 1000)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import wave
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,15 +14,25 @@ from typer.testing import CliRunner
 
 import kineme
 from kineme.cli.app import app
-from kineme.errors import MissingDependencyError, ParameterError, ReadError, WriteError
+from kineme.errors import (
+    KinemeWarning,
+    MissingDependencyError,
+    ParameterError,
+    ReadError,
+    SeveralPeopleError,
+    WriteError,
+)
 from kineme.formats.keypoints.poses import read_poses
 from kineme.pose import Pose, estimate_poses, estimator_names, register
+from kineme.pose.decoding import open_video
 from kineme.pose.estimators import ESTIMATORS
-from squats import drawn_estimator, write_video
+from squats import drawn_estimator, squat, write_video
 
 av = pytest.importorskip("av")
 
-AT_30_HZ = np.arange(90) / 30
+AT_30_HZ = np.arange(180) / 30
+USED = AT_30_HZ[::2]
+"""Times of the frames whose poses are estimated by default."""
 
 
 @pytest.fixture
@@ -42,9 +53,9 @@ def video(tmp_path: Path) -> Path:
 def test_a_video_is_a_recording(video: Path, pictures: list[float]) -> None:
     motion = kineme.read(video)
     assert motion.n_frames == 90
-    assert motion.fps == pytest.approx(30, abs=0.01)
+    assert motion.fps == pytest.approx(15, abs=0.01)
     assert motion.provenance.path == str(video)
-    assert np.allclose(pictures, AT_30_HZ, atol=1e-3)
+    np.testing.assert_allclose(pictures, USED, atol=1e-3)
 
 
 def test_it_is_done_once(video: Path, pictures: list[float]) -> None:
@@ -54,7 +65,7 @@ def test_it_is_done_once(video: Path, pictures: list[float]) -> None:
     assert estimate_poses(video) == video.with_name("squats.mp4.poses.parquet")
     estimate_poses(video, video.with_name("copy.parquet"))
     assert len(pictures) == 90
-    write_video(video, AT_30_HZ[:60])  # another video of this name
+    write_video(video, AT_30_HZ[:120])  # another video of this name
     assert kineme.read(video).n_frames == 60
     assert len(pictures) == 150
 
@@ -74,7 +85,7 @@ def test_what_was_interrupted_goes_on(video: Path, pictures: list[float]) -> Non
     poses = read_poses(estimate_poses(video))
     assert not part.exists()
     assert len(pictures) == 40 + 90 - 38  # the last whole frame is done again
-    np.testing.assert_allclose(poses.rows["time"], AT_30_HZ, atol=1e-3)
+    np.testing.assert_allclose(poses.rows["time"], USED, atol=1e-3)
     assert poses.head["frames"] == 90
 
 
@@ -103,8 +114,6 @@ def test_a_folder_that_cannot_be_written(
 
 @pytest.mark.parametrize("rotation", [0, 90, 180, -90])
 def test_pictures_stand_upright(tmp_path: Path, rotation: int) -> None:
-    from kineme.pose.decoding import open_video
-
     path = write_video(tmp_path / "a.mp4", AT_30_HZ, rotation=rotation)
     with open_video(path) as video:
         picture = next(iter(video.frames())).picture
@@ -116,28 +125,87 @@ def test_pictures_stand_upright(tmp_path: Path, rotation: int) -> None:
 
 
 def test_times_are_those_of_the_container(tmp_path: Path, pictures: list[float]) -> None:
-    times = [*np.arange(30) / 30, *(1 + np.arange(30) / 15)]
-    estimate_poses(write_video(tmp_path / "a.mp4", times))
-    np.testing.assert_allclose(pictures, times, atol=2e-3)
+    times = [*np.arange(60) / 30, *(2 + np.arange(15) / 15)]
+    estimate_poses(write_video(tmp_path / "a.mp4", times), rate=12)
+    # Of the frames that come slowly, none is left out.
+    np.testing.assert_allclose(pictures, [*times[:60:2], *times[60:]], atol=2e-3)
 
 
-def test_of_60_frames_a_second_each_other_is_taken(tmp_path: Path, pictures: list[float]) -> None:
-    motion = kineme.read(write_video(tmp_path / "a.mp4", np.arange(240) / 60))
-    assert motion.fps == pytest.approx(30, abs=0.1)
-    assert len(pictures) == 120
+@pytest.mark.parametrize(
+    ("fps", "rate", "expected"), [(60, None, 15), (24, None, 24), (50, None, 12.5), (60, 30, 30)]
+)
+def test_every_nth_frame_is_used(
+    tmp_path: Path, pictures: list[float], fps: float, rate: float | None, expected: float
+) -> None:
+    video = write_video(tmp_path / "a.mp4", np.arange(4 * fps) / fps)
+    estimate_poses(video, rate=rate)
+    assert kineme.read(video).fps == pytest.approx(expected, rel=0.01)
+    assert len(pictures) == pytest.approx(4 * expected, abs=1)
+
+
+def test_another_rate_estimates_again(video: Path, pictures: list[float]) -> None:
+    kineme.read(video)
+    estimate_poses(video, rate=30)
+    assert len(pictures) == 90 + 180
+    assert kineme.read(video).fps == pytest.approx(30, abs=0.01)
+    assert len(pictures) == 90 + 180
+    with pytest.raises(ParameterError, match="rate must be"):
+        estimate_poses(video, rate=0)
+
+
+def faint(time: float) -> Pose:
+    """What an estimator guesses where nobody is."""
+    return replace(squat(time), confidence=np.full(33, 0.1))
 
 
 def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float]) -> None:
-    estimator = drawn_estimator()
-    faint = ESTIMATORS["drawn"].__class__(
-        "drawn", estimator.keypoints, "numpy", _faint, estimator.limit
-    )
-    register(faint, replace=True)
+    register(drawn_estimator(people=lambda time: [faint(time)]), replace=True)
     with pytest.raises(ReadError, match="nobody is found"):
         kineme.read(video)
     result = CliRunner().invoke(app, ["pose", str(video)])
     assert result.exit_code == 1
     assert "nobody is found" in result.output
+
+
+def test_while_nobody_is_seen_there_is_a_gap(video: Path, pictures: list[float]) -> None:
+    estimator = drawn_estimator(people=lambda t: [faint(t) if 2 <= t < 3 else squat(t)])
+    register(estimator, replace=True)
+    with pytest.warns(KinemeWarning, match="the recording is split there"):
+        assert kineme.read(video).gaps == ((30, 45),)
+
+
+def test_two_people_who_cross(video: Path, pictures: list[float]) -> None:
+    """One is hidden behind the other for a moment, and the estimator's order changes."""
+
+    def cross(time: float) -> list[Pose]:
+        ahead = 150 * (time - 3)
+        two = [squat(time, 420 + ahead), squat(0, 420 - ahead)]
+        return two[:1] if abs(time - 3) < 0.08 else two[:: 1 if time < 3 else -1]
+
+    register(drawn_estimator(people=cross), replace=True)
+    with pytest.raises(SeveralPeopleError, match="choose one with person="):
+        kineme.read(video)
+    moved = [
+        np.ptp(kineme.read(video, person=who).positions[:, :, 1], axis=0).max() for who in "01"
+    ]
+    assert np.round(moved, 1).tolist() == [0.4, 0.0]
+
+
+def test_hdr_is_decoded(tmp_path: Path, pictures: list[float]) -> None:
+    path = write_video(tmp_path / "hdr.mkv", AT_30_HZ[:40], codec="libx264", pix_fmt="yuv420p10le")
+    with open_video(path) as video:
+        picture = next(video.frames()).picture
+    assert picture.dtype == np.uint8
+    assert picture[:20, :28, 0].min() > 200
+    assert picture[30:, 40:].max() < 50
+    assert kineme.read(path).n_frames == 20
+
+
+def test_large_pictures_are_reduced(tmp_path: Path) -> None:
+    path = write_video(tmp_path / "4k.mp4", AT_30_HZ[:2], size=(3840, 2160))
+    with open_video(path) as video:
+        frame = next(video.frames())
+    assert (frame.picture.shape, frame.scale) == ((720, 1280, 3), 3)
 
 
 def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Path) -> None:
@@ -153,6 +221,7 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
         ("text.mp4", b"not a video", "is no video"),
         ("empty.mp4", b"", "empty"),
         ("sound.mkv", sound.getvalue(), "sound"),
+        ("none.mp4", write_video(tmp_path / "none.mp4", []).read_bytes(), "no pictures"),
         ("head.mp4", video.read_bytes()[:500], "is no video"),
         ("tenth.mp4", whole[: len(whole) // 10], "part of"),
         ("half.mkv", matroska[: len(matroska) // 2], "breaks off"),
@@ -164,6 +233,11 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
             kineme.read(path)
     with pytest.raises(ReadError, match="still picture"):
         kineme.read(write_video(tmp_path / "still.mp4", [0.0]))
+    with pytest.raises(ReadError, match="still picture"):
+        estimate_poses(
+            write_video(tmp_path / "photo.jpg", [0.0], codec="mjpeg", pix_fmt="yuvj420p")
+        )
+    (tmp_path / "photo.jpg").unlink()
     left = {path.suffix for path in tmp_path.iterdir()}
     assert left <= {".mp4", ".mkv"}
 
@@ -190,10 +264,3 @@ def test_the_command(video: Path, pictures: list[float], tmp_path: Path) -> None
     assert kineme.read(table).n_frames == 90
     result = CliRunner().invoke(app, ["segment", str(tmp_path / "squats.mp4"), "--json"])
     assert result.exit_code == 0, result.output
-
-
-def _faint(model: Path | None):
-    from contextlib import nullcontext
-
-    pose = Pose(np.zeros((33, 2)), np.full(33, 0.1), np.zeros((33, 3)))
-    return nullcontext(lambda picture, time: [pose])

@@ -97,7 +97,7 @@ def test_poses_are_estimated_when_they_are_asked_for(make_studio, video: Path, w
     client.post("/api/poses", json={"recordings": [name]})
     done = wait(client, is_idle)
     assert (done["done"], done["all"], done["failed"]) == (1, 1, [])
-    assert client.get(f"/api/recordings/{name}").json()["n_frames"] == 90
+    assert client.get(f"/api/recordings/{name}").json()["n_frames"] == 45
     listed = client.get("/api/state").json()["recordings"]
     assert not any(each["needs_poses"] for each in listed)
 

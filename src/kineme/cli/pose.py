@@ -41,6 +41,16 @@ def pose(
     pose_model: Annotated[
         Path | None, option(METHOD, "Model file of the estimator, in place of its own.")
     ] = None,
+    pose_rate: Annotated[
+        float | None,
+        option(
+            METHOD,
+            "Poses per second: every n-th frame is used, with the largest n that leaves at least "
+            "so many; default 12.5, which is 15 of 30 frames per second.",
+            metavar="HZ",
+            min=0.1,
+        ),
+    ] = None,
     recursive: Recursive = False,
     json: Json = False,
     quiet: Quiet = False,
@@ -68,7 +78,7 @@ def pose(
             if table is not None:
                 make_parent_folder(table)
             with batch.progress(path):
-                facts = _estimate(path, table, estimator, pose_model)
+                facts = _estimate(path, table, estimator, pose_model, pose_rate)
             if json:
                 typer.echo(dumps(facts))
             elif not quiet:
@@ -77,20 +87,24 @@ def pose(
 
 
 def _estimate(
-    path: Path, table: Path | None, estimator: str | None, model: Path | None
+    path: Path,
+    table: Path | None,
+    estimator: str | None,
+    model: Path | None,
+    rate: float | None,
 ) -> dict[str, Any]:
     """Estimate the poses of a video, write them, and return the facts to print."""
     from kineme.errors import ReadError
     from kineme.formats.keypoints.poses import read_poses
     from kineme.pose import estimate_poses
 
-    target = estimate_poses(path, table, estimator=estimator, model=model)
-    poses = read_poses(target)
+    written = estimate_poses(path, table, estimator=estimator, model=model, rate=rate)
+    poses = read_poses(written)
     if not len(poses.rows):
         raise ReadError(path, "nobody is found in any frame")
     facts = {name: poses.head[name] for name in ("estimator", "frames", "fps", "duration")}
     people = len(set(poses.rows["person"].tolist()))
-    return {"path": str(path), **facts, "seen": poses.seen, "people": people, "poses": str(target)}
+    return {"path": str(path), **facts, "seen": poses.seen, "people": people, "poses": str(written)}
 
 
 def _describe_poses(facts: dict[str, Any]) -> str:

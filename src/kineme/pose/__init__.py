@@ -1,9 +1,9 @@
-"""Poses from videos: estimators of keypoints, and the file that their poses are kept in.
+"""Estimate the poses of people in videos.
 
-`PoseEstimator` is one estimator, found by entry points of the group ``kineme.pose_estimators``.
-`estimate_poses` runs it over a video and leaves a table of poses, which
-`kineme.formats.keypoints.poses` describes and reads. `kineme.read` does both for the name of a
-video. Everything happens on this machine: no frame of a video leaves it.
+`PoseEstimator` describes one estimator. Estimators are registered as entry points of the group
+``kineme.pose_estimators``. `estimate_poses` runs one over a video and writes a table of poses;
+`kineme.formats.keypoints.poses` defines and reads this table. `kineme.read` does both for a video.
+All of it runs on this machine: no frame of a video leaves it.
 """
 
 from kineme.pose.estimating import estimate_poses

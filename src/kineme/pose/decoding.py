@@ -1,8 +1,8 @@
-"""Frames of a video, upright and with their times, one after the other.
+"""Decode the frames of a video, upright and with their times.
 
-Times are those that the container gives to its frames, so they are right at variable frame rates,
-too. A rotation that a phone notes beside the frames is applied. Larger pictures than an estimator
-can use are made smaller. Nothing but one frame at a time is held in memory.
+Times come from the container, so they are right for variable frame rates as well. The rotation
+flag of phones is applied. Frames with more pixels than estimators can use are scaled down. Only
+one frame is in memory at a time.
 """
 
 from __future__ import annotations
@@ -20,107 +20,118 @@ from kineme._util.files import shorten_error
 from kineme.errors import ReadError
 from kineme.pose.estimators import Picture
 
-LONGEST_SIDE = 1280
-"""Pixels of a picture, which is made smaller where it has more."""
-SHORTEST_STEP_S = 0.025
-"""Seconds between frames that are taken: of 50 and 60 frames a second each second one."""
-MISSING_S = 1.0
-"""Seconds by which the frames may end before the video does, else it broke off."""
+MAX_SIDE = 1280
+"""Pixels of the longer side above which a frame is scaled down."""
+TRUNCATED_S = 1.0
+"""Seconds that may be missing at the end of a video before it counts as truncated."""
+USUAL_FPS = 30.0
+"""Frame rate of videos whose container does not state one."""
 
 
 @dataclass(frozen=True)
 class Frame:
-    """A picture of a video."""
+    """One frame of a video."""
 
     time: float  # in seconds
     picture: Picture
-    scale: float  # pixels of the video in one of the picture
+    scale: float  # pixels of the video per pixel of the picture
 
 
 class OpenVideo:
-    """A video whose frames can be decoded; `open_video` opens it."""
+    """A video that is open for decoding. `open_video` returns one."""
 
     def __init__(self, path: Path, container: Any, stream: Any) -> None:
         self._path, self._container, self._stream = path, container, stream
 
     @property
     def duration(self) -> float:
-        """Return the length of the pictures in seconds; 0 where the video does not tell it."""
-        told = self._stream.duration
-        if told:
-            return float(told * self._stream.time_base)
-        # Matroska tells that of all; sound may go on for longer than the pictures.
-        alone = len(self._container.streams) == 1
-        return (self._container.duration or 0) / 1_000_000 if alone else 0.0
+        """Return the duration of the video stream in seconds; 0 if it is unknown."""
+        duration = self._stream.duration
+        if duration:
+            return float(duration * self._stream.time_base)
+        # Matroska states the duration of the whole file only, and sound may be longer.
+        has_one_stream = len(self._container.streams) == 1
+        return (self._container.duration or 0) / 1_000_000 if has_one_stream else 0.0
 
     @property
-    def begins(self) -> float:
-        """Return the time at which players begin: that of the first picture or sound."""
-        return (self._container.start_time or 0) / 1_000_000  # in FFmpeg's microseconds
+    def start_time(self) -> float:
+        """Return the second at which players start: that of the first frame or sound."""
+        return (self._container.start_time or 0) / 1_000_000  # from FFmpeg's microseconds
 
-    def frames(self, after: float | None = None) -> Iterator[Frame]:
-        """Yield the frames after a time; ReadError where the video ends too early.
+    def find_step(self, rate: float) -> float:
+        """Return the shortest time between frames to use, in seconds.
 
-        Frames that follow the one before by less than `SHORTEST_STEP_S` are left out.
+        Every n-th frame is used, with the largest n that leaves at least ``rate`` per second.
+        """
+        fps = float(self._stream.average_rate or USUAL_FPS)
+        n = max(1, int(fps / rate + 0.05))  # so that 24.7 counts as 25, and 24 does not
+        return (n - 0.5) / fps  # half a frame less, as times are rounded
+
+    def frames(self, step: float = 0.0, after: float | None = None) -> Iterator[Frame]:
+        """Yield frames at least ``step`` seconds apart, from the first one after ``after``.
+
+        Raises ReadError if the video is damaged or ends too early.
         """
         begin = float((self._stream.start_time or 0) * self._stream.time_base)
-        last = after
-        if after is not None:  # back to the frame from which the one after it can be decoded
+        used = last = after
+        if after is not None:  # seek to the keyframe before it
             self._container.seek(int(after / self._stream.time_base), stream=self._stream)
-        for decoded in self._decoded():
-            time = decoded.time
-            if time is None:
-                raise ReadError(self._path, "does not tell the times of its frames: convert it")
-            if last is None or time - last >= SHORTEST_STEP_S - 1e-6:
-                last = time
-                yield _upright(decoded)
+        for decoded in self._decode():
+            last = decoded.time
+            if last is None:
+                raise ReadError(self._path, "does not state the times of its frames: convert it")
+            # The seek ends at a keyframe before `after`: `last - used` is negative there.
+            if used is None or last - used >= max(step, 1e-6):
+                used = last
+                yield _convert_frame(decoded)
         if last is None:
             raise ReadError(self._path, "holds no frames")
-        if self.duration and last - begin < self.duration - MISSING_S:
+        if self.duration and last - begin < self.duration - TRUNCATED_S:
             raise ReadError(
                 self._path,
                 f"breaks off after {last - begin:.1f} s of {self.duration:.1f} s: copy it again",
             )
 
-    def _decoded(self) -> Iterator[Any]:
+    def _decode(self) -> Iterator[Any]:
         import av
 
         try:
             yield from self._container.decode(self._stream)
         except (av.FFmpegError, OSError) as error:
-            reason = f"is damaged, its frames cannot be decoded: {_reason(error)}"
+            reason = f"is damaged, its frames cannot be decoded: {_shorten_reason(error)}"
             raise ReadError(self._path, reason) from error
 
 
 @contextmanager
 def open_video(path: Path) -> Iterator[OpenVideo]:
-    """Open a video as long as the block; ReadError where it holds no pictures or is damaged."""
+    """Open a video for the block; raise ReadError if it has no video stream or is damaged."""
     with require_extra("av", "video"):
         import av
     try:
         container = av.open(str(path))
     except (av.FFmpegError, OSError) as error:
-        reason = f"is no video, or only a part of one: {_reason(error)}"
+        reason = f"is no video, or only a part of one: {_shorten_reason(error)}"
         raise ReadError(path, reason) from error
     with container:
         if not container.streams.video:
-            sound = "is no video: it holds sound, but no pictures"
-            lost = "holds no pictures: it may be a part of a video only, so copy it again"
-            raise ReadError(path, sound if container.streams.audio else lost)
+            sound_only = "is no video: it holds sound, but no pictures"
+            truncated = "holds no pictures: it may be a part of a video only, so copy it again"
+            raise ReadError(path, sound_only if container.streams.audio else truncated)
         stream = container.streams.video[0]
         stream.thread_type = "AUTO"
         yield OpenVideo(path, container, stream)
 
 
-def _upright(decoded: Any) -> Frame:
-    scale = max(1.0, max(decoded.width, decoded.height) / LONGEST_SIDE)
+def _convert_frame(decoded: Any) -> Frame:
+    """Return a decoded frame as RGB, upright, and scaled down if it is large."""
+    scale = max(1.0, max(decoded.width, decoded.height) / MAX_SIDE)
     size = {"width": round(decoded.width / scale), "height": round(decoded.height / scale)}
     picture = decoded.reformat(format="rgb24", **size).to_ndarray()
-    # The rotation is counterclockwise, and so are the quarter turns of numpy.
-    turned = np.rot90(picture, round(decoded.rotation / 90))
-    return Frame(float(decoded.time), np.ascontiguousarray(turned), scale)
+    # PyAV's rotation is counterclockwise, as are the quarter turns of numpy.
+    rotated = np.rot90(picture, round(decoded.rotation / 90))
+    return Frame(float(decoded.time), np.ascontiguousarray(rotated), scale)
 
 
-def _reason(error: Exception) -> str:
-    """Return what FFmpeg says without its number and the path, which are no help."""
+def _shorten_reason(error: Exception) -> str:
+    """Return FFmpeg's message without its number and the path."""
     return shorten_error(error).split("] ", 1)[-1].split(": '", 1)[0].lower()

@@ -1,13 +1,13 @@
-"""Run an estimator over a video: poses are kept as they come, so that nothing is done twice.
+"""Estimate the poses of a video, write them as they come, and continue after an interruption.
 
-While it runs, poses go to a file of its own beside the table to be, called as that and ``.part``: a
-line of JSON, then rows of the type `kineme.formats.keypoints.poses.make_row_type`, a frame at once.
-Whatever ends the run, the next one goes on after the last whole frame. When all frames are done,
-the table is written at once and the other file is removed.
+During the run, poses are appended to a file beside the table, with the suffix ``.part``: one line
+of JSON, then rows of `kineme.formats.keypoints.poses.make_row_type`. If the run is interrupted, the next
+one continues after the last complete frame. At the end the table is written and the other file is
+removed.
 
-Without another place, the table of ``squats.mp4`` is ``squats.mp4.poses.parquet`` beside it, or
-in the user's cache where that folder cannot be written. It holds the digest of the video: where
-that is another one, poses are estimated anew.
+By default the table of ``squats.mp4`` is ``squats.mp4.poses.parquet`` beside it, or in the user's
+cache if that folder cannot be written. It holds the digest of the video: if the video changes, its
+poses are estimated again.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from typing import BinaryIO
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import check_path
+from kineme._util.checks import check_path, is_number
 from kineme._util.files import POSES, AnyPath, atomic_write, is_locked, lock_shared, refuse_link
 from kineme._util.parallel import announce, check_cancelled
-from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
 from kineme.formats.channels.parquet import open_parquet
 from kineme.formats.files import FileContent, load, load_head
 from kineme.formats.keypoints.poses import (
@@ -39,16 +39,19 @@ from kineme.formats.keypoints.poses import (
     parse_head,
     write_poses,
 )
+from kineme.pose.camera import CameraWatch
 from kineme.pose.decoding import Frame, OpenVideo, open_video
 from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator, choose_estimator
 
-Watch = Callable[[float | None, float], None]
-"""Told the share of a video that is done, None where nobody knows, and frames a second."""
+ProgressCallback = Callable[[float | None, float], None]
+"""Receives the share of the video that is done (None if unknown) and the frames per second."""
 
-PRESENT = 0.3
-"""Mean confidence of the keypoints below which nobody is there."""
-TOLD_S = 0.5
-"""Seconds between two words on progress."""
+DEFAULT_RATE = 12.5
+"""Poses per second at least: 15 of 30 or 60 frames per second, 12.5 of 25 or 50."""
+MIN_MEAN_CONFIDENCE = 0.3
+"""Mean confidence of the keypoints below which a pose is dropped: nobody is there."""
+PROGRESS_INTERVAL_S = 0.5
+"""Seconds between two reports of progress."""
 
 
 def estimate_poses(
@@ -57,34 +60,42 @@ def estimate_poses(
     *,
     estimator: str | None = None,
     model: AnyPath | None = None,
+    rate: float | None = None,
 ) -> Path:
-    """Estimate the poses of the people in a video, unless that is done, and return their table.
+    """Estimate the poses of the people in a video and return the path of their table.
+
+    An existing table of the same video is reused.
 
     Parameters
     ----------
     video : str or PathLike
-        Whatever FFmpeg decodes.
+        Any video that FFmpeg decodes.
     target : str or PathLike, optional
         The Parquet file to write; by default one beside the video.
     estimator : str, optional
-        One of `estimator_names`; by default the first that is installed, or whichever estimated the
-        poses beside the video.
+        One of `estimator_names`; by default the first that is installed, or the one that estimated
+        the poses beside the video.
     model : str or PathLike, optional
-        A file that the estimator takes in place of its own model.
+        A model file that replaces the estimator's own model.
+    rate : float, optional
+        Poses per second: every n-th frame is used, with the largest n that leaves at least so many.
+        By default 12.5, or the rate of the poses beside the video.
 
     Returns
     -------
     Path
-        `kineme.read` reads it.
+        The table of poses, which `kineme.read` reads.
 
     Raises
     ------
     ReadError
-        The file is no video, is damaged, or is a single picture.
+        The file is no video, is damaged, or is a still picture.
     WriteError
         The table cannot be written.
     MissingDependencyError
         No estimator is installed.
+    ParameterError
+        The estimator is unknown, or the rate is not positive.
 
     Examples
     --------
@@ -93,11 +104,13 @@ def estimate_poses(
     PosixPath('squats.mp4.poses.parquet')
     """
     check_path(video, "estimate_poses")
-    return keep_poses(load_head(Path(video)), target, estimator=estimator, model=model)
+    if rate is not None and not (is_number(rate) and rate > 0):
+        raise ParameterError(f"rate must be a positive number of poses per second, not {rate!r}")
+    return keep_poses(load_head(Path(video)), target, estimator=estimator, model=model, rate=rate)
 
 
 def has_poses(video: Path) -> bool:
-    """Return whether the poses of a video are there, so that reading it takes no minutes."""
+    """Return whether the poses of a video have been estimated, so that reading it is fast."""
     beside = video.with_name(video.name + POSES)
     try:
         changed = video.stat()
@@ -107,14 +120,14 @@ def has_poses(video: Path) -> bool:
         elif os.access(video.parent, os.W_OK):
             return False
         digest = _digest(video, changed.st_mtime_ns, changed.st_size)
-        return _is_made(find_poses(video, digest), {"sha256": digest})
-    except (KinemeError, OSError):  # reading the video will say what is wrong
+        return _holds_poses_of(find_poses(video, digest), {"sha256": digest})
+    except (KinemeError, OSError):  # reading the video will raise it again
         return False
 
 
 @lru_cache(1000)
 def _digest(video: Path, *_: int) -> str:
-    """Return the digest of a video as it was at that time, of that size."""
+    """Return the digest of a video; the other arguments (time, size) are the key of the cache."""
     return load_head(video).digest
 
 
@@ -124,41 +137,49 @@ def keep_poses(
     *,
     estimator: str | None = None,
     model: AnyPath | None = None,
-    watch: Watch | None = None,
+    rate: float | None = None,
+    report: ProgressCallback | None = None,
 ) -> Path:
-    """Return the table of `estimate_poses` for a video of which the first bytes are loaded.
+    """Estimate poses as `estimate_poses` does, for a video whose first bytes are loaded.
 
-    ``watch`` is told how far it is, by default whoever listens to what is announced.
+    ``report`` receives the progress; by default it is announced to the command or page.
     """
     path, digest = content.path, content.digest
     beside = find_poses(path, digest)
-    place = beside if target is None else Path(target)
+    table = beside if target is None else Path(target)
     if target is None:
-        place.parent.mkdir(parents=True, exist_ok=True)  # of the cache
-    asked: dict[str, object] = {"sha256": digest}
+        table.parent.mkdir(parents=True, exist_ok=True)  # of the cache
+    wanted: dict[str, object] = {"sha256": digest}
     if estimator is not None or model is not None:
-        asked |= _told_of(choose_estimator(estimator), model)
-    for made in (place, beside):
-        if _is_made(made, asked):
-            if made != place:
-                with atomic_write(place) as draft:
-                    shutil.copyfile(made, draft)
-            return place
+        wanted |= _describe_estimator(choose_estimator(estimator), model)
+    if rate is not None:
+        wanted["rate"] = rate
+    for existing in (table, beside):
+        if _holds_poses_of(existing, wanted):
+            if existing != table:
+                with atomic_write(table) as draft:
+                    shutil.copyfile(existing, draft)
+            return table
     chosen = choose_estimator(estimator)
-    part = place.with_name(f"{place.name}.part")
-    given = None if model is None else Path(model)
-    _run(path, part, chosen, given, digest, watch or _announce)
+    settings = {
+        **_describe_estimator(chosen, model),
+        "sha256": digest,
+        "limit": chosen.limit,
+        "rate": rate or DEFAULT_RATE,
+    }
+    part = table.with_name(f"{table.name}.part")
+    _run(path, part, chosen, None if model is None else Path(model), settings, report or _announce)
     head, rows, _ = _parse_part(part, len(chosen.keypoints))
     if len(np.unique(rows["time"])) < 2:
         part.unlink()
         raise ReadError(path, "is a still picture: a video has several frames")
-    write_poses(place, head, rows)
+    write_poses(table, head, rows)
     part.unlink()
-    return place
+    return table
 
 
-def _told_of(estimator: PoseEstimator, model: AnyPath | None) -> dict[str, object]:
-    """Return what a table tells of how it was made."""
+def _describe_estimator(estimator: PoseEstimator, model: AnyPath | None) -> dict[str, object]:
+    """Return the entries of a table's head that say which estimator made it."""
     return {
         "estimator": estimator.name,
         "keypoints": list(estimator.keypoints),
@@ -166,17 +187,17 @@ def _told_of(estimator: PoseEstimator, model: AnyPath | None) -> dict[str, objec
     }
 
 
-def _is_made(place: Path, asked: Head) -> bool:
-    """Return whether a place holds the poses asked for; WriteError for a file of somebody else."""
-    if not place.exists():
+def _holds_poses_of(table: Path, wanted: Head) -> bool:
+    """Return whether a table has these entries; raise WriteError if it is another kind of file."""
+    if not table.exists():
         return False
     try:
-        content = load(place)
+        content = load(table)
         head = parse_head(content, open_parquet(content))
     except ReadError as error:
         reason = "is there, and holds no poses: move it away or name another file"
-        raise WriteError(place, reason) from error
-    return all(head.get(name) == value for name, value in asked.items())
+        raise WriteError(table, reason) from error
+    return all(head.get(name) == value for name, value in wanted.items())
 
 
 def _announce(share: float | None, pace: float) -> None:
@@ -189,73 +210,77 @@ def _run(
     part: Path,
     estimator: PoseEstimator,
     model: Path | None,
-    digest: str,
-    watch: Watch,
+    settings: Head,
+    report: ProgressCallback,
 ) -> None:
     """Append the poses of all frames that the file of an earlier run lacks."""
     refuse_link(part)
     if part.exists() and is_locked(part):
         raise WriteError(part, "is being written: wait for the other kineme to end")
-    told = {**_told_of(estimator, model), "sha256": digest, "limit": estimator.limit}
     with open_video(path) as video:
-        last = _resume(part, told, len(estimator.keypoints))
+        last = _resume(part, settings, len(estimator.keypoints))
         try:
             with part.open("ab") as file, estimator.start(model) as estimate:
                 lock_shared(file.fileno())
-                _append(file, video, estimate, told, last, watch)
-        except ReadError:  # of the video or the model: nothing to go on with
+                _append_poses(file, video, estimate, settings, last, report)
+        except ReadError:  # of the video or the model: there is nothing to continue
             part.unlink(missing_ok=True)
             raise
         except OSError as error:
             raise WriteError(part, f"cannot be written: {error.strerror or error}") from error
 
 
-def _append(
+def _append_poses(
     file: BinaryIO,
     video: OpenVideo,
     estimate: Estimate,
-    told: Head,
+    settings: Head,
     last: float | None,
-    watch: Watch,
+    report: ProgressCallback,
 ) -> None:
-    begun = spoken = time.monotonic()
+    """Write the rows of the frames after ``last``, and the head if the file is empty."""
+    begun = reported = time.monotonic()
+    camera = CameraWatch()
     former: Floats | None = None
-    for n, frame in enumerate(video.frames(last)):
+    for n, frame in enumerate(video.frames(video.find_step(settings["rate"]), last)):
         check_cancelled()
-        poses = _present(estimate(frame.picture, frame.time))
+        poses = _drop_absent(estimate(frame.picture, frame.time))
         if file.tell() == 0:
             height, width = (round(side * frame.scale) for side in frame.picture.shape[:2])
-            head = {**told, "width": width, "height": height, "begins": video.begins}
+            head = {**settings, "width": width, "height": height, "begins": video.start_time}
             file.write(json.dumps(head).encode() + b"\n")
-        # The rows of a frame go to the file in one call: it holds all of them or none.
         colors = _count_colors(frame.picture)
-        change = 0.0 if former is None else 0.5 * float(np.abs(colors - former).sum())
+        rows = _make_rows(frame, poses, len(settings["keypoints"]))
+        # Half of the summed differences is the share of pixels that changed their colour.
+        rows["change"] = 0.0 if former is None else 0.5 * np.abs(colors - former).sum()
+        rows["moved"] = camera.measure(frame.picture, frame.time)
         former = colors
-        file.write(_rows_of(frame, poses, len(told["keypoints"]), change).tobytes())
+        # One call writes all rows of a frame, so an interruption loses a frame as a whole.
+        file.write(rows.tobytes())
         file.flush()
         now = time.monotonic()
-        if now - spoken >= TOLD_S:
-            spoken = now
+        if now - reported >= PROGRESS_INTERVAL_S:
+            reported = now
             share = min(frame.time / video.duration, 1.0) if video.duration else None
-            watch(share, (n + 1) / (now - begun))
+            report(share, (n + 1) / (now - begun))
 
 
-def _present(poses: Sequence[Pose]) -> list[Pose]:
-    return [pose for pose in poses if np.mean(pose.confidence) >= PRESENT]
+def _drop_absent(poses: Sequence[Pose]) -> list[Pose]:
+    """Return the poses with enough confidence to be of a visible person."""
+    return [pose for pose in poses if np.mean(pose.confidence) >= MIN_MEAN_CONFIDENCE]
 
 
 def _count_colors(picture: Picture) -> Floats:
-    """Return the shares of a picture, looked at coarsely, that have each of 64 colours."""
-    few = picture[::8, ::8].reshape(-1, 3) >> 6  # the two highest bits of red, green and blue
-    counts = np.bincount((few * (16, 4, 1)).sum(axis=1), minlength=64)
-    return np.asarray(counts / len(few))
+    """Return the shares of 64 colours among every eighth pixel."""
+    pixels = picture[::8, ::8].reshape(-1, 3) >> 6  # the two highest bits of red, green and blue
+    counts = np.bincount((pixels * (16, 4, 1)).sum(axis=1), minlength=64)
+    return np.asarray(counts / len(pixels))
 
 
-def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int, change: float) -> Rows:
-    """Return a row for each person in a frame; one of nobody where there is none."""
+def _make_rows(frame: Frame, poses: Sequence[Pose], keypoints: int) -> Rows:
+    """Return a row for each person in a frame, or one row without a person."""
     rows = np.zeros(max(1, len(poses)), make_row_type(keypoints))
     rows["time"], rows["person"], rows["metres"] = frame.time, NOBODY, np.nan
-    rows["change"] = change
     for i, pose in enumerate(poses):
         rows[i]["person"] = i
         rows[i]["image"] = pose.image * frame.scale
@@ -265,14 +290,14 @@ def _rows_of(frame: Frame, poses: Sequence[Pose], keypoints: int, change: float)
     return rows
 
 
-def _resume(part: Path, told: Head, keypoints: int) -> float | None:
-    """Return the time after which an earlier run is gone on with; None for a new one."""
+def _resume(part: Path, settings: Head, keypoints: int) -> float | None:
+    """Return the time of the last complete frame of an earlier run; None if there is none."""
     if not part.exists():
         return None
     head, rows, size = _parse_part(part, keypoints)
-    # The last frame is done again: not all of its people may have been written.
+    # The last frame is done again: some of its people may be missing.
     kept = rows[rows["time"] < rows["time"][-1]] if len(rows) else rows
-    if not len(kept) or any(head.get(name) != value for name, value in told.items()):
+    if not len(kept) or any(head.get(name) != value for name, value in settings.items()):
         part.unlink()
         return None
     os.truncate(part, size + kept.nbytes)
@@ -280,11 +305,11 @@ def _resume(part: Path, told: Head, keypoints: int) -> float | None:
 
 
 def _parse_part(part: Path, keypoints: int) -> tuple[Head, Rows, int]:
-    """Return head and whole rows of a file of poses that is not done, and the size of the head."""
+    """Return the head, the complete rows and the size of the head of an unfinished file."""
     line, _, rest = part.read_bytes().partition(b"\n")
     try:
         head = json.loads(line)
     except ValueError:
         head = {}
-    kind = make_row_type(keypoints)
-    return head, np.frombuffer(rest, kind, len(rest) // kind.itemsize), len(line) + 1
+    dtype = make_row_type(keypoints)
+    return head, np.frombuffer(rest, dtype, len(rest) // dtype.itemsize), len(line) + 1

@@ -1,8 +1,8 @@
-"""Pose estimators: what one is, which there are, and which of them is used.
+"""Define and register pose estimators, and choose one.
 
-An estimator turns the pictures of a video into named keypoints of the people in them. It is one
-module that ends in one `PoseEstimator`. Other packages add theirs with `register`, or name a
-`PoseEstimator` as an entry point of the group ``kineme.pose_estimators``.
+An estimator turns the pictures of a video into named keypoints of the people in them. Each is one
+module with one `PoseEstimator`. Other packages add theirs with `register`, or as an entry point of
+the group ``kineme.pose_estimators``.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ class Pose:
     image : (keypoints, 2) array
         Pixels from the left and from the top.
     confidence : (keypoints,) array
-        0 to 1: how surely a keypoint was seen.
+        Confidence of each keypoint, 0 to 1.
     metres : (keypoints, 3) array, optional
-        From the middle of the hips: to the right of the picture, up, and towards the camera.
-        None where the estimator gives no depth.
+        Position relative to the middle of the hips: to the right of the picture, up, and towards
+        the camera. None if the estimator gives no depth.
 
     Examples
     --------
@@ -50,27 +50,26 @@ class Pose:
 
 
 Estimate = Callable[[Picture, float], Sequence[Pose]]
-"""From a picture and its time in seconds, which rises, to the people in it."""
+"""Takes a picture and its time in seconds, in the order of time; returns the people in it."""
 
 
 @dataclass(frozen=True)
 class PoseEstimator:
-    """One way to find people in pictures.
+    """A pose estimator.
 
     Parameters
     ----------
     name : str
-        By which it is chosen.
+        The name that selects it.
     keypoints : sequence of str
         Names of the keypoints, such as ``left_knee``.
     package : str
         The package that it needs.
     start : callable
-        From the path of a model, None for the estimator's own, to a context that gives an
-        `Estimate`. There is one for each video, so that it may follow people from one picture to
-        the next.
+        Takes the path of a model (None for the estimator's own) and returns a context manager that
+        gives an `Estimate`. It is called once per video, so an estimator may track people.
     limit : float
-        Confidence from which a keypoint is used when the poses are read.
+        Confidence below which a keypoint is not used when the poses are read.
 
     Examples
     --------
@@ -90,7 +89,7 @@ class PoseEstimator:
 
     @property
     def is_installed(self) -> bool:
-        """Return whether the package that it needs is there."""
+        """Return whether the package that it needs is installed."""
         return find_spec(self.package) is not None
 
 
@@ -104,7 +103,7 @@ ESTIMATORS: Registry[PoseEstimator] = Registry(
 
 
 def register(new: PoseEstimator, *, replace: bool = False) -> None:
-    """Add an estimator; ParameterError where its name is taken and ``replace`` is False.
+    """Add an estimator; raise ParameterError if its name is taken and ``replace`` is False.
 
     Examples
     --------
@@ -127,7 +126,7 @@ def estimator_names() -> tuple[str, ...]:
 def choose_estimator(name: str | None) -> PoseEstimator:
     """Return the estimator of this name, or the first whose package is installed.
 
-    ParameterError for an unknown name; MissingDependencyError where the package is not installed.
+    Raises ParameterError for an unknown name, MissingDependencyError if no package is installed.
     """
     if name is not None:
         check_one_of(name, ESTIMATORS, "estimator")

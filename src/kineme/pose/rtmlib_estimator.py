@@ -1,7 +1,7 @@
-"""RTMPose through rtmlib: 26 keypoints of each of several people, in the image.
+"""Estimate poses with RTMPose through rtmlib: 26 keypoints of each of several people, in the image.
 
-rtmlib downloads its models when they are first used. A model that is given is the ONNX file that
-finds the keypoints.
+rtmlib downloads its models at the first use. A model file replaces the one that finds keypoints
+(ONNX).
 
 Source: T. Jiang et al., RTMPose: Real-time multi-person pose estimation based on MMPose, 2023.
 """
@@ -20,20 +20,22 @@ from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator
 
 @contextmanager
 def start_rtmlib(model: Path | None) -> Iterator[Estimate]:
-    """Give a function from a picture to the people in it."""
+    """Start rtmlib and yield a function that returns the people in a picture."""
     import rtmlib
 
     body = rtmlib.BodyWithFeet(pose=None if model is None else str(model))
 
     def estimate(picture: Picture, _: float) -> list[Pose]:
-        reversed_colours = np.ascontiguousarray(picture[:, :, ::-1])
-        boxes = body.det_model(reversed_colours)
-        # Without a box, rtmlib would take the whole picture for a person.
+        bgr = np.ascontiguousarray(picture[:, :, ::-1])
+        boxes = body.det_model(bgr)
+        # Without boxes, rtmlib would treat the whole picture as one person.
         if len(boxes) == 0:
             return []
-        keypoints, scores = body.pose_model(reversed_colours, bboxes=boxes)
+        keypoints, scores = body.pose_model(bgr, bboxes=boxes)
         pairs = zip(keypoints, scores, strict=True)
-        return [Pose(np.asarray(points, float), np.asarray(sure, float)) for points, sure in pairs]
+        return [
+            Pose(np.asarray(points, float), np.asarray(score, float)) for points, score in pairs
+        ]
 
     yield estimate
 

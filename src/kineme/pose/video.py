@@ -1,4 +1,4 @@
-"""Videos as recordings: the motion of a person whose poses are estimated when it is first read."""
+"""Read videos as recordings: the first reading estimates the poses of the people in them."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _EBML = b"\x1a\x45\xdf\xa3"  # Matroska and WebM
 
 
 def read_video(content: FileContent, options: ReadOptions) -> Motion:
-    """Return the motion of one person in a video; its poses are estimated unless that is done."""
+    """Return the motion of one person in a video; estimate its poses unless they are there."""
     poses = read_poses(keep_poses(content))
     return poses_to_motion(content, poses, options)
 
 
 def begins_video(head: bytes) -> bool:
-    """Return whether a file begins as MP4, QuickTime, Matroska, WebM or AVI do."""
+    """Return whether a file starts like MP4, QuickTime, Matroska, WebM or AVI."""
     is_avi = head.startswith(b"RIFF") and head[8:12] == b"AVI "
     return head[4:8] in _BOXES or head.startswith(_EBML) or is_avi
 

@@ -116,7 +116,7 @@ class PoseQueue:
         with cancellable(run.check_cancelled):
             keep_poses(
                 load_head(listed.path),
-                watch=lambda share, pace: self._update(share=share, pace=pace),
+                report=lambda share, pace: self._update(share=share, pace=pace),
             )
 
     def _update(self, **fields: object) -> None:
