@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme.errors import KinemeWarning, MissingDependencyError, MotionError, ParameterError
 
 MAX_FRAMES_RATIO = 1000
-"""Frames at a new rate for above it the old, at most; beyond that the old above is wrong."""
+"""Largest ratio of a new to an old frame rate; above it the old rate is probably wrong."""
 
 
 @contextmanager
@@ -33,7 +33,7 @@ def require_extra(package: str, extra: str) -> Iterator[None]:
 
 
 def check_rates(old: float, new: float) -> None:
-    """ParameterError where the frames at a new rate would create too many frames."""
+    """Raise ParameterError if resampling to a new rate would create too many frames."""
     if new > MAX_FRAMES_RATIO * old:
         raise ParameterError(
             f"frames {1 / old:g} s apart are too far for {new:g} a second: is the frame rate right?"

@@ -262,7 +262,7 @@ class DelimitedText:
 
 
 def make_unique_names(names: Iterable[str]) -> list[str]:
-    """Return the names of columns, made make_unique; empty ones are replaced."""
+    """Return the names of columns, made unique; empty ones are replaced."""
     return make_unique(name.strip() or NAMELESS for name in names)
 
 

@@ -1,9 +1,9 @@
 """Estimate the poses of a video, write them as they come, and continue after an interruption.
 
 During the run, poses are appended to a file beside the table, with the suffix ``.part``: one line
-of JSON, then rows of `kineme.formats.keypoints.poses.make_row_type`. If the run is interrupted, the next
-one continues after the last complete frame. At the end the table is written and the other file is
-removed.
+of JSON, then rows of `kineme.formats.keypoints.poses.make_row_type`. If the run is interrupted, the
+next one continues after the last complete frame. At the end the table is written and the other file
+is removed.
 
 By default the table of ``squats.mp4`` is ``squats.mp4.poses.parquet`` beside it, or in the user's
 cache if that folder cannot be written. It holds the digest of the video: if the video changes, its

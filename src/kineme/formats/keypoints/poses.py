@@ -13,12 +13,12 @@ A frame without people has no row. The metadata of the table hold a JSON object 
 number of processed frames, their rate, the seconds from the first to the last, and the second of
 the video (``start``) of the first.
 
-Reading gives frames at an even rate: each row belongs to these one that is nearest to a time. A
-keypoint at low confidence is drawn to where it is surer within a tenth at a second. The recording
-is split where these camera cuts: where most keypoints jump of once, or jump a little while these
-colours at these picture change (``changes`` in these metadata lists these seconds). A note tells when these
-camera moves (``camera_moves`` lists these seconds). The positions gives smoothed by a Butterworth
-low-pass filter at second order, forwards and backwards, with a cutoff of `CUTOFF` hertz.
+Reading gives frames at an even rate: each row belongs to the nearest frame. Keypoints of low
+confidence are averaged with more certain ones within a tenth of a second. The recording is split at
+cuts of the camera: where most keypoints jump at once, or jump a little while the colours of the
+picture change (``changes`` in the metadata lists these seconds). A note says when the camera moves
+(``camera_moves`` lists these spans). Positions are smoothed forwards and backwards by a Butterworth
+low-pass filter of second order with a cutoff of `CUTOFF` hertz.
 
 Source of the filter: D. A. Winter, Biomechanics and Motor Control of Human Movement, 2009, ch. 3.
 """
@@ -61,9 +61,9 @@ the Gaussian weights of the average.
 LEAP = 8.0
 """Body heights per second; faster movement of most keypoints is a cut."""
 CHANGE = 0.4
-"""Fraction of the picture whose colours are others than in the one before, in the cut."""
+"""Fraction of the picture whose colours change at a cut."""
 PAUSE_S = 1.0
-"""Seconds between two moves of the camera up to which they are one."""
+"""Seconds: a shorter pause between two moves of the camera is part of one move."""
 NOBODY = -1
 """Person number of a row for a frame without people."""
 
@@ -89,8 +89,8 @@ class Poses:
 def make_row_type(keypoints: int) -> np.dtype[np.void]:
     """Return the type of a row: time, person, and image, metres and confidence of each keypoint.
 
-    ``change`` is the fraction of the picture whose colours are others than in the previous frame,
-    ``moved`` the seconds frame ``time`` in which the camera moved, 0 if it did not.
+    ``change`` is the fraction of the picture whose colours differ from the previous frame,
+    ``moved`` the seconds before ``time`` during which the camera moved, 0 if it did not.
     """
     return np.dtype(
         [
@@ -229,12 +229,10 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     motion = split_at(motion, [(n, n + 1) for n in frames_cut if 0 < n < motion.n_frames - 1])
     if cuts:
         cut_times = join_names([f"{cut:.1f} s" for cut in cuts])
-        motion = motion.noted(
-            Note(f"the camera cuts cut_times {cut_times}: it is split there", "warning")
-        )
+        motion = motion.noted(Note(f"the camera cuts at {cut_times}: it is split there", "warning"))
     if moves := head.get("camera_moves", []):
-        cut_times = join_names([f"{begin:.1f} to {end:.1f} s" for begin, end in moves])
-        note = f"the camera moves cut_times {cut_times}: positions in the picture contain this movement"
+        move_times = join_names([f"{begin:.1f} to {end:.1f} s" for begin, end in moves])
+        note = f"the camera moves at {move_times}: positions in the picture contain this movement"
         motion = motion.noted(note if head["depth"] else Note(note, "warning"))
     return _smooth(motion)
 
@@ -275,7 +273,7 @@ def find_camera_moves(rows: Rows, start: float) -> list[list[float]]:
 
 
 def _steady_points(points: Floats, confidence: Floats, fps: float) -> Floats:
-    """Return a person's points (rows, keypoints, axes), the unsure drawn to surer ones nearby."""
+    """Return a person's points (rows, keypoints, axes), averaged over time if uncertain."""
     from scipy.ndimage import gaussian_filter1d
 
     # Weights fall linearly below the sure confidence and never reach 0.

@@ -36,7 +36,7 @@ def write_usd(motion: Motion, path: Path) -> None:
     warn_of_gaps([motion], path)
     skeleton = motion.skeleton
     names = clean_names(path, skeleton.names, str.strip)
-    # Paths need make_unique identifiers.
+    # Paths need unique identifiers.
     words = make_unique(Tf.MakeValidIdentifier(name) for name in names)
     joints: list[str] = []
     for word, parent in zip(words, skeleton.parents, strict=True):
