@@ -72,21 +72,20 @@ def sniff(content: FileContent) -> DelimitedText:
         (i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None
     )
     start = 0 if header_end is None else header_end + 1
-    text_lines = (i for i in range(start, len(lines)) if is_text_line(lines[i]))
-    content_lines = [
-        *islice(text_lines, MAX_HEADER_LINES + MAX_WORD_LINES + 3)
-    ]  # header, words and rows
-    if not content_lines:
+    text_indices = (i for i in range(start, len(lines)) if is_text_line(lines[i]))
+    # Enough lines for the header, words and three rows.
+    indices = [*islice(text_indices, MAX_HEADER_LINES + MAX_WORD_LINES + 3)]
+    if not indices:
         raise content.error("has no lines of numbers")
     # A declaration such as ``sep=;`` overrides the most frequent separator.
-    declared = next(filter(None, map(SEPARATOR.fullmatch, lines[: content_lines[0]])), None)
+    declared = next(filter(None, map(SEPARATOR.fullmatch, lines[: indices[0]])), None)
     separator = declared[1] if declared else None
-    candidates = range(min(MAX_HEADER_LINES, len(content_lines)))
-    first = next((k for k in candidates if _is_head(lines, content_lines, k, separator)), 0)
-    head = content_lines[first]
+    candidates = range(min(MAX_HEADER_LINES, len(indices)))
+    first = next((k for k in candidates if _is_head(lines, indices, k, separator)), 0)
+    head = indices[first]
     separator = separator or find_separator(lines[head])
-    n_words = _count_word_lines(lines, content_lines[first:], separator)
-    first_row = content_lines[first + n_words] + 1
+    n_words = _count_word_lines(lines, indices[first:], separator)
+    first_row = indices[first + n_words] + 1
     is_blank_separated = header_end is not None or separator not in lines[head]
     if is_blank_separated:
         separator, cells = "\t", lines[head].split()
@@ -94,7 +93,7 @@ def sniff(content: FileContent) -> DelimitedText:
     else:
         row = next(filter(str.strip, islice(lines, first_row, None)), "")
         cells = split_head(content, lines[head], row, separator)
-    skipped = content_lines[first + 1 : first + 1 + n_words]
+    skipped = indices[first + 1 : first + 1 + n_words]
     if (
         n_words
         and (joined := _join_names(cells, split_cells(lines[skipped[0]], separator))) != cells
@@ -145,17 +144,17 @@ def split_head(content: FileContent, line: str, row: str, separator: str) -> lis
 
 
 def _is_head(
-    lines: Sequence[str], content_lines: Sequence[int], index: int, separator: str | None
+    lines: Sequence[str], indices: Sequence[int], index: int, separator: str | None
 ) -> bool:
     """Return whether a line holds names: rows below have as many cells, lines above fewer."""
-    separator = separator or find_separator(lines[content_lines[index]])
+    separator = separator or find_separator(lines[indices[index]])
     names, *below = (
-        split_cells(lines[i], separator) for i in content_lines[index : index + MAX_WORD_LINES + 3]
+        split_cells(lines[i], separator) for i in indices[index : index + MAX_WORD_LINES + 3]
     )
     rows = [*dropwhile(lambda cells: not any(map(is_number, cells)), below)][:2]
     # Spreadsheets pad lines with separators.
     cells_above = (
-        split_cells(lines[i].strip().rstrip(separator), separator) for i in content_lines[:index]
+        split_cells(lines[i].strip().rstrip(separator), separator) for i in indices[:index]
     )
     return (
         len(names) > 1
@@ -182,9 +181,9 @@ def _join_names(names: list[str], words: Sequence[str]) -> list[str]:
     return joined if needed else names
 
 
-def _count_word_lines(lines: Sequence[str], content_lines: Sequence[int], separator: str) -> int:
+def _count_word_lines(lines: Sequence[str], indices: Sequence[int], separator: str) -> int:
     """Return the number of lines of words between the names in the first line and the numbers."""
-    names, *below = (split_cells(lines[i], separator) for i in content_lines[: MAX_WORD_LINES + 2])
+    names, *below = (split_cells(lines[i], separator) for i in indices[: MAX_WORD_LINES + 2])
     words = [*takewhile(lambda cells: not any(map(_has_value, cells)), below[:MAX_WORD_LINES])]
     row = below[len(words)] if len(words) < len(below) else []
     if len(names) == 1 or any(map(is_number, names)) or not _fits(row, len(names)):

@@ -247,7 +247,7 @@ def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inh
 def _find_uniform_scale(scale: Floats, tolerance: float = TOLERANCE) -> float | None:
     """Return the single value of a scale in all axes and frames, or None.
 
-    ``share`` is the fraction by which it may vary.
+    ``tolerance`` is the fraction by which it may vary.
     """
     least, most = float(scale.min()), float(scale.max())
     if not (least > 0 and most - least <= tolerance * most):
@@ -366,7 +366,7 @@ def orthogonalize(matrices: Floats) -> Floats:
 
 
 def _normalize(vectors: Floats, fallback: Floats) -> Floats:
-    """Return the vectors with unit length, ``spare`` instead of vectors without length."""
+    """Return the vectors with unit length, ``fallback`` instead of vectors without length."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     is_zero = length < 1e-12
     unit_fallback = fallback / np.linalg.norm(fallback, axis=-1, keepdims=True)

@@ -130,7 +130,7 @@ def choose_take(
 ) -> tuple[int, list[str]]:
     """Return the number of the animation with this name or number, and notes.
 
-    Without a name it is the first of ``lively``, the animations that move a skeleton.
+    Without a name it is the first of ``moving``, the animations that move a skeleton.
     """
     if name is not None:
         number = _find_take(names, name)
