@@ -181,12 +181,12 @@ def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> CarryRe
         now = name_cluster(now, cluster, name)
     labels: dict[Span, str] = {}
     for row in singles:
-        twin = _find_matching_segment(now, row)
-        if twin is None:
+        match = _find_matching_segment(now, row)
+        if match is None:
             where = f"the {row.level} at {row.start_s:.2f} s"
             lost.append(f"the name “{row.label}” of {where}: no segment matches it")
         else:
-            labels[get_span(twin)] = row.label
+            labels[get_span(match)] = row.label
     rows = [replace(row, label=labels.get(get_span(row), row.label)) for row in now]
     # Store empty names for clusters without one, so that none is inferred from labels.
     now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
