@@ -66,7 +66,7 @@ def test_nobody_to_compare_is_said(labelled: Path, make_studio) -> None:
     for sent, status, text in (
         ([people["anna"]], 400, "no recording has labels by two of them"),
         (["nobody"], 404, "has no labels any more"),
-        ([], 400, "no recording of which two"),
+        ([], 400, "no recording has labels by two"),
     ):
         answer = studio.client.post("/api/agreement", json={"annotators": sent})
         assert (answer.status_code, text in answer.text) == (status, True), answer.text
