@@ -36,7 +36,7 @@ def test_drafts_of_killed_writers_are_swept(tmp_path: Path, age_s: float, kept: 
 def test_a_draft_that_is_still_written_is_left_alone(tmp_path: Path) -> None:
     with atomic_write(tmp_path / "a.csv") as slow:
         os.utime(slow, (time.time() - 2 * HOUR,) * 2)
-        _files._swept.clear()
+        _files._cleaned.clear()
         with atomic_write(tmp_path / "b.csv") as path:
             path.write_text("b")
         slow.write_text("a")
@@ -59,7 +59,7 @@ def test_folders_of_killed_writers_are_swept(tmp_path: Path, age_s: float, kept:
 def test_a_folder_that_is_still_filled_is_left_alone(tmp_path: Path) -> None:
     with atomic_folder(tmp_path / "slow") as slow:
         os.utime(slow, (time.time() - 2 * HOUR,) * 2)
-        _files._swept.clear()
+        _files._cleaned.clear()
         with atomic_folder(tmp_path / "quick"):
             pass
         (slow / "a.bvh").write_text("a")
