@@ -76,7 +76,7 @@ export function getTextColor(color: string): "#000000" | "#FFFFFF" {
 }
 
 /** Lighten dark colours on a dark page and darken light colours on a light page. */
-export function adjustToTheme(color: string, theme: "dark" | "light"): string {
+export function adaptColor(color: string, theme: "dark" | "light"): string {
   const l = computeLuminance(color);
   const dark = theme === "dark";
   const share = dark ? Math.max(0, 0.45 - 3 * l) : Math.max(0, 0.6 * (l - 0.55));

@@ -23,7 +23,7 @@ export function toggleTheme(): void {
 }
 
 /** Return a colour of the theme's style sheet as `#rrggbb` or `rgba(…)`. */
-export function getCssColor(name: string): string {
+export function readColor(name: string): string {
   const key = `${theme.value} ${name}`; // makes callers depend on the theme
   let color = colors.get(key);
   if (color === undefined) {

@@ -5,7 +5,7 @@ import {
   assignLabelColors,
   computeLuminance,
   NO_COLOR,
-  adjustToTheme,
+  adaptColor,
 } from "../src/colors";
 
 test("colours are those of kineme._colors", () => {
@@ -31,9 +31,9 @@ test("names can be read on every colour", () => {
 });
 
 test("the darkest colours become visible on a dark page, others stay", () => {
-  expect(computeLuminance(adjustToTheme("#332288", "dark"))).toBeGreaterThan(0.1);
-  expect(adjustToTheme("#88CCEE", "dark")).toBe("#88CCEE");
-  expect(adjustToTheme("#332288", "light")).toBe("#332288");
+  expect(computeLuminance(adaptColor("#332288", "dark"))).toBeGreaterThan(0.1);
+  expect(adaptColor("#88CCEE", "dark")).toBe("#88CCEE");
+  expect(adaptColor("#332288", "light")).toBe("#332288");
 });
 
 test("a label has the colour of the cluster that has it most, else one of its own", () => {

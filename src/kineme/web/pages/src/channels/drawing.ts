@@ -1,7 +1,7 @@
 /** Draw curves below each other, with the segments in the background. */
 import type { Curve } from "../messages";
 import type { Store } from "../store";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { drawRuler, FONT, shortenText } from "../timeline/decoration";
 import { GUTTER_WIDTH, RULER_HEIGHT, findVisible } from "../timeline/lanes";
 import { toPixel } from "../view";
@@ -65,9 +65,9 @@ export function drawChannels(
 function drawTitle(pen: Pen, { name, group, unit }: Curve, { top, height }: Box): void {
   const two = height > 26;
   const middle = top + height / 2;
-  pen.fillStyle = getCssColor("text");
+  pen.fillStyle = readColor("text");
   pen.fillText(shortenText(pen, name, GUTTER_WIDTH - 14), 10, two ? middle - 7 : middle);
-  pen.fillStyle = getCssColor("quiet");
+  pen.fillStyle = readColor("quiet");
   const below = group === "channels" ? unit : `${group}${unit ? `, ${unit}` : ""}`;
   if (two) pen.fillText(shortenText(pen, below, GUTTER_WIDTH - 14), 10, middle + 7);
 }
@@ -75,7 +75,7 @@ function drawTitle(pen: Pen, { name, group, unit }: Curve, { top, height }: Box)
 /** Shade the primitives faintly, to show which repetition a curve is in. */
 function drawSegments(pen: Pen, store: Store, { top, height, plotWidth }: Box): void {
   const range = store.range.value;
-  pen.fillStyle = getCssColor("lane");
+  pen.fillStyle = readColor("lane");
   pen.fillRect(0, top, plotWidth, height);
   const lane = store.primitives.value.length ? store.primitives.value : store.activities.value;
   const [from, to] = findVisible(lane, range.start_s, range.stop_s);
@@ -93,7 +93,7 @@ function drawSegments(pen: Pen, store: Store, { top, height, plotWidth }: Box): 
       pen.fillRect(left, top, right - left, height);
       pen.globalAlpha = 1;
     }
-    pen.fillStyle = getCssColor("line");
+    pen.fillStyle = readColor("line");
     if (right - left > 4) pen.fillRect(Math.round(left), top, 1, height);
   }
 }
@@ -105,10 +105,10 @@ function drawCurve(pen: Pen, curve: number, tiles: CurveTiles, store: Store, box
   const scale = (box.height - 2 * PADDING) / (high - low);
   const y = (value: number): number => box.top + box.height - PADDING - (value - low) * scale;
   if (low < 0 && high > 0) {
-    pen.fillStyle = getCssColor("line");
+    pen.fillStyle = readColor("line");
     pen.fillRect(0, Math.round(y(0)), box.plotWidth, 1);
   }
-  pen.strokeStyle = getCssColor("text");
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 1.2;
   pen.lineJoin = "round";
   strokeOutline(pen, sampleOutline(curve, tiles, store, box.plotWidth), y);

@@ -1,7 +1,7 @@
 /** Draw the curves of a cluster. */
-import { adjustToTheme } from "../colors";
+import { adaptColor } from "../colors";
 import type { ClusterCurves } from "../messages";
-import { getCssColor, theme } from "../theme";
+import { readColor, theme } from "../theme";
 
 type Pen = CanvasRenderingContext2D;
 /** Values over the cycle; null if not recorded. */
@@ -36,10 +36,10 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   const y = (value: number): number =>
     MARGIN_TOP + ((high - value) / (high - low)) * (height - MARGIN_TOP - MARGIN_BOTTOM);
   drawAxes(pen, { low, high, x, y, height, last });
-  const color = adjustToTheme(picture.color, theme.value);
+  const color = adaptColor(picture.color, theme.value);
   pen.lineJoin = "round";
   if (beside) {
-    pen.fillStyle = getCssColor("quiet");
+    pen.fillStyle = readColor("quiet");
     pen.globalAlpha = 0.2;
     fillBand(pen, beside, x, y);
   }
@@ -49,7 +49,7 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   const alpha = Math.max(0.18, Math.min(0.6, 6 / cycles.length));
   pen.lineWidth = 1;
   for (const [i, { values, counts }] of cycles.entries()) {
-    pen.strokeStyle = leftOut.has(i) ? getCssColor("quiet") : color;
+    pen.strokeStyle = leftOut.has(i) ? readColor("quiet") : color;
     pen.globalAlpha = counts && !leftOut.has(i) ? alpha : alpha / 2; // not in the mean: paler
     strokeCurve(pen, values, x, y);
   }
@@ -59,7 +59,7 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   strokeCurve(pen, mean, x, y);
   const other = beside ?? opposite;
   if (other) {
-    if (beside) pen.strokeStyle = getCssColor("quiet");
+    if (beside) pen.strokeStyle = readColor("quiet");
     pen.lineWidth = beside ? 2 : 1.5;
     pen.setLineDash(DASHES);
     strokeCurve(pen, other.mean, x, y);
@@ -68,7 +68,7 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   pen.fillStyle = color;
   for (const [i, differs] of (beside?.differs ?? []).entries())
     if (differs) pen.fillRect(x(i - 0.5), height - MARGIN_BOTTOM - 3, x(1) - x(0) + 0.5, 3);
-  pen.strokeStyle = getCssColor("text");
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 1.5;
   if (cycles[selected]) strokeCurve(pen, cycles[selected].values, x, y);
 }
@@ -119,8 +119,8 @@ function drawAxes(pen: Pen, { low, high, x, y, height, last }: Axes): void {
   pen.font = "10px system-ui, sans-serif";
   pen.textBaseline = "middle";
   pen.textAlign = "right";
-  pen.fillStyle = getCssColor("quiet");
-  pen.strokeStyle = getCssColor("line");
+  pen.fillStyle = readColor("quiet");
+  pen.strokeStyle = readColor("line");
   pen.lineWidth = 1;
   const step = chooseStep(high - low);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));

@@ -6,7 +6,7 @@ import { Canvas } from "../canvas/Canvas";
 import { PlayheadLine } from "../canvas/PlayheadLine";
 import { theme } from "../theme";
 import { formatTime, toPixel, type Span } from "../view";
-import { drawMatrix, EDGE_WIDTH } from "./drawing";
+import { drawMatrix, EDGE } from "./drawing";
 import { MatrixGestures } from "./gestures";
 import { MatrixTiles } from "./tiles";
 
@@ -39,7 +39,7 @@ export function Matrix(): JSX.Element {
             const { active } = store;
             tiles.applyTheme(theme.value);
             const head = active.value?.data === data ? store.recording.value?.matrix : undefined;
-            const frame = { side: width - EDGE_WIDTH, down: rows.value, across: store.range.value };
+            const frame = { side: width - EDGE, down: rows.value, across: store.range.value };
             if (head && head.sizes.length) drawMatrix(pen, head, tiles, frame, store);
           }}
           gestures={gestures}

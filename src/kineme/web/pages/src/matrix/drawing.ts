@@ -1,7 +1,7 @@
 /** Draw the matrix: tiles, then segments and the selection. */
 import type { MatrixHead, Segment } from "../messages";
 import type { Store } from "../store";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { findVisible } from "../timeline/lanes";
 import { toPixel, type Span } from "../view";
 import {
@@ -17,11 +17,11 @@ import type { MatrixTiles } from "./tiles";
 type Pen = CanvasRenderingContext2D;
 
 /** Width in pixels of the activity colours along the upper and left edges. */
-export const EDGE_WIDTH = 9;
-const SMOOTH_BELOW_PIXELS = 3; // smooth cells below this many pixels, draw larger ones as squares
+export const EDGE = 9;
+const SMOOTH_BELOW = 3; // smooth cells below this many pixels, draw larger ones as squares
 
 /** The visible part: `side` pixels show `down` and `across`, right of and below the edge. */
-export interface MatrixView {
+export interface View {
   side: number;
   down: Span;
   across: Span;
@@ -31,21 +31,21 @@ export function drawMatrix(
   pen: Pen,
   head: MatrixHead,
   tiles: MatrixTiles,
-  frame: MatrixView,
+  frame: View,
   store: Store,
 ): void {
   const { side, down, across } = frame;
   pen.save();
-  pen.translate(EDGE_WIDTH, EDGE_WIDTH);
+  pen.translate(EDGE, EDGE);
   pen.beginPath();
   pen.rect(0, 0, side, side);
   pen.clip();
-  pen.fillStyle = getCssColor("matrix-low");
+  pen.fillStyle = readColor("matrix-low");
   pen.fillRect(0, 0, side, side);
   const perPixel = (across.stop_s - across.start_s) / (side * devicePixelRatio);
   const level = chooseLevel(head, perPixel);
   pen.imageSmoothingEnabled =
-    getCellDuration(head, level) / perPixel < SMOOTH_BELOW_PIXELS * devicePixelRatio;
+    getCellDuration(head, level) / perPixel < SMOOTH_BELOW * devicePixelRatio;
   tiles.clearQueue();
   for (const place of listTiles(head, level, down, across))
     drawTile(pen, head, tiles, place, frame);
@@ -61,7 +61,7 @@ function drawTile(
   head: MatrixHead,
   tiles: MatrixTiles,
   target: TilePosition,
-  frame: MatrixView,
+  frame: View,
 ): void {
   for (let place = target; place.level < head.sizes.length; place = getParent(place)) {
     const stored = findStoredTile(place);
@@ -86,7 +86,7 @@ function clipToTile(
   pen: Pen,
   head: MatrixHead,
   place: TilePosition,
-  { side, down, across }: MatrixView,
+  { side, down, across }: View,
 ): void {
   const seconds = getCellDuration(head, place.level) * head.tile;
   const edge = (span: Span, index: number): number =>
@@ -98,7 +98,7 @@ function clipToTile(
 }
 
 /** Draw activities and primitives as squares on the diagonal. */
-function drawSquares(pen: Pen, frame: MatrixView, store: Store): void {
+function drawSquares(pen: Pen, frame: View, store: Store): void {
   const hovered = store.hovered.value;
   for (const [lane, width] of [
     [store.primitives.value, 1],
@@ -111,7 +111,7 @@ function drawSquares(pen: Pen, frame: MatrixView, store: Store): void {
       const box = getBox(segment, segment, frame);
       if (box[2] < 3) continue;
       const thick = hovered !== null && segment.cluster === hovered ? width + 1.5 : width;
-      pen.strokeStyle = getCssColor("page");
+      pen.strokeStyle = readColor("page");
       pen.lineWidth = thick + 1.5;
       pen.strokeRect(...box);
       pen.strokeStyle = color;
@@ -122,17 +122,17 @@ function drawSquares(pen: Pen, frame: MatrixView, store: Store): void {
 }
 
 /** Draw the selected segment as crossing bands, with boxes where it meets its cluster's members. */
-function drawSelected(pen: Pen, frame: MatrixView, store: Store): void {
+function drawSelected(pen: Pen, frame: View, store: Store): void {
   const selected = store.selected.value;
   if (!selected) return;
   const { side } = frame;
   const [x, y, width, height] = getBox(selected, selected, frame);
-  pen.fillStyle = getCssColor("accent");
+  pen.fillStyle = readColor("accent");
   pen.globalAlpha = 0.22;
   pen.fillRect(x, 0, width, side);
   pen.fillRect(0, y, side, height);
   pen.globalAlpha = 1;
-  pen.strokeStyle = getCssColor("accent");
+  pen.strokeStyle = readColor("accent");
   pen.lineWidth = 1;
   const lane = selected.level === "activity" ? store.activities.value : store.primitives.value;
   for (const other of lane) {
@@ -145,23 +145,23 @@ function drawSelected(pen: Pen, frame: MatrixView, store: Store): void {
 function getBox(
   row: Segment,
   column: Segment,
-  { side, down, across }: MatrixView,
+  { side, down, across }: View,
 ): [number, number, number, number] {
   const x = toPixel(across, side, column.start_s);
   const y = toPixel(down, side, row.start_s);
   return [x, y, toPixel(across, side, column.stop_s) - x, toPixel(down, side, row.stop_s) - y];
 }
 
-function drawEdges(pen: Pen, { side, down, across }: MatrixView, store: Store): void {
+function drawEdges(pen: Pen, { side, down, across }: View, store: Store): void {
   for (const segment of store.activities.value) {
     const { start_s, stop_s } = segment;
     const color = store.getColor(segment);
     if (!color) continue;
     pen.fillStyle = color;
     const inside = (span: Span, seconds: number): number =>
-      EDGE_WIDTH + Math.min(Math.max(toPixel(span, side, seconds), 0), side);
+      EDGE + Math.min(Math.max(toPixel(span, side, seconds), 0), side);
     const [x, y] = [inside(across, start_s), inside(down, start_s)];
-    pen.fillRect(x, 1, inside(across, stop_s) - x, EDGE_WIDTH - 3);
-    pen.fillRect(1, y, EDGE_WIDTH - 3, inside(down, stop_s) - y);
+    pen.fillRect(x, 1, inside(across, stop_s) - x, EDGE - 3);
+    pen.fillRect(1, y, EDGE - 3, inside(down, stop_s) - y);
   }
 }

@@ -10,7 +10,7 @@ import {
 import { findSegmentAt } from "../segments";
 import type { Store } from "../store";
 import { panRange, toSeconds, zoomRange, type Span } from "../view";
-import { EDGE_WIDTH } from "./drawing";
+import { EDGE } from "./drawing";
 import { chooseRows } from "./pyramid";
 
 export class MatrixGestures {
@@ -90,13 +90,13 @@ export class MatrixGestures {
 
   private getTimesAt({ x, y }: Point, side: number): Point {
     return {
-      x: toSeconds(this.store.range.value, side, x - EDGE_WIDTH),
-      y: toSeconds(this.rows.value, side, y - EDGE_WIDTH),
+      x: toSeconds(this.store.range.value, side, x - EDGE),
+      y: toSeconds(this.rows.value, side, y - EDGE),
     };
   }
 }
 
 /** Return the side of the drawn square in pixels. */
 function getSide(event: MouseEvent): number {
-  return (event.currentTarget as Element).clientWidth - EDGE_WIDTH;
+  return (event.currentTarget as Element).clientWidth - EDGE;
 }

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { parseColor } from "../colors";
 import type { RecordingData } from "../recordingData";
-import { getCssColor, type Theme } from "../theme";
+import { readColor, type Theme } from "../theme";
 import type { TilePosition } from "./pyramid";
 
 const MAX_TILES = 240; // of 0.3 MB each
@@ -109,8 +109,8 @@ function colorTile({ grey, picture }: Tile, shades: Uint8ClampedArray): void {
 }
 
 function computeShades(): Uint8ClampedArray {
-  const low = parseColor(getCssColor("matrix-low"));
-  const high = parseColor(getCssColor("matrix-high"));
+  const low = parseColor(readColor("matrix-low"));
+  const high = parseColor(readColor("matrix-high"));
   const shades = new Uint8ClampedArray(3 * 256);
   for (let grey = 0; grey < 256; grey++)
     for (let c = 0; c < 3; c++)

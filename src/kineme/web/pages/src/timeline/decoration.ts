@@ -1,6 +1,6 @@
 /** Draw the ruler, marks, titles and hatching of lanes. */
 import type { Store } from "../store";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { computeTicks, toPixel, type Span } from "../view";
 import { GUTTER_WIDTH, RULER_HEIGHT, type Lane } from "./lanes";
 
@@ -9,8 +9,8 @@ type Pen = CanvasRenderingContext2D;
 export const FONT = "11px system-ui, sans-serif";
 
 export function drawRuler(pen: Pen, range: Span, plotWidth: number): void {
-  pen.fillStyle = getCssColor("quiet");
-  pen.strokeStyle = getCssColor("line");
+  pen.fillStyle = readColor("quiet");
+  pen.strokeStyle = readColor("line");
   pen.lineWidth = 1;
   for (const { seconds, label } of computeTicks(range, plotWidth)) {
     const x = Math.round(GUTTER_WIDTH + toPixel(range, plotWidth, seconds)) + 0.5;
@@ -28,13 +28,13 @@ export function drawLoop(pen: Pen, loop: Span | null, range: Span, plotWidth: nu
   const left = Math.max(toPixel(range, plotWidth, loop.start_s), 0);
   const right = Math.min(toPixel(range, plotWidth, loop.stop_s), plotWidth);
   if (right <= left) return;
-  pen.fillStyle = getCssColor("accent");
+  pen.fillStyle = readColor("accent");
   pen.fillRect(GUTTER_WIDTH + left, RULER_HEIGHT - 4, right - left, 3);
 }
 
 /** Draw the marks as brackets on the ruler. */
 export function drawMarks(pen: Pen, store: Store, range: Span, plotWidth: number): void {
-  pen.fillStyle = getCssColor("accent");
+  pen.fillStyle = readColor("accent");
   const { start_s, stop_s } = store.bounds.value;
   for (const [seconds, toward] of [
     [start_s, 1],
@@ -51,7 +51,7 @@ export function drawMarks(pen: Pen, store: Store, range: Span, plotWidth: number
 
 export function drawTitle(pen: Pen, lane: Lane): void {
   pen.font = lane.isActive ? `bold ${FONT}` : FONT;
-  pen.fillStyle = getCssColor(lane.isActive ? "text" : "quiet");
+  pen.fillStyle = readColor(lane.isActive ? "text" : "quiet");
   const title = shortenText(pen, lane.title, GUTTER_WIDTH - 14);
   pen.fillText(title, 10, lane.top + lane.height / 2 + 0.5);
   pen.font = FONT;
@@ -68,16 +68,16 @@ export function shortenText(pen: Pen, text: string, space: number): string {
 }
 
 /** Return grey stripes, which mark segments without cluster. */
-export function createHatchPattern(pen: Pen): CanvasPattern | string {
+export function createHatch(pen: Pen): CanvasPattern | string {
   const tile = document.createElement("canvas");
   tile.width = tile.height = 6;
   const brush = tile.getContext("2d")!;
-  brush.strokeStyle = getCssColor("hatch");
+  brush.strokeStyle = readColor("hatch");
   brush.lineWidth = 1.2;
   for (const shift of [-6, 0, 6]) {
     brush.moveTo(shift, 6);
     brush.lineTo(shift + 6, 0);
   }
   brush.stroke();
-  return pen.createPattern(tile, "repeat") ?? getCssColor("hatch");
+  return pen.createPattern(tile, "repeat") ?? readColor("hatch");
 }

@@ -4,7 +4,7 @@ import type { Segment } from "../messages";
 import { getSegmentName } from "../segments";
 import type { Drag } from "../state";
 import type { Store } from "../store";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { toPixel, type Span } from "../view";
 import {
   drawMarks,
@@ -12,7 +12,7 @@ import {
   drawRuler,
   drawTitle,
   FONT,
-  createHatchPattern,
+  createHatch,
   shortenText,
 } from "./decoration";
 import { GUTTER_WIDTH, findVisible, type Lane } from "./lanes";
@@ -33,7 +33,7 @@ export function drawLanes(
   pen.font = FONT;
   pen.textBaseline = "middle";
   drawRuler(pen, range, plotWidth);
-  const hatch = createHatchPattern(pen);
+  const hatch = createHatch(pen);
   for (const lane of lanes) {
     drawTitle(pen, lane);
     pen.save();
@@ -41,7 +41,7 @@ export function drawLanes(
     pen.rect(GUTTER_WIDTH, lane.top - 2, plotWidth, lane.height + 4);
     pen.clip();
     pen.translate(GUTTER_WIDTH, 0);
-    pen.fillStyle = getCssColor("lane");
+    pen.fillStyle = readColor("lane");
     pen.fillRect(0, lane.top, plotWidth, lane.height);
     drawSegments(pen, lane, applyDrag(lane, drag, store.fps.value), {
       range,
@@ -66,7 +66,7 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
   const { range, plotWidth, hatch, store } = scene;
   const [from, to] = findVisible(segments, range.start_s, range.stop_s);
   const hovered = store.hovered.value;
-  const edge = getCssColor("edge");
+  const edge = readColor("edge");
   let drawn = -Infinity; // right edge drawn so far, pixels
   for (let i = from; i < to; i++) {
     const segment = segments[i]!;
@@ -87,7 +87,7 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
     pen.fill();
     const pointed = hovered !== null && lane.person === null && segment.cluster === hovered;
     if (wide || pointed) {
-      pen.strokeStyle = pointed ? getCssColor("accent") : edge;
+      pen.strokeStyle = pointed ? readColor("accent") : edge;
       pen.lineWidth = pointed ? 2 : 0.75;
       pen.stroke();
     }
@@ -102,8 +102,8 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
 
 /** Draw a tick in the corner of a checked segment. */
 function drawTick(pen: Pen, lane: Lane, right: number): void {
-  pen.fillStyle = getCssColor("panel");
-  pen.strokeStyle = getCssColor("text");
+  pen.fillStyle = readColor("panel");
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 1.5;
   const [x, y] = [right - 8, lane.top + lane.height - 6];
   pen.beginPath();
@@ -118,7 +118,7 @@ function drawTick(pen: Pen, lane: Lane, right: number): void {
 
 /** Strike through a repetition excluded from means. */
 function drawStrike(pen: Pen, lane: Lane, left: number, right: number): void {
-  pen.strokeStyle = getCssColor("panel");
+  pen.strokeStyle = readColor("panel");
   pen.lineWidth = 2;
   pen.beginPath();
   pen.moveTo(left + 1, lane.top + lane.height);
@@ -128,7 +128,7 @@ function drawStrike(pen: Pen, lane: Lane, left: number, right: number): void {
 
 /** Mark borders that the other result lacks. */
 function drawDifferences(pen: Pen, lane: Lane, { range, plotWidth, store }: Scene): void {
-  pen.fillStyle = getCssColor("danger");
+  pen.fillStyle = readColor("danger");
   for (const frame of lane.differences) {
     const x = toPixel(range, plotWidth, frame / store.fps.value);
     if (x < -2 || x > plotWidth + 2) continue;
@@ -161,7 +161,7 @@ function drawTarget(pen: Pen, lane: Lane, { range, plotWidth, store }: Scene): v
   if (!target || lane.level !== target.level) return;
   const left = toPixel(range, plotWidth, target.start_s);
   const right = toPixel(range, plotWidth, target.stop_s);
-  pen.strokeStyle = getCssColor("text");
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 2;
   pen.setLineDash(store.selected.value ? [] : [4, 3]);
   traceBox(pen, left, lane.top - 0.5, Math.max(right - left, 2), lane.height + 1);
@@ -170,7 +170,7 @@ function drawTarget(pen: Pen, lane: Lane, { range, plotWidth, store }: Scene): v
   const border = store.edit.value && store.border.value;
   if (!border) return;
   const x = toPixel(range, plotWidth, border.start_s);
-  pen.fillStyle = getCssColor("text");
+  pen.fillStyle = readColor("text");
   for (const [tip, base] of [
     [lane.top + 5, lane.top - 2],
     [lane.top + lane.height - 5, lane.top + lane.height + 2],

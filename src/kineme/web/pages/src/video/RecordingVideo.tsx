@@ -5,7 +5,7 @@
 import { useSignal, useSignalEffect, type Signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { JSX } from "preact";
-import { NO_COLOR, adjustToTheme } from "../colors";
+import { NO_COLOR, adaptColor } from "../colors";
 import { useStore } from "../context";
 import { Button } from "../layout/controls";
 import type { OpenRecording } from "../openRecording";
@@ -129,7 +129,7 @@ function drawOverlay(store: Store, canvas: HTMLCanvasElement | null, clock: Vide
   for (const each of listPeople(store)) {
     const { value: motion } = each.keypoints;
     const present = findPrimitiveAt(each.recording.value.segmentation, seconds);
-    const color = adjustToTheme((present && store.getColor(present)) ?? NO_COLOR, "dark");
+    const color = adaptColor((present && store.getColor(present)) ?? NO_COLOR, "dark");
     if (motion) drawKeypoints(pen, fitPicture(picture, width, height), motion, seconds, color);
   }
 }

@@ -1,6 +1,6 @@
 /** Draw the ground: a plane with a grid that fades into the sky. */
 import * as THREE from "three";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { createFloorMaterial, type Fog } from "./materials";
 
 const REACH = 40; // cells to each side
@@ -25,7 +25,7 @@ export class Floor {
 
   setColors(): void {
     for (const name of ["ground", "grid", "sky"] as const)
-      this.uniforms[name].value.set(getCssColor(name));
+      this.uniforms[name].value.set(readColor(name));
   }
 
   /** Set the grid's height and choose a cell size for a body's size. */

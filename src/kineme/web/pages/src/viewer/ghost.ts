@@ -2,7 +2,7 @@
 import type * as THREE from "three";
 import type { Segment } from "../messages";
 import { getHeading, computePose, findRoot, type Motion } from "../motion";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { getAnatomy } from "./anatomy";
 import { Figure } from "./figure";
 import type { Fog } from "./materials";
@@ -32,7 +32,7 @@ export class Ghost {
     computePose(motion, time, this.pose);
     movePose(this.pose, placement, findRoot(motion.head));
     figure.setPose(this.pose);
-    const color = getCssColor("accent");
+    const color = readColor("accent");
     figure.setColors({ body: color, joint: color, shadow: color });
     figure.group.visible = true;
   }

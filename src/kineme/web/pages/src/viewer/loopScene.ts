@@ -1,7 +1,7 @@
 /** Draw a loop on its own stage; the camera follows the figure. */
 import * as THREE from "three";
 import { getHeading, findRoot } from "../motion";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { getAnatomy } from "./anatomy";
 import { Figure } from "./figure";
 import { computeLoopPose, type Loop } from "./loop";
@@ -44,9 +44,9 @@ export class LoopScene {
     if (!this.loop || !this.figure) return;
     this.stage.setColors();
     this.figure.setColors({
-      body: getCssColor("body"),
+      body: readColor("body"),
       joint: color,
-      shadow: getCssColor("shadow"),
+      shadow: readColor("shadow"),
     });
     computeLoopPose(this.loop, seconds, this.pose);
     this.figure.setPose(this.pose);

@@ -1,12 +1,12 @@
 /** Update the 3-D scene from the page's state. */
 import * as THREE from "three";
-import { NO_COLOR, adjustToTheme } from "../colors";
+import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
 import { getHeading, computePose, findRoot, type Motion } from "../motion";
 import { formatPerson } from "../openRecording";
 import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
-import { getCssColor, theme } from "../theme";
+import { readColor, theme } from "../theme";
 import { getAnatomy } from "./anatomy";
 import {
   placeInStep,
@@ -74,13 +74,13 @@ export class FigureScene {
   setPoses(seconds: number): void {
     const { store } = this;
     const leader = this.findLeader();
-    const shadow = getCssColor("shadow");
-    const [body, joint] = [getCssColor("body"), getCssColor("joint")];
+    const shadow = readColor("shadow");
+    const [body, joint] = [readColor("body"), readColor("joint")];
     this.placed.forEach((each, i) => {
       const pose = this.poses[i]!;
-      this.computePlacedPose(each, getFigureTime(each, store.playhead.value, leader), pose);
+      this.placePose(each, getFigureTime(each, store.playhead.value, leader), pose);
       this.figures[i]!.setPose(pose);
-      const color = adjustToTheme(
+      const color = adaptColor(
         this.getColor(this.findPrimitive(each, store.playhead.value)),
         theme.value,
       );
@@ -110,7 +110,7 @@ export class FigureScene {
     const lead = this.placed[0];
     if (!lead) return;
     this.placed.forEach((each, i) => {
-      this.computePlacedPose(
+      this.placePose(
         each,
         getFigureTime(each, this.store.playhead.value, this.findLeader()),
         this.poses[i]!,
@@ -200,7 +200,7 @@ export class FigureScene {
     );
   }
 
-  private computePlacedPose(placed: PlacedFigure, time: number, pose: Float32Array): void {
+  private placePose(placed: PlacedFigure, time: number, pose: Float32Array): void {
     computePose(placed.motion, time, pose);
     movePose(pose, placed.placement, findRoot(placed.motion.head));
   }
@@ -252,9 +252,7 @@ export class FigureScene {
     const colors = this.placed.flatMap((each, i) => {
       const ofTimes = times.map(
         (time) =>
-          new THREE.Color(
-            adjustToTheme(this.getColor(this.findPrimitive(each, time)), theme.value),
-          ),
+          new THREE.Color(adaptColor(this.getColor(this.findPrimitive(each, time)), theme.value)),
       );
       return paths[i]!.map(() => ofTimes);
     });
@@ -266,7 +264,7 @@ export class FigureScene {
     const paths = joints.map(() => new Float32Array(3 * times.length));
     const pose = new Float32Array(placed.motion.head.joints.length * 3);
     times.forEach((time, i) => {
-      this.computePlacedPose(placed, time, pose);
+      this.placePose(placed, time, pose);
       joints.forEach((joint, k) => paths[k]!.set(pose.subarray(3 * joint, 3 * joint + 3), 3 * i));
     });
     return paths;

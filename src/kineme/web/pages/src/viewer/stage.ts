@@ -1,7 +1,7 @@
 /** Hold ground, fog, camera and renderer. */
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { getCssColor } from "../theme";
+import { readColor } from "../theme";
 import { Floor } from "./floor";
 import { createBodyMaterial, type Fog } from "./materials";
 import { Sharpness } from "./sharpness";
@@ -51,7 +51,7 @@ export class Stage {
 
   /** Apply the colours of the theme. */
   setColors(): void {
-    this.scene.background = new THREE.Color(getCssColor("sky"));
+    this.scene.background = new THREE.Color(readColor("sky"));
     this.floor.setColors();
   }
 

@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { adjustToTheme } from "../../colors";
+import { adaptColor } from "../../colors";
 import { theme } from "../../theme";
 import { drawOnChange, ticker } from "../../ticker";
 import { IconButton } from "../../transport/icons";
@@ -54,7 +54,7 @@ export function LoopPlayer({ loop, name, color }: Props): JSX.Element {
       () => void [turned.value, playing.value, theme.value],
       (since) => {
         const moving = playing.peek();
-        stage.draw(playhead.current, adjustToTheme(color, theme.peek()), { moving, since });
+        stage.draw(playhead.current, adaptColor(color, theme.peek()), { moving, since });
         bar.style.width = `${100 * ((playhead.current / lasts) % 1)}%`;
       },
     );

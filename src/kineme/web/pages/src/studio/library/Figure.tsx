@@ -2,7 +2,7 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
-import { getClusterColor, adjustToTheme } from "../../colors";
+import { getClusterColor, adaptColor } from "../../colors";
 import type { Span } from "../../messages";
 import { unpackMotion } from "../../motion";
 import { theme } from "../../theme";
@@ -61,7 +61,7 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
       const shown = sketch.peek();
       const pen = canvas.current && shown && prepareCanvas(canvas.current);
       if (!pen) return;
-      const color = adjustToTheme(getClusterColor(cluster), theme.peek());
+      const color = adaptColor(getClusterColor(cluster), theme.peek());
       if (shown.flat) drawPoses(pen, shown.flat, playing === undefined ? POSES : [share], color);
       else drawCurves(pen, shown.curves, playing ? share : null, color);
     },

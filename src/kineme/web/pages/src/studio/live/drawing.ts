@@ -1,7 +1,7 @@
 /** Draw the timeline, curves and body of a live recording. */
-import { getClusterColor, getTextColor, adjustToTheme } from "../../colors";
-import { getCssColor, theme } from "../../theme";
-import { drawRuler, FONT, createHatchPattern, shortenText } from "../../timeline/decoration";
+import { getClusterColor, getTextColor, adaptColor } from "../../colors";
+import { readColor, theme } from "../../theme";
+import { drawRuler, FONT, createHatch, shortenText } from "../../timeline/decoration";
 import { GUTTER_WIDTH, RULER_HEIGHT } from "../../timeline/lanes";
 import { toPixel } from "../../view";
 import { drawPoses } from "../library/drawing";
@@ -28,13 +28,13 @@ export function drawTimeline(pen: Pen, live: Live, width: number, height: number
   const tall = (height - RULER_HEIGHT) / LANES.length - GAP;
   LANES.forEach(([title, level], row) => {
     const top = RULER_HEIGHT + row * (tall + GAP);
-    pen.fillStyle = getCssColor("quiet");
+    pen.fillStyle = readColor("quiet");
     pen.fillText(title, 10, top + tall / 2);
     pen.save();
     pen.beginPath();
     pen.rect(GUTTER_WIDTH, top, plotWidth, tall);
     pen.clip();
-    pen.fillStyle = getCssColor("lane");
+    pen.fillStyle = readColor("lane");
     pen.fillRect(GUTTER_WIDTH, top, plotWidth, tall);
     for (const part of listPartsToDraw(live, level)) {
       const [left, right] = [x(part.start_s), x(part.stop_s)];
@@ -44,11 +44,11 @@ export function drawTimeline(pen: Pen, live: Live, width: number, height: number
       pen.fillRect(left, top, Math.max(right - left - 1, 1), tall);
       pen.globalAlpha = 1;
       if (level === "repetitions") continue;
-      pen.fillStyle = part.isFinal ? getTextColor(color) : getCssColor("text");
+      pen.fillStyle = part.isFinal ? getTextColor(color) : readColor("text");
       const from = Math.max(left, GUTTER_WIDTH) + 5;
       pen.fillText(shortenText(pen, getPartName(part), right - from - 4), from, top + tall / 2);
     }
-    pen.fillStyle = createHatchPattern(pen);
+    pen.fillStyle = createHatch(pen);
     for (const { start_s, stop_s } of live.gaps)
       pen.fillRect(x(start_s), top, x(stop_s ?? live.now_s) - x(start_s), tall);
     pen.restore();
@@ -67,9 +67,9 @@ export function drawChannels(pen: Pen, live: Live, width: number, height: number
     const seen = live.samples.flatMap(({ values }) => values[channel] ?? []);
     const [low, high] = [Math.min(...seen), Math.max(...seen)];
     const bottom = (channel + 0.9) * tall;
-    pen.fillStyle = getCssColor("quiet");
+    pen.fillStyle = readColor("quiet");
     pen.fillText(shortenText(pen, name, GUTTER_WIDTH - 14), 10, (channel + 0.5) * tall);
-    pen.strokeStyle = getCssColor("accent");
+    pen.strokeStyle = readColor("accent");
     pen.beginPath();
     let last_s = -Infinity;
     for (const { seconds, values } of live.samples) {
@@ -95,8 +95,8 @@ export function drawBody(pen: Pen, { head: { bones }, pose, current }: Live): vo
   const box: Pick<Flat, "low" | "high"> = { low: [-half, low], high: [half, low + 2 * half] };
   const joints = Float32Array.from(pose, (value) => value ?? NaN);
   const color = current
-    ? adjustToTheme(getClusterColor(current.cluster), theme.value)
-    : getCssColor("body");
+    ? adaptColor(getClusterColor(current.cluster), theme.value)
+    : readColor("body");
   pen.lineCap = "round";
   drawPoses(pen, { bones, fps: 1, poses: [joints], ...box }, [0], color);
 }
