@@ -1,4 +1,4 @@
-/** What the sources of the pages are held to: the rules of typescript-eslint, and those of hooks. */
+/** Lint the pages with the rules of typescript-eslint and of hooks. */
 import { defineConfig } from "eslint/config";
 import reactHooks from "eslint-plugin-react-hooks";
 import tseslint from "typescript-eslint";
@@ -13,14 +13,14 @@ export default defineConfig(
   {
     files: ["src/**/*.{ts,tsx}"],
     plugins: { "react-hooks": reactHooks },
-    // Its other rules are of React's compiler, which knows no signals.
+    // The plugin's other rules are for React's compiler, which does not support signals.
     rules: {
       "react-hooks/rules-of-hooks": "error",
       "react-hooks/exhaustive-deps": "error",
     },
   },
   {
-    files: ["tests/**"], // edits are left on their way, and answers made up, on purpose
+    files: ["tests/**"], // tests leave promises pending and fake asynchronous answers on purpose
     rules: {
       "@typescript-eslint/no-floating-promises": "off",
       "@typescript-eslint/require-await": "off",

@@ -2,15 +2,15 @@ import { createHash } from "node:crypto";
 import { fileURLToPath } from "node:url";
 import { defineConfig, type Connect, type Plugin } from "vite";
 
-const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+const resolvePath = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
 const GENERATED = "Built from src/kineme/web/pages by npm run build: change it there.";
 
-/** `kineme studio --dev`, which allows the pages of this development server. */
+/** Address of `kineme studio --dev`, which accepts requests from this development server. */
 const STUDIO = `http://127.0.0.1:${process.env.KINEME_PORT ?? 8750}`;
 
 // Names without hashes: the built files are committed, and a rebuild must give the same ones.
-const names = {
+const OUTPUT_NAMES = {
   entryFileNames: "assets/[name].js",
   chunkFileNames: "assets/[name].js",
   assetFileNames: "assets/[name][extname]",
@@ -20,32 +20,32 @@ export default defineConfig(({ mode }) => {
   const page = ["report", "library", "live"].includes(mode) ? mode : "studio";
   return {
     base: "./",
-    plugins: [page === "report" && oneFile(), generated(), pageOfStudio()],
+    plugins: [page === "report" && inlineAssets(), addGeneratedNotice(), servePages()],
     server: {
       host: "127.0.0.1",
       port: 5173,
-      strictPort: true, // the studio allows no other
+      strictPort: true, // the studio accepts no other port
       proxy: { "/api": { target: STUDIO, changeOrigin: true } },
     },
     build: {
-      outDir: here("../static"),
+      outDir: resolvePath("../static"),
       emptyOutDir: page === "studio", // the studio is built first
       target: "es2022",
       modulePreload: false,
       sourcemap: false,
       chunkSizeWarningLimit: 1500,
       rolldownOptions: {
-        input: here(`${page}.html`),
-        output: { ...names, codeSplitting: false },
+        input: resolvePath(`${page}.html`),
+        output: { ...OUTPUT_NAMES, codeSplitting: false },
       },
     },
     test: { include: ["tests/**/*.test.{ts,tsx}"] },
   };
 });
 
-/** While developing: the sources of the page that the studio shows at an address. */
-function pageOfStudio(): Plugin {
-  const answer: Connect.NextHandleFunction = (request, _response, next) => {
+/** During development, serve the sources of the page that the studio shows at an address. */
+function servePages(): Plugin {
+  const handleRequest: Connect.NextHandleFunction = (request, _response, next) => {
     const url = request.url ?? "";
     if (!/^\/(\?|$)/.test(url)) return next();
     fetch(STUDIO + url)
@@ -60,12 +60,12 @@ function pageOfStudio(): Plugin {
   return {
     name: "page-of-studio",
     apply: "serve",
-    configureServer: (server) => void server.middlewares.use(answer),
+    configureServer: (server) => void server.middlewares.use(handleRequest),
   };
 }
 
-/** Says at the head of built files that they are. */
-function generated(): Plugin {
+/** Start each built file with a notice that it is generated. */
+function addGeneratedNotice(): Plugin {
   return {
     name: "generated",
     enforce: "post",
@@ -84,8 +84,8 @@ function generated(): Plugin {
   };
 }
 
-/** The report as one page: script and style inside it, and a policy that lets nothing else run. */
-function oneFile(): Plugin {
+/** Inline script and style into the report, with a policy that blocks everything else. */
+function inlineAssets(): Plugin {
   return {
     name: "one-file",
     enforce: "post",
@@ -101,7 +101,7 @@ function oneFile(): Plugin {
       }
       script = script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim();
       style = style.trim();
-      const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src blob: data:; media-src 'self' file:; base-uri 'none'; form-action 'none'`;
+      const policy = `default-src 'none'; script-src ${computeHash(script)}; style-src ${computeHash(style)}; img-src blob: data:; media-src 'self' file:; base-uri 'none'; form-action 'none'`;
       page = page
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
@@ -117,6 +117,6 @@ function oneFile(): Plugin {
   };
 }
 
-function hash(text: string): string {
+function computeHash(text: string): string {
   return `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 }

@@ -1,4 +1,4 @@
-/** The store, for every component of a page. */
+/** Provide the store to all components of a page. */
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { Store } from "./store";

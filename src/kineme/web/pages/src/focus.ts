@@ -1,10 +1,11 @@
 /**
- * Whom a key belongs to. Text that is being typed has all keys. A control that was clicked has
- * none: what one does next with the keyboard is meant for the player. A control that was
- * reached with the Tab key keeps the keys that work it, and shows that it has the focus.
+ * Decide whether a key press is meant for the player. Text fields get all keys. A clicked control
+ * gets none. A control focused with Tab keeps the keys that operate it.
  */
 
-const ARROWS = [
+import { listen } from "./layout/browser";
+
+const NAVIGATION_KEYS = [
   "ArrowLeft",
   "ArrowRight",
   "ArrowUp",
@@ -14,64 +15,57 @@ const ARROWS = [
   "PageUp",
   "PageDown",
 ];
-const PRESSES = [" ", "Enter"];
-const NOT_TYPED = ["range", "checkbox", "radio", "button", "submit", "file", "color"];
+const ACTIVATION_KEYS = [" ", "Enter"];
+const NON_TEXT_TYPES = ["range", "checkbox", "radio", "button", "submit", "file", "color"];
 
-let byPointer = false;
-let clicked: Element | null = null;
+let isPointerFocus = false;
+let clickedElement: Element | null = null;
 
-/** Follows what was clicked and what was reached with keys; call the result to stop. */
+/** Track whether the focus came from a pointer or the Tab key; return a function that stops. */
 export function watchFocus(): () => void {
-  const onPointer = (): void => void (byPointer = true);
+  const onPointer = (): void => void (isPointerFocus = true);
   const onKey = (event: KeyboardEvent): void => {
-    if (event.key === "Tab") byPointer = false;
+    if (event.key === "Tab") isPointerFocus = false;
   };
   const onFocus = (event: FocusEvent): void => {
-    clicked = byPointer && event.target instanceof Element ? event.target : null;
+    clickedElement = isPointerFocus && event.target instanceof Element ? event.target : null;
   };
-  // The wheel would change the number in a field that has the focus.
+  // The wheel would change a focused number field.
   const onWheel = (event: WheelEvent): void => {
     const field = event.target;
     if (field instanceof HTMLInputElement && field.type === "number") field.blur();
   };
-  const listeners = [
-    ["pointerdown", onPointer],
-    ["keydown", onKey],
-    ["focusin", onFocus],
-    ["wheel", onWheel],
-  ] as const;
-  for (const [name, listener] of listeners)
-    addEventListener(name, listener as EventListener, { capture: true, passive: true });
-  return () => {
-    for (const [name, listener] of listeners)
-      removeEventListener(name, listener as EventListener, { capture: true });
-  };
+  const listeners = { pointerdown: onPointer, keydown: onKey, focusin: onFocus, wheel: onWheel };
+  return listen(window, listeners, { capture: true, passive: true });
 }
 
-/** Whether a key is the player's, if it has a use for it. */
-export function isForPlayer(event: KeyboardEvent): boolean {
+/** Return whether the player may handle a key press. */
+export function isPlayerKey(event: KeyboardEvent): boolean {
   const target = event.target instanceof HTMLElement ? event.target : null;
   if (event.defaultPrevented || target?.closest("dialog[open]")) return false;
   if (!target || target === document.body) return true;
-  if (isTyped(target)) return false;
-  if (event.altKey || event.ctrlKey || event.metaKey) return true; // these work no control
-  return target === clicked || !keysOf(target).includes(event.key);
+  if (isTextField(target)) return false;
+  if (event.altKey || event.ctrlKey || event.metaKey) return true; // no control uses these
+  return target === clickedElement || !getControlKeys(target).includes(event.key);
 }
 
-/** The control that was clicked has the focus no longer: a key was meant for the player. */
-export function leaveClicked(): void {
-  if (clicked instanceof HTMLElement && clicked === document.activeElement) clicked.blur();
+/** Remove the focus from a clicked control after the player handled a key. */
+export function blurClicked(): void {
+  if (clickedElement instanceof HTMLElement && clickedElement === document.activeElement)
+    clickedElement.blur();
 }
 
-function isTyped(element: HTMLElement): boolean {
-  if (element instanceof HTMLInputElement) return !NOT_TYPED.includes(element.type);
+function isTextField(element: HTMLElement): boolean {
+  if (element instanceof HTMLInputElement) return !NON_TEXT_TYPES.includes(element.type);
   return element instanceof HTMLTextAreaElement || element.isContentEditable;
 }
 
-/** The keys that work a control. */
-function keysOf(element: HTMLElement): readonly string[] {
-  if (element instanceof HTMLSelectElement) return [...ARROWS, ...PRESSES];
-  if (element instanceof HTMLInputElement) return element.type === "range" ? ARROWS : PRESSES;
-  if (element.closest("[role=tab], [role=separator]")) return [...ARROWS, ...PRESSES];
-  return element.closest("button, summary, a, label") ? PRESSES : [];
+/** Return the keys that operate a control. */
+function getControlKeys(element: HTMLElement): readonly string[] {
+  if (element instanceof HTMLSelectElement) return [...NAVIGATION_KEYS, ...ACTIVATION_KEYS];
+  if (element instanceof HTMLInputElement)
+    return element.type === "range" ? NAVIGATION_KEYS : ACTIVATION_KEYS;
+  if (element.closest("[role=tab], [role=separator]"))
+    return [...NAVIGATION_KEYS, ...ACTIVATION_KEYS];
+  return element.closest("button, summary, a, label") ? ACTIVATION_KEYS : [];
 }

@@ -1,10 +1,11 @@
-/** The keys of every page. */
-import { isForPlayer, leaveClicked, watchFocus } from "./focus";
+/** Define the keys of every page. */
+import { isPlayerKey, blurClicked, watchFocus } from "./focus";
+import { listen } from "./layout/browser";
 import { toggleFullScreen } from "./layout/fullScreen";
 import { togglePlay } from "./player";
 import type { Store } from "./store";
 
-/** Keys and what they do, as a help shows them. */
+/** Keys and their actions, as the help shows them. */
 export const PAGE_KEYS: readonly (readonly [string, string])[] = [
   ["Space", "Play or pause"],
   ["← →", "One frame back or on"],
@@ -21,8 +22,8 @@ export const PAGE_KEYS: readonly (readonly [string, string])[] = [
   ["0", "Show all of the recording"],
 ];
 
-/** What a key does; undefined where it does nothing. */
-export function pageCommandOf(
+/** Return a key's command, or undefined. */
+export function getPageCommand(
   event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
   store: Store,
 ): (() => void) | undefined {
@@ -35,8 +36,8 @@ export function pageCommandOf(
     ArrowRight: step(1),
     l: () => store.toggleLoop(),
     L: () => store.toggleLoop(),
-    i: () => store.mark("start_s"),
-    o: () => store.mark("stop_s"),
+    i: () => store.toggleMark("start_s"),
+    o: () => store.toggleMark("stop_s"),
     z: () => store.zoomToTarget(),
     "+": () => store.zoomBy(0.7),
     "=": () => store.zoomBy(0.7),
@@ -53,23 +54,23 @@ export function pageCommandOf(
   return commands[event.key];
 }
 
-/** Listens to the keyboard; `more` are the keys of a page that has more of them. */
-export function startKeys(
+/** Listen to the keyboard and return a function that stops; `more` returns further commands. */
+export function listenToKeys(
   store: Store,
   more: (event: KeyboardEvent) => (() => void) | undefined = () => undefined,
 ): () => void {
   const stopWatching = watchFocus();
   const onKey = (event: KeyboardEvent): void => {
-    if (!isForPlayer(event)) return;
-    const command = pageCommandOf(event, store) ?? more(event);
+    if (!isPlayerKey(event)) return;
+    const command = getPageCommand(event, store) ?? more(event);
     if (!command) return;
     event.preventDefault();
-    leaveClicked();
+    blurClicked();
     command();
   };
-  addEventListener("keydown", onKey);
+  const stopListening = listen(window, { keydown: onKey });
   return () => {
     stopWatching();
-    removeEventListener("keydown", onKey);
+    stopListening();
   };
 }

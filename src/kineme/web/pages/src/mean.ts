@@ -1,10 +1,10 @@
-/** Mean and standard deviation; null where there are too few values. */
+/** Mean and sample standard deviation; null if there are too few values. */
 export interface Mean {
   mean: number | null;
   deviation: number | null;
 }
 
-export function meanOf(values: readonly number[]): Mean {
+export function computeMean(values: readonly number[]): Mean {
   if (!values.length) return { mean: null, deviation: null };
   const mean = values.reduce((sum, each) => sum + each, 0) / values.length;
   const squares = values.reduce((sum, each) => sum + (each - mean) ** 2, 0);

@@ -1,26 +1,26 @@
-/** Positions of joints over time, unpacked from the binary motion. */
+/** Unpack binary motion and compute poses. */
 import type { MotionHead } from "./messages";
 
 const MISSING = -32768;
 
-/** Poses of a recording: `steps` holds x, y, z of each joint, sample after sample. */
+/** Poses of a recording: `steps` holds x, y, z of each joint, sample by sample. */
 export interface Motion {
   head: MotionHead;
   steps: Int16Array;
 }
 
-/** The motion of a deflated message; see `kineme.web.display`. */
+/** Return the motion of a deflated message; see `kineme.web.display`. */
 export async function unpackMotion(head: MotionHead, packed: ArrayBuffer): Promise<Motion> {
-  return decodeMotion(head, await inflated(packed).arrayBuffer());
+  return decodeMotion(head, await inflate(packed).arrayBuffer());
 }
 
-/** What was deflated, as an answer is read. */
-export function inflated(packed: ArrayBuffer): Response {
+/** Return inflated data as a response to read from. */
+export function inflate(packed: ArrayBuffer): Response {
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream);
 }
 
-/** Differences column by column (joint, then axis) become values sample by sample. */
+/** Sum the differences of each column (joint, then axis) into values, sample by sample. */
 export function decodeMotion(head: MotionHead, bytes: ArrayBuffer): Motion {
   const { n_samples } = head;
   const n_columns = head.joints.length * 3;
@@ -32,17 +32,17 @@ export function decodeMotion(head: MotionHead, bytes: ArrayBuffer): Motion {
     let value = 0;
     for (let sample = 0; sample < n_samples; sample++) {
       value += view.getInt16(2 * (column * n_samples + sample), true);
-      steps[sample * n_columns + column] = value; // wraps, as the differences do
+      steps[sample * n_columns + column] = value; // 16-bit overflow is intended
     }
   }
   return { head, steps };
 }
 
 /**
- * The pose at a time (seconds) goes into `out`: x, y, z per joint, metres, between the two
- * nearest samples. A joint that is missing in either becomes NaN.
+ * Write the pose at a time (seconds) to `out`: x, y, z per joint in metres, interpolated between
+ * two samples. A joint missing in either becomes NaN.
  */
-export function poseAt(motion: Motion, seconds: number, out: Float32Array): void {
+export function computePose(motion: Motion, seconds: number, out: Float32Array): void {
   const { origin, step, n_samples, sample_fps } = motion.head;
   const at = Math.min(Math.max(seconds * sample_fps, 0), n_samples - 1);
   const first = Math.floor(at);
@@ -60,15 +60,15 @@ export function poseAt(motion: Motion, seconds: number, out: Float32Array): void
   }
 }
 
-/** Where the body looks at a time, radians about y from +z towards +x; 0 where not known. */
-export function headingAt(motion: Motion, seconds: number): number {
+/** Return the body's heading at a time, radians about y from +z towards +x; 0 if unknown. */
+export function getHeading(motion: Motion, seconds: number): number {
   const { heading, sample_fps } = motion.head;
   if (!heading || heading.length === 0) return 0;
   const at = Math.min(Math.max(Math.round(seconds * sample_fps), 0), heading.length - 1);
   return heading[at]!;
 }
 
-/** The joint that has no parent. */
-export function rootOf(head: MotionHead): number {
+/** Return the index of the joint without a parent. */
+export function findRoot(head: MotionHead): number {
   return Math.max(head.parents.indexOf(-1), 0);
 }

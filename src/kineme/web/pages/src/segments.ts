@@ -1,77 +1,91 @@
-/** Questions about a segment table. */
-import { counted } from "./counted";
+/** Query segment tables. */
+import { formatCount } from "./formatCount";
+import { memoize } from "./memoize";
 import type { Level, Segment, Segments } from "./messages";
 
-/** What the list of clusters says of one. */
+/** A cluster with its members and durations. */
 export interface Cluster {
   id: number;
   label: string;
   members: Segment[];
-  /** Seconds of all members together. */
+  /** Total duration of all members, seconds. */
   total_s: number;
   mean_s: number;
 }
 
-/** How many activities or primitives a table has; transitions are neither. */
-export function countOf({ segments }: Segments, level: Level): number {
+/** Count a table's activities or primitives without transitions. */
+export function countSegments({ segments }: Segments, level: Level): number {
   return segments.filter((each) => each.level === level && each.kind !== "transition").length;
 }
 
-/** How many segments of a table people checked. */
-export function checkedIn({ segments }: Segments): number {
+/** Count the segments that people checked. */
+export function countChecked({ segments }: Segments): number {
   return segments.filter(({ checked }) => checked).length;
 }
 
-/** "1 activity, 18 primitives". */
-export function countsOf(table: Segments): string {
-  const activities = counted(countOf(table, "activity"), "activity", "activities");
-  return `${activities}, ${counted(countOf(table, "primitive"), "primitive")}`;
+/** Return counts as text, such as "1 activity, 18 primitives". */
+export function formatCounts(table: Segments): string {
+  const activities = formatCount(countSegments(table, "activity"), "activity", "activities");
+  return `${activities}, ${formatCount(countSegments(table, "primitive"), "primitive")}`;
 }
 
-/** The segments of a level in time order; they tile the recording. */
-export function laneOf(table: Segments, level: Level): Segment[] {
+/** Return the segments of a level in time order; they tile the recording. */
+export function getLane(table: Segments, level: Level): Segment[] {
   return table.segments
     .filter((segment) => segment.level === level)
     .sort((a, b) => a.start_frame - b.start_frame);
 }
 
-/** The row of the segment that starts where another one does, on the same level. */
+/** Return the row with the same level and start frame. */
 export function findRow(
   { segments }: Segments,
-  { level, start_frame }: Pick<Segment, "level" | "start_frame">,
+  { level, start_frame }: SegmentId,
 ): Segment | undefined {
   return segments.find((row) => row.level === level && row.start_frame === start_frame);
 }
 
-/** The segment of a lane that holds a frame; the nearest one for frames outside. */
-export function segmentAt(lane: readonly Segment[], frame: number): Segment | undefined {
-  return lane[indexAt(lane, frame)];
+type SegmentId = Pick<Segment, "level" | "start_frame">;
+
+/** Return a key by level and start, which stays when the end changes. */
+export function getSegmentKey({ level, start_frame }: SegmentId): string {
+  return `${level} ${start_frame}`;
 }
 
-const primitives = new WeakMap<Segments, readonly Segment[]>();
-
-/** The primitive of a table at a time; each pose asks for it. */
-export function primitiveAt(table: Segments, seconds: number): Segment | undefined {
-  const lane = primitives.get(table) ?? laneOf(table, "primitive");
-  primitives.set(table, lane);
-  return segmentAt(lane, Math.floor(seconds * table.fps + 1e-6));
+/** Return the segment at a frame; the nearest one for frames outside. */
+export function findSegmentAt(lane: readonly Segment[], frame: number): Segment | undefined {
+  return lane[findIndexAt(lane, frame)];
 }
 
-/** Position in the lane of the segment that holds a frame; -1 in an empty lane. */
-export function indexAt(lane: readonly Segment[], frame: number): number {
-  let low = 0;
-  let high = lane.length - 1;
+const getPrimitives = memoize((table: Segments) => getLane(table, "primitive"));
+
+/** Return the primitive at a time (seconds). The sorted lane is cached, as each pose needs it. */
+export function findPrimitiveAt(table: Segments, seconds: number): Segment | undefined {
+  return findSegmentAt(getPrimitives(table), Math.floor(seconds * table.fps + 1e-6));
+}
+
+/** Return the index of the segment at a frame; -1 in an empty lane. */
+export function findIndexAt(lane: readonly Segment[], frame: number): number {
+  return lane.length ? bisect(lane, (each) => each.start_frame <= frame, 1) - 1 : -1;
+}
+
+/** Return the index of the first segment from `low` on for which `isBefore` is false. */
+export function bisect(
+  lane: readonly Segment[],
+  isBefore: (segment: Segment) => boolean,
+  low = 0,
+): number {
+  let high = lane.length;
   while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (lane[middle]!.start_frame <= frame) low = middle;
-    else high = middle - 1;
+    const middle = (low + high) >> 1;
+    if (isBefore(lane[middle]!)) low = middle + 1;
+    else high = middle;
   }
-  return high < 0 ? -1 : low;
+  return low;
 }
 
-/** The segment that starts at the border nearest to a frame; the recording's start is none. */
-export function nearestBorder(lane: readonly Segment[], frame: number): Segment | null {
-  const at = indexAt(lane, frame);
+/** Return the segment after the border nearest to a frame; the recording's start is no border. */
+export function findNearestBorder(lane: readonly Segment[], frame: number): Segment | null {
+  const at = findIndexAt(lane, frame);
   const candidates = [lane[at], lane[at + 1]].filter(
     (segment): segment is Segment => segment !== undefined && segment.start_frame > 0,
   );
@@ -79,8 +93,8 @@ export function nearestBorder(lane: readonly Segment[], frame: number): Segment 
   return candidates.sort((a, b) => distance(a) - distance(b))[0] ?? null;
 }
 
-/** The clusters of a lane of primitives, by number. */
-export function clustersOf(
+/** Group primitives by cluster, in order of cluster numbers. */
+export function groupClusters(
   primitives: readonly Segment[],
   names: Readonly<Record<string, string>> = {},
 ): Cluster[] {
@@ -94,28 +108,28 @@ export function clustersOf(
   return [...members.entries()]
     .sort(([a], [b]) => a - b)
     .map(([id, all]) => {
-      const total_s = all.reduce((sum, segment) => sum + durationOf(segment), 0);
+      const total_s = all.reduce((sum, segment) => sum + getDuration(segment), 0);
       const label = names[id] ?? "";
       return { id, label, members: all, total_s, mean_s: total_s / all.length };
     });
 }
 
-export function durationOf(segment: Segment): number {
+export function getDuration(segment: Segment): number {
   return segment.stop_s - segment.start_s;
 }
 
-/** What people call a segment: its label, else its cluster's number, else its kind. */
-export function nameOf(segment: Segment): string {
+/** Return a segment's display name: its label, else its cluster, else its kind. */
+export function getSegmentName(segment: Segment): string {
   if (segment.label) return segment.label;
   if (segment.cluster >= 0) return `cluster ${segment.cluster}`;
   return segment.kind === "transition" ? "transition" : "no cluster";
 }
 
 /**
- * What is called how, when: the label of the primitive, else that of its activity. Neighbours of
- * one label are joined; where there is no label, there is nothing.
+ * Return spans with one label each: the primitive's, else its activity's. Neighbours with the same
+ * label are joined; unlabelled segments are omitted.
  */
-export function labelSpans(
+export function joinLabels(
   activities: readonly Segment[],
   primitives: readonly Segment[],
 ): Segment[] {
@@ -135,22 +149,22 @@ export function labelSpans(
   return spans;
 }
 
-/** A label of a table without clusters, and how often it occurs. */
+/** A label, how often it occurs and its total duration. */
 export interface LabelCount {
   label: string;
   count: number;
   total_s: number;
 }
 
-/** The labels of a lane, the one with most time first. */
-export function labelsOf(lane: readonly Segment[]): LabelCount[] {
+/** Count the labels of a lane, longest total duration first. */
+export function countLabels(lane: readonly Segment[]): LabelCount[] {
   const counts = new Map<string, LabelCount>();
   for (const segment of lane) {
     const { label } = segment;
     if (!label) continue;
     const total = counts.get(label) ?? { label, count: 0, total_s: 0 };
     total.count += 1;
-    total.total_s += durationOf(segment);
+    total.total_s += getDuration(segment);
     counts.set(label, total);
   }
   return [...counts.values()].sort((a, b) => b.total_s - a.total_s);

@@ -1,4 +1,4 @@
-/** `window.kineme`: a read-only picture of the state, for tests and for the curious. */
+/** Expose the state as read-only `window.kineme`, for tests. */
 import type { Selection } from "./state";
 import type { Store } from "./store";
 import type { Span } from "./view";
@@ -23,7 +23,7 @@ export interface Snapshot {
   readonly hasMotion: boolean;
   readonly other: string | null;
   readonly others: readonly string[];
-  /** Pictures drawn within the last second, and in all. */
+  /** Frames drawn within the last second, and in total. */
   readonly rate: number;
   readonly drawn: number;
 }
@@ -35,11 +35,11 @@ declare global {
 }
 
 export function exposeSnapshot(store: Store): void {
-  Object.defineProperty(window, "kineme", { get: () => snapshotOf(store), configurable: true });
+  Object.defineProperty(window, "kineme", { get: () => createSnapshot(store), configurable: true });
 }
 
-/** What the page shows now. */
-export function snapshotOf(store: Store): Snapshot {
+/** Return the current state of the page. */
+export function createSnapshot(store: Store): Snapshot {
   const recording = store.recording.value;
   return Object.freeze({
     name: recording?.name ?? "",
@@ -60,7 +60,7 @@ export function snapshotOf(store: Store): Snapshot {
     hasMotion: Boolean(store.active.value?.motion.value),
     other: store.others.value[0]?.name ?? null,
     others: store.others.value.map(({ name }) => name),
-    rate: ticker.rate(),
+    rate: ticker.measureRate(),
     drawn: ticker.drawn,
   });
 }

@@ -1,13 +1,13 @@
-/** The state of a page, and what may be done with it. */
+/** Change the state of a page. */
 import { batch } from "@preact/signals";
 import type { Level, Segment } from "./messages";
-import type { OpenRecording } from "./opened";
-import { durationOf, indexAt } from "./segments";
+import type { OpenRecording } from "./openRecording";
+import { getDuration, findIndexAt } from "./segments";
 import { State, UNBOUNDED } from "./state";
-import { following, inside, panned, zoomed, type Span } from "./view";
+import { revealTime, clampRange, panRange, zoomRange, type Span } from "./view";
 
-const SMALL = 1 / 30; // of the time that is shown
-const AROUND = 12; // times its own length
+const MIN_VISIBLE_SHARE = 1 / 30; // of the visible time
+const ZOOM_CONTEXT = 12; // visible time, as a multiple of the segment's duration
 
 export class Store extends State {
   seek(seconds: number): void {
@@ -15,41 +15,41 @@ export class Store extends State {
     batch(() => {
       this.playhead.value = playhead;
       const chosen = this.selected.value;
-      if (chosen && !contains(chosen, this.frame.value)) this.selection.value = null;
+      if (chosen && !containsFrame(chosen, this.frame.value)) this.selection.value = null;
       if (this.zoom.value)
-        this.zoom.value = following(this.zoom.value, playhead, this.duration.value);
+        this.zoom.value = revealTime(this.zoom.value, playhead, this.duration.value);
     });
   }
 
-  /** Shows more (`factor` > 1) or less time, around a time that stays where it is. */
+  /** Show more (`factor` > 1) or less time, keeping the time `around` in place. */
   zoomBy(factor: number, around: number = this.playhead.value): void {
     const total = this.duration.value;
     if (total <= 0) return;
-    const range = zoomed(this.range.value, factor, around, total);
+    const range = zoomRange(this.range.value, factor, around, total);
     this.zoom.value = range.stop_s - range.start_s >= total - 1e-9 ? null : range;
   }
 
-  /** Shows earlier or later times. */
+  /** Move the visible span by seconds. */
   panBy(seconds: number): void {
-    if (this.zoom.value) this.zoom.value = panned(this.zoom.value, seconds, this.duration.value);
+    if (this.zoom.value) this.zoom.value = panRange(this.zoom.value, seconds, this.duration.value);
   }
 
-  /** Brings a time into the view; whether it was not there before. */
+  /** Scroll to a time; return whether that was necessary. */
   reveal(seconds: number): boolean {
     const { zoom } = this;
     if (!zoom.value || (zoom.value.start_s <= seconds && seconds <= zoom.value.stop_s))
       return false;
-    zoom.value = following(zoom.value, seconds, this.duration.value);
+    zoom.value = revealTime(zoom.value, seconds, this.duration.value);
     return true;
   }
 
-  /** Stops and goes some frames on, or back. */
+  /** Stop and move the playhead by some frames. */
   step(frames: number): void {
     this.playing.value = false;
     this.seek((this.frame.value + frames) / this.fps.value);
   }
 
-  /** Selects a segment and brings everything there; a loop follows. */
+  /** Select a segment and move playhead and loop to it. */
   select(segment: Segment, options: { seek?: boolean } = {}): void {
     batch(() => {
       this.level.value = segment.level;
@@ -60,47 +60,47 @@ export class Store extends State {
     });
   }
 
-  /** Selects the next primitive or the one before. */
+  /** Select the next or previous segment. */
   stepSegment(by: 1 | -1): void {
-    const lane = this.lane(this.worked.value);
-    const segment = lane[indexAt(lane, this.frame.value) + by];
+    const lane = this.getLane(this.workLevel.value);
+    const segment = lane[findIndexAt(lane, this.frame.value) + by];
     if (segment) this.select(segment);
   }
 
-  /** Works on the other level from now on. */
-  changeLevel(): void {
-    this.workOn(this.worked.value === "activity" ? "primitive" : "activity");
+  /** Switch the edited level. */
+  toggleLevel(): void {
+    this.setLevel(this.workLevel.value === "activity" ? "primitive" : "activity");
   }
 
-  /** Works on a level from now on, where it has segments. */
-  workOn(level: Level): void {
-    if (!this.lane(level).length || level === this.worked.value) return;
+  /** Edit a level, if it has segments. */
+  setLevel(level: Level): void {
+    if (!this.getLane(level).length || level === this.workLevel.value) return;
     batch(() => {
       this.level.value = level;
       this.selection.value = null;
     });
   }
 
-  /** Looks at the result coarser (-1) or finer (1). */
+  /** Show the next coarser (-1) or finer (1) level of detail. */
   stepDetail(by: 1 | -1): void {
     const levels = this.levels.value;
-    const next = levels?.all[positionOf(levels.detail, levels.all) + by];
+    const next = levels?.all[findDetailIndex(levels.detail, levels.all) + by];
     if (next !== undefined) levels?.choose(next);
   }
 
-  /** Shows a cluster and goes to its next member, else its first; stays put inside a member. */
+  /** Select a cluster and go to its next member, else its first; stay if the playhead is in one. */
   selectCluster(id: number): void {
     const members = this.clusters.value.find((cluster) => cluster.id === id)?.members ?? [];
-    const inside = members.find((segment) => contains(segment, this.frame.value));
+    const inside = members.find((segment) => containsFrame(segment, this.frame.value));
     const next = members.find((segment) => segment.start_frame >= this.frame.value);
     this.cluster.value = id;
     const target = inside ?? next ?? members[0];
     if (target) this.select(target);
   }
 
-  /** Sets a mark at the playhead, or takes it away if it is there; a loop of the marks follows. */
-  mark(end: "start_s" | "stop_s"): void {
-    const before = this.markedSpan();
+  /** Set a mark at the playhead, or remove it if it is there; update a loop over the marks. */
+  toggleMark(end: "start_s" | "stop_s"): void {
+    const before = this.getMarkedSpan();
     const here = this.playhead.value;
     const at = this.bounds.value[end] === here ? null : here;
     const bounds = { ...this.bounds.value, [end]: at };
@@ -108,43 +108,43 @@ export class Store extends State {
     if (start_s !== null && stop_s !== null && stop_s <= start_s)
       bounds[end === "start_s" ? "stop_s" : "start_s"] = null;
     this.bounds.value = bounds;
-    if (this.loop.value && before) this.loop.value = this.markedSpan();
+    if (this.loop.value && before) this.loop.value = this.getMarkedSpan();
   }
 
-  /** What is between the marks; one alone reaches to the end or the start of the recording. */
-  markedSpan(): Span | null {
+  /** Return the span between the marks; a single mark extends to the recording's start or end. */
+  getMarkedSpan(): Span | null {
     const { start_s, stop_s } = this.bounds.value;
     if (start_s === null && stop_s === null) return null;
     return { start_s: start_s ?? 0, stop_s: stop_s ?? this.duration.value };
   }
 
-  /** Stops at a segment and selects it; one that would hardly be seen, or not whole, is zoomed to. */
-  lookAt(segment: Segment): void {
+  /** Stop at a segment and select it; zoom if it is too short to see or not fully visible. */
+  showSegment(segment: Segment): void {
     this.playing.value = false;
     this.select(segment);
     const { start_s, stop_s } = this.range.value;
     const share = (segment.stop_s - segment.start_s) / (stop_s - start_s);
-    if (share < SMALL || segment.stop_s > stop_s) this.zoomTo(segment, AROUND);
+    if (share < MIN_VISIBLE_SHARE || segment.stop_s > stop_s) this.zoomTo(segment, ZOOM_CONTEXT);
   }
 
-  /** Shows what is between the marks, else the segment at the playhead, with a little around it. */
+  /** Zoom to the span between the marks, else to the segment at the playhead. */
   zoomToTarget(): void {
-    const span = this.markedSpan() ?? this.target.value;
+    const span = this.getMarkedSpan() ?? this.target.value;
     if (span) this.zoomTo(span, 1.2);
   }
 
-  /** Shows so many times the length of a span, which is in the middle. */
+  /** Zoom to a multiple of a span's duration, centred on the span. */
   private zoomTo(span: Span, times: number): void {
     const length = span.stop_s - span.start_s;
     const wide = Math.min(Math.max(times * length, 0.2), this.duration.value);
     const start = (span.start_s + span.stop_s - wide) / 2;
-    const range = inside({ start_s: start, stop_s: start + wide }, this.duration.value);
+    const range = clampRange({ start_s: start, stop_s: start + wide }, this.duration.value);
     this.zoom.value = wide < this.duration.value ? range : null;
   }
 
-  /** Loops what is marked, else the segment at the playhead; or stops looping. */
+  /** Loop the marked span, else the segment at the playhead; or stop looping. */
   toggleLoop(): void {
-    const marked = this.markedSpan();
+    const marked = this.getMarkedSpan();
     const segment = this.target.value;
     if (this.loop.value || (!segment && !marked)) {
       this.loop.value = null;
@@ -155,24 +155,24 @@ export class Store extends State {
       return;
     }
     if (!segment) return;
-    this.select(segment, { seek: !contains(segment, this.frame.value) });
+    this.select(segment, { seek: !containsFrame(segment, this.frame.value) });
     this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
   }
 
-  /** Lays the repetition at the playhead over the others; once more takes it away. */
+  /** Show the current repetition as a ghost, or remove the ghost. */
   toggleGhost(): void {
     const present = this.present.value ?? null;
     const same = this.ghost.value?.start_frame === present?.start_frame;
     this.ghost.value = this.ghost.value && same ? null : present;
   }
 
-  /** One more recording; it becomes the current one. */
+  /** Add a recording and make it active. */
   add(opened: OpenRecording): void {
     this.opened.value = [...this.opened.value, opened];
     this.show(this.opened.value.length - 1);
   }
 
-  /** Makes a recording of the page the current one; people of one file go on in the same time. */
+  /** Make a recording active; people of one file keep the current time. */
   show(index: number): void {
     const file = this.recording.value?.file;
     const sameTime = Boolean(file) && this.opened.value[index]?.recording.value.file === file;
@@ -200,11 +200,11 @@ export class Store extends State {
   }
 }
 
-/** Where a detail stands among those there are: at the finest that is no finer. */
-export function positionOf(detail: number, all: readonly number[]): number {
+/** Return the index of the finest level that is not finer than `detail`. */
+export function findDetailIndex(detail: number, all: readonly number[]): number {
   return Math.max(all.filter((each) => each <= detail * (1 + 1e-9)).length - 1, 0);
 }
 
-function contains(segment: Segment, frame: number): boolean {
-  return segment.start_frame <= frame && frame < segment.stop_frame && durationOf(segment) > 0;
+function containsFrame(segment: Segment, frame: number): boolean {
+  return segment.start_frame <= frame && frame < segment.stop_frame && getDuration(segment) > 0;
 }

@@ -1,11 +1,11 @@
-/** One clock for everything that is drawn: at most one picture per refresh of the screen. */
+/** Run all drawing in one loop, at most once per screen refresh. */
 import { effect } from "@preact/signals";
 
-/** Called before each picture with the seconds since the last one (at most 0.5). */
+/** Called before each frame with the seconds since the last one (at most 0.5). */
 export type Task = (seconds: number) => void;
 
 export class Ticker {
-  /** Pictures drawn since the page was opened. */
+  /** Number of frames drawn. */
   drawn = 0;
   private readonly tasks = new Set<Task>();
   private readonly times: number[] = [];
@@ -18,19 +18,19 @@ export class Ticker {
     return () => this.tasks.delete(task);
   }
 
-  /** Asks for one more picture. */
+  /** Request another frame. */
   request(): void {
     if (this.pending === 0) this.pending = requestAnimationFrame((now) => this.run(now));
   }
 
-  /** Draws without waiting for the screen. */
+  /** Draw immediately. */
   drawNow(): void {
     cancelAnimationFrame(this.pending);
     this.run(performance.now());
   }
 
-  /** Pictures drawn within the last second. */
-  rate(now: number = performance.now()): number {
+  /** Return the number of frames within the last second. */
+  measureRate(now: number = performance.now()): number {
     return this.times.filter((time) => now - time <= 1000).length;
   }
 
@@ -47,11 +47,8 @@ export class Ticker {
 
 export const ticker = new Ticker();
 
-/**
- * Draws before the next picture whenever a signal that `watch` reads has changed.
- * Call the result to stop it.
- */
-export function painter(watch: () => void, draw: Task): () => void {
+/** Draw when a signal read by `watch` changes; return a function that stops. */
+export function drawOnChange(watch: () => void, draw: Task): () => void {
   let dirty = true;
   const stopDrawing = ticker.add((seconds) => {
     if (!dirty) return;

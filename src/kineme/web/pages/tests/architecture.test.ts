@@ -1,25 +1,25 @@
-/** The rooms of the pages: no circles between files, no folder too full to find one's way in. */
+/** Check the imports and the size of folders. */
 import { readdirSync, readFileSync, statSync } from "node:fs";
 import { basename, dirname, join, normalize } from "node:path";
 import { expect, test } from "vitest";
 
 const SRC = join(import.meta.dirname, "..", "src");
-const MOST_FILES = 20;
+const MAX_FILES = 20;
 
-function foldersIn(folder: string): string[] {
+function listFolders(folder: string): string[] {
   const inside = readdirSync(folder).map((name) => join(folder, name));
-  return [folder, ...inside.filter((path) => statSync(path).isDirectory()).flatMap(foldersIn)];
+  return [folder, ...inside.filter((path) => statSync(path).isDirectory()).flatMap(listFolders)];
 }
 
-const folders = foldersIn(SRC);
+const folders = listFolders(SRC);
 const files = folders.flatMap((folder) =>
   readdirSync(folder)
     .filter((name) => /\.tsx?$/.test(name))
     .map((name) => join(folder, name)),
 );
 
-/** The files that a file imports, types too. */
-function importsOf(file: string): string[] {
+/** Return the files that a file imports, including types. */
+function listImports(file: string): string[] {
   const specs = readFileSync(file, "utf-8").matchAll(/(?:from|import) "(\.[^"]+)"/g);
   return [...specs]
     .map(([, spec]) => normalize(join(dirname(file), spec!)))
@@ -27,7 +27,7 @@ function importsOf(file: string): string[] {
 }
 
 test("no files import each other in a circle", () => {
-  const imports = new Map(files.map((file) => [file, importsOf(file)]));
+  const imports = new Map(files.map((file) => [file, listImports(file)]));
   const done = new Set<string>();
   const visit = (file: string, above: string[]): void => {
     expect(above, `circle through ${file}`).not.toContain(file);
@@ -42,18 +42,18 @@ test("no files import each other in a circle", () => {
 test("what the report and the studio share knows neither of them", () => {
   const pages = /\/src\/(report|studio)\//;
   const shared = files.filter((file) => !pages.test(file));
-  expect(shared.filter((file) => importsOf(file).some((each) => pages.test(each)))).toEqual([]);
+  expect(shared.filter((file) => listImports(file).some((each) => pages.test(each)))).toEqual([]);
 });
 
 test("the server is asked in one place", () => {
-  const asking = files.filter((file) =>
+  const requesting = files.filter((file) =>
     /\bfetch\(|EventSource\(|XMLHttpRequest\(|["`]\/api/.test(readFileSync(file, "utf-8")),
   );
   const allowed = ["api.ts", "paths.ts", "libraryApi.ts"];
-  expect(asking.filter((file) => !allowed.includes(basename(file)))).toEqual([]);
+  expect(requesting.filter((file) => !allowed.includes(basename(file)))).toEqual([]);
 });
 
 test.each(folders)("%s holds no more files than one looks through", (folder) => {
   const own = readdirSync(folder).filter((name) => statSync(join(folder, name)).isFile());
-  expect(own.length).toBeLessThanOrEqual(MOST_FILES);
+  expect(own.length).toBeLessThanOrEqual(MAX_FILES);
 });

@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
-import { LEFT, nearestCurve, RIGHT } from "../src/clusters/curveDrawing";
+import { MARGIN_LEFT, findNearestCurve, MARGIN_RIGHT } from "../src/clusters/curveDrawing";
 import type { ClusterCurves, CycleCurve, ReportCurves } from "../src/messages";
 import { EmbeddedData } from "../src/recordingData";
 
@@ -10,7 +10,7 @@ function cycle(start_frame: number, values: (number | null)[]): CycleCurve {
   return { start_frame, start_s, stop_s, counts: true, note: "", distance: 0, values };
 }
 
-function curvesOf(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
+function createCurves(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
   const [mean, sd] = [
     [1, 2, 3],
     [0, 0, 0],
@@ -30,7 +30,7 @@ function curvesOf(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
   };
 }
 
-/** A report with these curves, as its file has them. */
+/** Create the data of a report with these curves. */
 function report(cycles: ReportCurves): EmbeddedData {
   const text = deflateSync(JSON.stringify(cycles)).toString("base64");
   const page = {
@@ -44,14 +44,14 @@ test("a report has the curves of each table that it shows, the liveliest channel
   const data = report({
     channels: [head],
     curves: [
-      { knee_l: curvesOf("knee_l"), knee_r: curvesOf("knee_r") },
-      { knee_r: curvesOf("knee_r") },
+      { knee_l: createCurves("knee_l"), knee_r: createCurves("knee_r") },
+      { knee_r: createCurves("knee_r") },
     ],
     tables: [{ "0": 0 }, { "0": 0 }, { "0": 1, "3": 0 }],
   });
-  expect(await data.cycleChannels()).toEqual([head]);
+  expect(await data.loadCycleChannels()).toEqual([head]);
   const asked = async (...of: [number, string, number]) =>
-    (await data.clusterCurves(...of))?.channel;
+    (await data.loadClusterCurves(...of))?.channel;
   expect(await asked(0, "", 0)).toBe("knee_l");
   expect(await asked(0, "knee_r", 1)).toBe("knee_r");
   expect(await asked(0, "", 2)).toBe("knee_r");
@@ -62,8 +62,8 @@ test("a report has the curves of each table that it shows, the liveliest channel
 });
 
 test("a click goes to the nearest curve, and to none that was not recorded there", () => {
-  const curves = curvesOf("knee_l", [cycle(0, [0, 0, 0]), cycle(10, [null, null, 10])]);
-  const [width, height] = [LEFT + RIGHT + 100, 100];
-  expect(nearestCurve(curves, null, LEFT + 100, 10, width, height)).toBe(1);
-  expect(nearestCurve(curves, null, LEFT, 10, width, height)).toBe(0);
+  const curves = createCurves("knee_l", [cycle(0, [0, 0, 0]), cycle(10, [null, null, 10])]);
+  const [width, height] = [MARGIN_LEFT + MARGIN_RIGHT + 100, 100];
+  expect(findNearestCurve(curves, null, MARGIN_LEFT + 100, 10, width, height)).toBe(1);
+  expect(findNearestCurve(curves, null, MARGIN_LEFT, 10, width, height)).toBe(0);
 });

@@ -2,13 +2,13 @@ import { expect, test } from "vitest";
 import { summarizeRanges } from "../src/clusters/cycles";
 import type { CycleCurve } from "../src/messages";
 
-function cycleOf(values: (number | null)[]): CycleCurve {
+function createCycle(values: (number | null)[]): CycleCurve {
   return { start_frame: 0, start_s: 0, stop_s: 1, counts: true, note: "", distance: null, values };
 }
 
 test("ranges are summarized by mean and deviation, without what was not recorded", () => {
-  const both = [cycleOf([10, null, 100, 40]), cycleOf([5, 99])];
+  const both = [createCycle([10, null, 100, 40]), createCycle([5, 99])];
   expect(summarizeRanges(both)).toBe("92 ± 2.83");
-  expect(summarizeRanges([...both.slice(0, 1), cycleOf([null])])).toBe("90");
+  expect(summarizeRanges([...both.slice(0, 1), createCycle([null])])).toBe("90");
   expect(summarizeRanges([])).toBe("");
 });

@@ -4,9 +4,9 @@ import type { Recording } from "../src/messages";
 import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
 import type { Drag } from "../src/state";
-import { Gestures } from "../src/timeline/gestures";
-import { GUTTER, layOut, type Lane } from "../src/timeline/lanes";
-import { segment, tableOf } from "./recordings";
+import { TimelineGestures } from "../src/timeline/gestures";
+import { GUTTER_WIDTH, layOutLanes, type Lane } from "../src/timeline/lanes";
+import { segment, createTable } from "./recordings";
 
 const FPS = 10;
 const PIXELS = 4; // to a frame
@@ -21,11 +21,11 @@ let store: Store;
 let drag: Drag | null;
 let moves: [level: string, frame: number, to: number][];
 let lanes: Lane[];
-let gestures: Gestures;
+let gestures: TimelineGestures;
 
 beforeEach(() => {
   store = new Store();
-  const table = tableOf(ROWS);
+  const table = createTable(ROWS);
   const recording = { n_frames: 100, fps: FPS, segmentation: table } as unknown as Recording;
   store.add({
     data: {} as RecordingData,
@@ -39,26 +39,26 @@ beforeEach(() => {
     if (edit.kind === "move_border") moves.push([edit.level, edit.frame, edit.to]);
   };
   const { activities, primitives } = store;
-  lanes = layOut(
+  lanes = layOutLanes(
     { activities: activities.value, primitives: primitives.value, labels: [], others: [] },
     160,
   );
-  gestures = new Gestures(
+  gestures = new TimelineGestures(
     store,
     () => lanes,
     (next) => (drag = next),
   );
 });
 
-/** A press on the primitives at a frame, so many pixels beside it. */
+/** Create a press on the primitives' lane, some pixels beside a frame. */
 function at(frame: number, pixels = 0, pointerType = "mouse"): PointerEvent {
   const lane = lanes.find(({ id }) => id === "primitive")!;
-  const width = GUTTER + 100 * PIXELS;
+  const width = GUTTER_WIDTH + 100 * PIXELS;
   return {
     button: 0,
     pointerId: 1,
     pointerType,
-    clientX: GUTTER + frame * PIXELS + pixels,
+    clientX: GUTTER_WIDTH + frame * PIXELS + pixels,
     clientY: lane.top + lane.height / 2,
     currentTarget: {
       getBoundingClientRect: () => ({ left: 0, top: 0, width }),
@@ -106,7 +106,7 @@ test("a dragged border follows from where it stood, once the press has become a 
   expect(drag).toBeNull();
   gestures.move(at(41, 8));
   expect(drag).toMatchObject({ frame: 41, to: 42 });
-  expect(gestures.giveUp()).toBe(true);
+  expect(gestures.cancelDrag()).toBe(true);
   expect(moves).toEqual([]);
 });
 

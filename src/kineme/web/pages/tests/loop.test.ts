@@ -1,20 +1,20 @@
 import { expect, test } from "vitest";
-import { loopPoseAt, secondsOfRound } from "../src/viewer/loop";
+import { computeLoopPose, getRoundDuration } from "../src/viewer/loop";
 import { motion } from "./recordings";
 
 // One joint that goes a metre along z in a round of four frames; then a quarter turn.
 const walk = motion(5, (i) => [0, 1000, 250 * i]);
-const quarter = { motion: walk, carry: { turn: Math.PI / 2, x: 0, z: 1 } };
+const quarter = { motion: walk, step: { turn: Math.PI / 2, x: 0, z: 1 } };
 
-function placeAt(seconds: number): number[] {
+function computePosition(seconds: number): number[] {
   const pose = new Float32Array(3 * walk.head.joints.length);
-  loopPoseAt(quarter, seconds, pose);
+  computeLoopPose(quarter, seconds, pose);
   return [pose[0]!, pose[2]!];
 }
 
-test("each round begins where the one before ended, and goes on as it was carried", () => {
-  const lasts = secondsOfRound(quarter);
-  const corners = [0, 1, 2, 3, 4].map((round) => placeAt(round * lasts + 1e-9));
+test("each round begins where the one before ended, and continues with the same step", () => {
+  const lasts = getRoundDuration(quarter);
+  const corners = [0, 1, 2, 3, 4].map((round) => computePosition(round * lasts + 1e-9));
   const square = [
     [0, 0],
     [0, 1],
@@ -24,7 +24,10 @@ test("each round begins where the one before ended, and goes on as it was carrie
   ];
   corners.flat().forEach((value, i) => expect(value).toBeCloseTo(square.flat()[i]!, 3));
   for (const round of [1, 2, 3]) {
-    const [before, after] = [placeAt(round * lasts - 1e-6), placeAt(round * lasts + 1e-6)];
+    const [before, after] = [
+      computePosition(round * lasts - 1e-6),
+      computePosition(round * lasts + 1e-6),
+    ];
     before.forEach((value, axis) => expect(value).toBeCloseTo(after[axis]!, 3));
   }
 });

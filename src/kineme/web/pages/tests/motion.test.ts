@@ -1,6 +1,6 @@
 import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
-import { decodeMotion, headingAt, poseAt, unpackMotion } from "../src/motion";
+import { decodeMotion, getHeading, computePose, unpackMotion } from "../src/motion";
 import { head, motion } from "./recordings";
 
 /** Columns as `kineme.web.display` sends them: differences that wrap at 16 bits. */
@@ -35,32 +35,32 @@ test("a message of another length is refused", () => {
 test("poses lie between samples, in metres from the origin", () => {
   const walk = motion(3, (i) => [100 * i, 0, 0], { origin: [1, 2, 3] });
   const pose = new Float32Array(6);
-  poseAt(walk, 0.05, pose);
+  computePose(walk, 0.05, pose);
   expect(pose[0]).toBeCloseTo(1.05);
   expect(pose[1]).toBeCloseTo(2);
-  poseAt(walk, 99, pose);
+  computePose(walk, 99, pose);
   expect(pose[0]).toBeCloseTo(1.2);
-  poseAt(walk, -1, pose);
+  computePose(walk, -1, pose);
   expect(pose[0]).toBeCloseTo(1);
 });
 
 test("what was not seen is NaN, also half-way to it", () => {
   const gone = motion(2, (i, joint) => (i === 1 && joint === 1 ? [-32768, 0, 0] : [0, 0, 0]));
   const pose = new Float32Array(6);
-  poseAt(gone, 0.05, pose);
+  computePose(gone, 0.05, pose);
   expect(pose[3]).toBeNaN();
   expect(pose[0]).toBe(0);
 });
 
 test("the heading is that of the nearest sample, 0 where none is known", () => {
   expect(
-    headingAt(
+    getHeading(
       motion(3, () => [0, 0, 0], { heading: [0, 1, 2] }),
       0.11,
     ),
   ).toBe(1);
   expect(
-    headingAt(
+    getHeading(
       motion(3, () => [0, 0, 0]),
       0.1,
     ),

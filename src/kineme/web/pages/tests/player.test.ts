@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { fitted } from "../src/film/picture";
+import { fitPicture } from "../src/video/keypoints";
 import { advance } from "../src/player";
 
 const loop = { start_s: 2, stop_s: 4 };
@@ -13,6 +13,6 @@ test("time goes on, and round inside a loop", () => {
 
 test("a picture is shown whole, in the middle of its box", () => {
   const picture = { width: 640, height: 480 };
-  expect(fitted(picture, 1280, 480)).toEqual({ left: 320, top: 0, scale: 1 });
-  expect(fitted(picture, 320, 480)).toEqual({ left: 0, top: 120, scale: 0.5 });
+  expect(fitPicture(picture, 1280, 480)).toEqual({ left: 320, top: 0, scale: 1 });
+  expect(fitPicture(picture, 320, 480)).toEqual({ left: 0, top: 120, scale: 0.5 });
 });

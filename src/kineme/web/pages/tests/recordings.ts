@@ -1,4 +1,4 @@
-/** Small recordings for tests. */
+/** Create small recordings for tests. */
 import { bareSegment, type MotionHead, type Segment, type Segments } from "../src/messages";
 import type { Motion } from "../src/motion";
 
@@ -17,8 +17,8 @@ export function segment(start: number, stop: number, more: Partial<Segment> = {}
   };
 }
 
-/** A table of these segments. */
-export function tableOf(segments: Segment[], more: Partial<Segments> = {}): Segments {
+/** Create a table of segments. */
+export function createTable(segments: Segment[], more: Partial<Segments> = {}): Segments {
   const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
   const bare = { schema: "", fps: 10, provenance: {}, timings: {}, cluster_names: {} };
   return { ...bare, n_frames, segments, ...more };
@@ -39,7 +39,7 @@ export function head(n_samples: number, more: Partial<MotionHead> = {}): MotionH
   };
 }
 
-/** A motion whose joints stand where `at` says, in millimetres. */
+/** Create a motion whose joints are at positions that `at` returns, in millimetres. */
 export function motion(
   n_samples: number,
   at: (sample: number, joint: number) => [number, number, number],

@@ -1,11 +1,11 @@
 import { expect, it } from "vitest";
 import type { Segments } from "../src/messages";
-import { repetitionsOf } from "../src/paper/repetitions";
-import { segment, tableOf } from "./recordings";
+import { listRepetitions } from "../src/print/repetitions";
+import { segment, createTable } from "./recordings";
 
 it("lists each activity with the durations of its repetitions", () => {
-  const found = repetitionsOf(
-    tableOf([
+  const found = listRepetitions(
+    createTable([
       segment(0, 40, { level: "activity", activity: 0 }),
       segment(40, 50, { level: "activity", activity: 1, kind: "transition" }),
       segment(50, 70, { level: "activity", activity: 2 }),
@@ -25,15 +25,15 @@ it("lists each activity with the durations of its repetitions", () => {
 
 it("counts what people left out, and leaves it out of the mean", () => {
   const walkWithout = (...excluded: number[]): Segments =>
-    tableOf([
+    createTable([
       segment(0, 60, { level: "activity", activity: 0 }),
       ...[0, 20, 40].map((start) =>
         segment(start, start + 20, { activity: 0, excluded: excluded.includes(start) }),
       ),
     ]);
-  const [walk] = repetitionsOf(walkWithout(20));
+  const [walk] = listRepetitions(walkWithout(20));
   expect(walk!.durations).toHaveLength(3);
   expect(walk!.leftOut).toEqual([false, true, false]);
   expect(walk!.mean).toBe(2);
-  expect(repetitionsOf(walkWithout(0, 20, 40))[0]!.mean).toBeNull();
+  expect(listRepetitions(walkWithout(0, 20, 40))[0]!.mean).toBeNull();
 });

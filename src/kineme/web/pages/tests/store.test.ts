@@ -1,10 +1,10 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import type { Recording } from "../src/messages";
-import type { ShownRecording } from "../src/opened";
+import type { ShownRecording } from "../src/openRecording";
 import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
-import { segment, tableOf } from "./recordings";
+import { segment, createTable } from "./recordings";
 
 const activity = segment(0, 40, { level: "activity" });
 const last = segment(40, 50, { cluster: -1, kind: "transition" });
@@ -12,7 +12,11 @@ const primitives = [segment(0, 10), segment(10, 30, { cluster: 1 }), segment(30,
 
 function page(): Store {
   const store = new Store();
-  const segmentation = tableOf([activity, { ...last, level: "activity" as const }, ...primitives]);
+  const segmentation = createTable([
+    activity,
+    { ...last, level: "activity" as const },
+    ...primitives,
+  ]);
   const recording = signal({
     ...{ id: "a", name: "take", n_frames: 50, fps: 10, motion: null, segmentation },
     ...{ matrix: { fps: 10, tile: 256, sizes: [50] }, revision: 0 },
@@ -38,12 +42,12 @@ function page(): Store {
 test("what is looked at is zoomed to where it would hardly be seen", () => {
   const store = page();
   const small = segment(20, 21);
-  store.lookAt(primitives[1]!);
+  store.showSegment(primitives[1]!);
   expect(store.zoom.value).toBeNull();
-  store.lookAt(small);
+  store.showSegment(small);
   const { start_s, stop_s } = store.zoom.value!;
   expect([start_s, stop_s].map((each) => each.toFixed(2))).toEqual(["1.45", "2.65"]);
-  store.lookAt(primitives[1]!); // its end is not in there
+  store.showSegment(primitives[1]!); // its end is not in there
   expect(store.zoom.value).toBeNull();
 });
 
@@ -121,7 +125,7 @@ test("edits are for the segment at the playhead: a selection is left with it", (
   expect(store.selected.value).toBeUndefined();
   expect(store.target.value).toEqual(primitives[2]);
   expect(store.border.value?.start_frame).toBe(30);
-  store.changeLevel();
+  store.toggleLevel();
   expect(store.target.value?.level).toBe("activity");
 });
 
@@ -137,18 +141,18 @@ test("what is off the screen is brought there, and only then", () => {
 test("marks are set, taken away, looped and zoomed to", () => {
   const store = page();
   store.seek(1.5);
-  store.mark("start_s");
+  store.toggleMark("start_s");
   store.seek(2.5);
-  store.mark("stop_s");
-  expect(store.markedSpan()).toEqual({ start_s: 1.5, stop_s: 2.5 });
+  store.toggleMark("stop_s");
+  expect(store.getMarkedSpan()).toEqual({ start_s: 1.5, stop_s: 2.5 });
   store.toggleLoop();
   expect(store.loop.value).toEqual({ start_s: 1.5, stop_s: 2.5 });
   store.zoomToTarget();
   expect(store.range.value.start_s).toBeCloseTo(1.4);
   expect(store.range.value.stop_s).toBeCloseTo(2.6);
-  store.mark("stop_s");
-  expect(store.markedSpan()).toEqual({ start_s: 1.5, stop_s: 5 });
+  store.toggleMark("stop_s");
+  expect(store.getMarkedSpan()).toEqual({ start_s: 1.5, stop_s: 5 });
   store.seek(1);
-  store.mark("stop_s"); // before the start, which goes
-  expect(store.markedSpan()).toEqual({ start_s: 0, stop_s: 1 });
+  store.toggleMark("stop_s"); // before the start, which goes
+  expect(store.getMarkedSpan()).toEqual({ start_s: 0, stop_s: 1 });
 });

@@ -1,9 +1,9 @@
-/** Where the result comes from, and what it cost. */
+/** Show where a result comes from and how long each stage took. */
 import type { ComponentChildren, JSX } from "preact";
 import { useStore } from "../context";
-import { countsOf } from "../segments";
+import { formatCounts } from "../segments";
 import type { Store } from "../store";
-import { clock } from "../view";
+import { formatTime } from "../view";
 
 export function About(): JSX.Element | null {
   const store = useStore();
@@ -16,31 +16,31 @@ export function About(): JSX.Element | null {
       <dl>
         <Fact name="Recording">{recording.name}</Fact>
         <Fact name="Length">
-          {clock(store.duration.value, 2)} ({recording.n_frames} frames at {rounded(recording.fps)}{" "}
-          Hz)
+          {formatTime(store.duration.value, 2)} ({recording.n_frames} frames at{" "}
+          {formatNumber(recording.fps)} Hz)
         </Fact>
-        <Fact name="Found">{countsOf(recording.segmentation)}</Fact>
+        <Fact name="Found">{formatCounts(recording.segmentation)}</Fact>
         {Object.entries(rest).map(([key, value]) => (
           <Fact key={key} name={key}>
-            <Value of={value} />
+            <Value value={value} />
           </Fact>
         ))}
       </dl>
-      <Sentences title="Warnings" of={recording.warnings} />
-      <Sentences title="Notes" of={Array.isArray(notes) ? notes.map(String) : []} />
-      <Timings of={timings} />
-      {isRecord(parameters) && (
+      <SentenceList title="Warnings" sentences={recording.warnings} />
+      <SentenceList title="Notes" sentences={Array.isArray(notes) ? notes.map(String) : []} />
+      <Timings timings={timings} />
+      {isObject(parameters) && (
         <details>
           <summary>Parameters</summary>
-          <Value of={parameters} />
+          <Value value={parameters} />
         </details>
       )}
     </div>
   );
 }
 
-/** The title of its tab, with a sign where there is something to warn of. */
-export function aboutTitle(store: Store): string {
+/** Return the tab's title, with the number of warnings if there are any. */
+export function getAboutTitle(store: Store): string {
   const warnings = store.recording.value?.warnings.length ?? 0;
   return warnings ? `About ⚠ ${warnings}` : "About";
 }
@@ -54,31 +54,32 @@ function Fact({ name, children }: { name: string; children: ComponentChildren })
   );
 }
 
-/** Anything JSON can hold: objects as lists of facts. */
-function Value({ of }: { of: unknown }): JSX.Element {
-  if (isRecord(of))
+/** Render any JSON value; objects become definition lists. */
+function Value({ value }: { value: unknown }): JSX.Element {
+  if (isObject(value))
     return (
       <dl>
-        {Object.entries(of).map(([key, value]) => (
+        {Object.entries(value).map(([key, each]) => (
           <Fact key={key} name={key.replaceAll("_", " ")}>
-            <Value of={value} />
+            <Value value={each} />
           </Fact>
         ))}
       </dl>
     );
-  if (Array.isArray(of)) return <>{of.map((each) => String(each)).join(", ")}</>;
-  if (of === null) return <>none</>;
-  if (typeof of === "string") return <>{of}</>;
-  return <>{typeof of === "number" ? rounded(of) : JSON.stringify(of)}</>;
+  if (Array.isArray(value)) return <>{value.map((each) => String(each)).join(", ")}</>;
+  if (value === null) return <>none</>;
+  if (typeof value === "string") return <>{value}</>;
+  return <>{typeof value === "number" ? formatNumber(value) : JSON.stringify(value)}</>;
 }
 
-function Sentences({ title, of }: { title: string; of: readonly string[] }): JSX.Element | null {
-  if (of.length === 0) return null;
+function SentenceList(props: { title: string; sentences: readonly string[] }): JSX.Element | null {
+  const { title, sentences } = props;
+  if (sentences.length === 0) return null;
   return (
     <section>
       <h2>{title}</h2>
       <ul>
-        {of.map((sentence) => (
+        {sentences.map((sentence) => (
           <li key={sentence}>{sentence}</li>
         ))}
       </ul>
@@ -86,8 +87,8 @@ function Sentences({ title, of }: { title: string; of: readonly string[] }): JSX
   );
 }
 
-function Timings({ of }: { of: Record<string, number> }): JSX.Element | null {
-  const stages = Object.entries(of);
+function Timings({ timings }: { timings: Record<string, number> }): JSX.Element | null {
+  const stages = Object.entries(timings);
   if (stages.length === 0) return null;
   const most = Math.max(...stages.map(([, seconds]) => seconds), 1e-9);
   const total = stages.reduce((sum, [, seconds]) => sum + seconds, 0);
@@ -111,10 +112,10 @@ function Timings({ of }: { of: Record<string, number> }): JSX.Element | null {
   );
 }
 
-function isRecord(value: unknown): value is Record<string, unknown> {
+function isObject(value: unknown): value is Record<string, unknown> {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
-function rounded(value: number): string {
+function formatNumber(value: number): string {
   return String(Number(value.toPrecision(6)));
 }

@@ -1,4 +1,4 @@
-/** Keys and what they do. */
+/** Show a table of keys and their actions. */
 import type { JSX } from "preact";
 
 export function Keys({ keys }: { keys: readonly (readonly [string, string])[] }): JSX.Element {

@@ -1,23 +1,23 @@
-/** A canvas that fills its place, sharp on any screen, redrawn when what it shows has changed. */
+/** Draw a canvas that fills its container, in device pixels, whenever its signals change. */
 import { useEffect, useRef } from "preact/hooks";
 import type { HTMLAttributes, JSX } from "preact";
 import { signal } from "@preact/signals";
 import { theme } from "../theme";
-import { painter } from "../ticker";
+import { drawOnChange } from "../ticker";
 
 export type Draw = (pen: CanvasRenderingContext2D, width: number, height: number) => void;
 
 interface Props extends Omit<HTMLAttributes<HTMLCanvasElement>, "label"> {
   label: string;
-  /** Reads the signals that the picture depends on. */
+  /** Read the signals that the picture depends on. */
   watch: () => void;
-  /** Draws everything anew; sizes in CSS pixels. */
+  /** Redraw everything; sizes are in CSS pixels. */
   draw: Draw;
-  /** What pointers and the wheel do; the browser's own reaction would scroll or zoom the page. */
-  gestures?: Gestures;
+  /** Handle pointers and the wheel in place of the browser's scrolling and zooming. */
+  gestures?: PointerHandlers;
 }
 
-export interface Gestures {
+export interface PointerHandlers {
   down(event: PointerEvent): void;
   move(event: PointerEvent): void;
   up(event: PointerEvent): void;
@@ -33,16 +33,16 @@ export function Canvas({ label, watch, draw, gestures, ...rest }: Props): JSX.El
   useEffect(() => {
     const canvas = ref.current!;
     const size = signal({ width: 0, height: 0 });
-    const onResize = new ResizeObserver(() => {
+    const resizeObserver = new ResizeObserver(() => {
       size.value = { width: canvas.clientWidth, height: canvas.clientHeight };
     });
-    onResize.observe(canvas);
-    const stop = painter(
+    resizeObserver.observe(canvas);
+    const stop = drawOnChange(
       () => {
         void [theme.value, size.value];
         latest.current.watch();
       },
-      () => paint(canvas, size.value, latest.current.draw),
+      () => paintCanvas(canvas, size.value, latest.current.draw),
     );
     const onWheel = (event: WheelEvent): void => {
       if (!latest.current.gestures) return;
@@ -52,7 +52,7 @@ export function Canvas({ label, watch, draw, gestures, ...rest }: Props): JSX.El
     canvas.addEventListener("wheel", onWheel, { passive: false });
     return () => {
       stop();
-      onResize.disconnect();
+      resizeObserver.disconnect();
       canvas.removeEventListener("wheel", onWheel);
     };
   }, []);
@@ -66,7 +66,7 @@ export function Canvas({ label, watch, draw, gestures, ...rest }: Props): JSX.El
   return <canvas ref={ref} role="img" aria-label={label} {...pointers} {...rest} />;
 }
 
-function paint(
+function paintCanvas(
   canvas: HTMLCanvasElement,
   { width, height }: { width: number; height: number },
   draw: Draw,
@@ -75,7 +75,7 @@ function paint(
   const ratio = devicePixelRatio;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
-  // Kept in main memory: without a graphics card that is several times faster.
+  // Without a graphics card, a canvas in main memory is several times faster.
   const pen = canvas.getContext("2d", { willReadFrequently: true })!;
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);

@@ -1,35 +1,35 @@
-/** Where pointers are on a canvas, and how they zoom: the wheel, and two fingers. */
+/** Locate pointers on a canvas and zoom with the wheel or two fingers. */
 
-/** Pixels a click may wander before it is a drag. */
-export const CLICK = 4;
+/** Pixels a pointer may move before a click becomes a drag. */
+export const CLICK_TOLERANCE = 4;
 
 export interface Point {
   x: number;
   y: number;
 }
 
-/** What two fingers did: what was midway between them comes to a place, and fills more or less. */
+/** The midpoint of two fingers moved from one point to another while their distance changed. */
 export interface Pinch {
   from: Point;
   to: Point;
-  /** Below 1 when the fingers part, to show less. */
+  /** Below 1 when the fingers move apart, to zoom in. */
   factor: number;
 }
 
-/** Pixels from the left and the top of what the event is for. */
-export function placeOf(event: MouseEvent): Point {
+/** Return the pointer's position in pixels from the element's left and top edges. */
+export function getPosition(event: MouseEvent): Point {
   const { left, top } = (event.currentTarget as Element).getBoundingClientRect();
   return { x: event.clientX - left, y: event.clientY - top };
 }
 
-/** How much more is to be seen after a turn of the wheel. */
-export function wheelFactor(event: WheelEvent): number {
+/** Return the factor by which the visible range grows after a wheel turn. */
+export function getZoomFactor(event: WheelEvent): number {
   return Math.exp(0.0015 * event.deltaY);
 }
 
-const CLOSE = 24; // pixels between two fingers, at the least
+const MIN_DISTANCE = 24; // pixels between two fingers; smaller distances would make the factor jump
 
-export class Fingers {
+export class TouchTracker {
   private readonly down = new Map<number, Point>();
 
   get count(): number {
@@ -40,12 +40,12 @@ export class Fingers {
     this.down.set(finger, place);
   }
 
-  /** What a move did, if the finger is one of two. */
+  /** Move a finger and return the pinch, or null unless two fingers touch. */
   move(finger: number, place: Point): Pinch | null {
     if (!this.down.has(finger)) return null;
-    const before = this.span();
+    const before = this.measureSpan();
     this.down.set(finger, place);
-    const after = this.span();
+    const after = this.measureSpan();
     if (!before || !after) return null;
     return { from: before.middle, to: after.middle, factor: before.length / after.length };
   }
@@ -58,10 +58,10 @@ export class Fingers {
     this.down.clear();
   }
 
-  private span(): { middle: Point; length: number } | null {
+  private measureSpan(): { middle: Point; length: number } | null {
     const [a, b] = this.down.values();
     if (!a || !b) return null;
     const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
-    return { middle, length: Math.max(Math.hypot(a.x - b.x, a.y - b.y), CLOSE) };
+    return { middle, length: Math.max(Math.hypot(a.x - b.x, a.y - b.y), MIN_DISTANCE) };
   }
 }

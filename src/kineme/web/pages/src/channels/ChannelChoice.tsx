@@ -1,34 +1,33 @@
-/** The list of curves to choose from: search, then tick. */
+/** List the curves to choose from, with a search field. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { CurveList } from "../messages";
-import { nameOf, rowsOf, toggle } from "./chosen";
-import { Checkbox } from "../layout/controls";
+import { getCurveKey, selectCurves, toggleCurve } from "./curveSelection";
+import { Checkbox, TextInput } from "../layout/controls";
 
 interface Props {
   list: CurveList;
-  /** The joints shown before anybody chose. */
-  ends: readonly string[];
+  /** Joints whose heights are shown by default. */
+  defaultJoints: readonly string[];
 }
 
-export function ChannelChoice({ list, ends }: Props): JSX.Element {
+export function ChannelChoice({ list, defaultJoints }: Props): JSX.Element {
   const search = useSignal("");
-  const shown = new Set(rowsOf(list, ends).map(({ curve }) => curve));
+  const shown = new Set(selectCurves(list, defaultJoints).map(({ curve }) => curve));
   const words = search.value.toLowerCase().split(/\s+/);
   const found = list.curves
     .map((head, curve) => ({ head, curve }))
-    .filter(({ head }) => words.every((word) => nameOf(head).toLowerCase().includes(word)));
+    .filter(({ head }) => words.every((word) => getCurveKey(head).toLowerCase().includes(word)));
   const groups = [...new Set(found.map(({ head }) => head.group))];
   return (
     <details class="channel-choice">
       <summary>Curves…</summary>
       <div class="channel-list">
-        <input
+        <TextInput
           type="search"
           placeholder="Search: height foot"
           aria-label="Search the curves"
-          value={search.value}
-          onInput={(event) => (search.value = event.currentTarget.value)}
+          value={search}
         />
         {groups.map((group) => (
           <fieldset key={group}>
@@ -39,7 +38,7 @@ export function ChannelChoice({ list, ends }: Props): JSX.Element {
                 <Checkbox
                   key={curve}
                   checked={shown.has(curve)}
-                  onCheck={() => toggle(list, ends, head)}
+                  onCheck={() => toggleCurve(list, defaultJoints, head)}
                 >
                   {head.name}
                 </Checkbox>

@@ -1,31 +1,31 @@
-/** Curves and signals over time: under the timeline, or on the stage of a recording without a body. */
+/** Show curves over time, below the timeline or in place of the 3-D view. */
 import { useMemo } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
-import { useCalm } from "../canvas/calm";
+import { useThrottled } from "../canvas/useThrottled";
 import { Canvas } from "../canvas/Canvas";
-import { Line } from "../canvas/Line";
+import { PlayheadLine } from "../canvas/PlayheadLine";
 import type { Store } from "../store";
-import { Gestures } from "../timeline/gestures";
-import { GUTTER } from "../timeline/lanes";
+import { TimelineGestures } from "../timeline/gestures";
+import { GUTTER_WIDTH } from "../timeline/lanes";
 import { toPixel } from "../view";
 import { ChannelChoice } from "./ChannelChoice";
-import { endsOf, rowsOf } from "./chosen";
-import { boxOf, drawChannels, type Row } from "./drawing";
+import { getDefaultJoints, selectCurves } from "./curveSelection";
+import { getRowBounds, drawChannels, type Row } from "./drawing";
 import type { CurveTiles } from "./tiles";
-import { useTiles } from "./useTiles";
+import { useCurveTiles } from "./useCurveTiles";
 
 interface Props {
-  /** Whether times are written above. */
+  /** Whether to draw a time axis above the curves. */
   ruler?: boolean;
 }
 
 export function Channels({ ruler = false }: Props): JSX.Element | null {
   const store = useStore();
-  const current = useTiles();
+  const current = useCurveTiles();
   const gestures = useMemo(
     () =>
-      new Gestures(
+      new TimelineGestures(
         store,
         () => [],
         () => undefined,
@@ -34,8 +34,8 @@ export function Channels({ ruler = false }: Props): JSX.Element | null {
   );
   const tiles = current.value;
   if (!tiles) return <div class="channels" aria-busy="true" />;
-  const ends = endsOfShown(store);
-  const rows = rowsOf(tiles.list, ends);
+  const ends = getDefaultJointsOfStore(store);
+  const rows = selectCurves(tiles.list, ends);
   const names = rows.map(({ head }) => `${head.name} ${head.group}`).join(", ");
   return (
     <div class="channels">
@@ -45,8 +45,8 @@ export function Channels({ ruler = false }: Props): JSX.Element | null {
           label={`Curves over time: ${names}. Click to go there; use the wheel to zoom, drag to pan.`}
           watch={() =>
             void [
-              rowsOf(tiles.list, endsOfShown(store)),
-              tiles.arrived.value,
+              selectCurves(tiles.list, getDefaultJointsOfStore(store)),
+              tiles.loadCount.value,
               store.range.value,
               store.primitives.value,
               store.activities.value,
@@ -57,7 +57,7 @@ export function Channels({ ruler = false }: Props): JSX.Element | null {
           draw={(pen, width, height) => {
             const now = current.value;
             if (!now) return;
-            const shown = rowsOf(now.list, endsOfShown(store));
+            const shown = selectCurves(now.list, getDefaultJointsOfStore(store));
             drawChannels(pen, shown, now, store, { width, height, ruler });
           }}
           gestures={gestures}
@@ -66,33 +66,37 @@ export function Channels({ ruler = false }: Props): JSX.Element | null {
         <p class="empty quiet">Choose what to draw: “Curves…”.</p>
       )}
       {rows.length > 0 && (
-        <div class="playhead-room" style={{ left: `${GUTTER}px` }}>
-          <Line share={toPixel(store.range.value, 1, store.playhead.value)} />
+        <div class="playhead-room" style={{ left: `${GUTTER_WIDTH}px` }}>
+          <PlayheadLine share={toPixel(store.range.value, 1, store.playhead.value)} />
         </div>
       )}
-      <Values rows={rows} tiles={tiles} ruler={ruler} />
-      <ChannelChoice list={tiles.list} ends={ends} />
+      <CurrentValues rows={rows} tiles={tiles} ruler={ruler} />
+      <ChannelChoice list={tiles.list} defaultJoints={ends} />
     </div>
   );
 }
 
-function endsOfShown(store: Store): string[] {
+function getDefaultJointsOfStore(store: Store): string[] {
   const head = store.recording.value?.motion;
-  return head ? endsOf(head) : [];
+  return head ? getDefaultJoints(head) : [];
 }
 
-/** What each curve is at the playhead. */
-function Values(props: { rows: readonly Row[]; tiles: CurveTiles; ruler: boolean }): JSX.Element {
+/** Show each curve's value at the playhead. */
+function CurrentValues(props: {
+  rows: readonly Row[];
+  tiles: CurveTiles;
+  ruler: boolean;
+}): JSX.Element {
   const store = useStore();
   const { rows, tiles, ruler } = props;
-  const frame = useCalm(store.frame, store.playing);
-  void tiles.arrived.value;
+  const frame = useThrottled(store.frame, store.playing);
+  void tiles.loadCount.value;
   return (
     <div class="channel-values number" aria-hidden="true">
       {rows.map(({ curve, head }, i) => {
-        const value = tiles.at(curve, frame.value);
-        const [top] = boxOf(i, rows.length, 100, false);
-        const text = value === null || Number.isNaN(value) ? "–" : shortNumber(value);
+        const value = tiles.getValue(curve, frame.value);
+        const [top] = getRowBounds(i, rows.length, 100, false);
+        const text = value === null || Number.isNaN(value) ? "–" : formatShort(value);
         return (
           <span
             key={curve}
@@ -106,7 +110,7 @@ function Values(props: { rows: readonly Row[]; tiles: CurveTiles; ruler: boolean
   );
 }
 
-function shortNumber(value: number): string {
+function formatShort(value: number): string {
   const size = Math.abs(value);
   if (size >= 1e5 || (size > 0 && size < 1e-3)) return value.toExponential(1);
   return value.toFixed(size >= 100 ? 0 : size >= 10 ? 1 : 2);

@@ -1,17 +1,17 @@
-/** How curves look: one below the other, with the segments behind them. */
+/** Draw curves below each other, with the segments in the background. */
 import type { Curve } from "../messages";
 import type { Store } from "../store";
-import { cssColor } from "../theme";
-import { drawRuler, FONT, shortened } from "../timeline/frame";
-import { GUTTER, RULER, visible } from "../timeline/lanes";
+import { readColor } from "../theme";
+import { drawRuler, FONT, shortenText } from "../timeline/decoration";
+import { GUTTER_WIDTH, RULER_HEIGHT, findVisible } from "../timeline/lanes";
 import { toPixel } from "../view";
-import { levelFor, outlineOf, type Outline } from "./outline";
+import { chooseLevel, computeOutline, type Outline } from "./outline";
 import type { CurveTiles } from "./tiles";
 
 type Pen = CanvasRenderingContext2D;
 
 const GAP = 3;
-const PAD = 4; // pixels above and below a curve
+const PADDING = 4;
 
 export interface Row {
   curve: number;
@@ -21,12 +21,17 @@ export interface Row {
 interface Box {
   top: number;
   height: number;
-  room: number;
+  plotWidth: number;
 }
 
-/** The place of each row. */
-export function boxOf(row: number, rows: number, height: number, ruler: boolean): [number, number] {
-  const top = ruler ? RULER : 2;
+/** Return a row's top and height in pixels. */
+export function getRowBounds(
+  row: number,
+  rows: number,
+  height: number,
+  ruler: boolean,
+): [number, number] {
+  const top = ruler ? RULER_HEIGHT : 2;
   const each = (height - top) / Math.max(rows, 1);
   return [top + row * each, Math.max(each - GAP, 1)];
 }
@@ -38,18 +43,18 @@ export function drawChannels(
   store: Store,
   { width, height, ruler }: { width: number; height: number; ruler: boolean },
 ): void {
-  const room = Math.max(Math.floor(width - GUTTER), 1);
+  const plotWidth = Math.max(Math.floor(width - GUTTER_WIDTH), 1);
   pen.font = FONT;
   pen.textBaseline = "middle";
-  if (ruler) drawRuler(pen, store.range.value, room);
+  if (ruler) drawRuler(pen, store.range.value, plotWidth);
   rows.forEach((row, i) => {
-    const [top, tall] = boxOf(i, rows.length, height, ruler);
-    const box = { top, height: tall, room };
+    const [top, tall] = getRowBounds(i, rows.length, height, ruler);
+    const box = { top, height: tall, plotWidth };
     drawTitle(pen, row.head, box);
     pen.save();
-    pen.translate(GUTTER, 0);
+    pen.translate(GUTTER_WIDTH, 0);
     pen.beginPath();
-    pen.rect(0, top, room, tall);
+    pen.rect(0, top, plotWidth, tall);
     pen.clip();
     drawSegments(pen, store, box);
     drawCurve(pen, row.curve, tiles, store, box);
@@ -60,63 +65,63 @@ export function drawChannels(
 function drawTitle(pen: Pen, { name, group, unit }: Curve, { top, height }: Box): void {
   const two = height > 26;
   const middle = top + height / 2;
-  pen.fillStyle = cssColor("text");
-  pen.fillText(shortened(pen, name, GUTTER - 14), 10, two ? middle - 7 : middle);
-  pen.fillStyle = cssColor("quiet");
+  pen.fillStyle = readColor("text");
+  pen.fillText(shortenText(pen, name, GUTTER_WIDTH - 14), 10, two ? middle - 7 : middle);
+  pen.fillStyle = readColor("quiet");
   const below = group === "channels" ? unit : `${group}${unit ? `, ${unit}` : ""}`;
-  if (two) pen.fillText(shortened(pen, below, GUTTER - 14), 10, middle + 7);
+  if (two) pen.fillText(shortenText(pen, below, GUTTER_WIDTH - 14), 10, middle + 7);
 }
 
-/** Faint colours of the primitives, so that one sees which repetition a curve is in. */
-function drawSegments(pen: Pen, store: Store, { top, height, room }: Box): void {
+/** Shade the primitives faintly, to show which repetition a curve is in. */
+function drawSegments(pen: Pen, store: Store, { top, height, plotWidth }: Box): void {
   const range = store.range.value;
-  pen.fillStyle = cssColor("lane");
-  pen.fillRect(0, top, room, height);
+  pen.fillStyle = readColor("lane");
+  pen.fillRect(0, top, plotWidth, height);
   const lane = store.primitives.value.length ? store.primitives.value : store.activities.value;
-  const [from, to] = visible(lane, range.start_s, range.stop_s);
+  const [from, to] = findVisible(lane, range.start_s, range.stop_s);
   let drawn = -Infinity;
   for (let i = from; i < to; i++) {
     const segment = lane[i]!;
-    const left = toPixel(range, room, segment.start_s);
-    const right = toPixel(range, room, segment.stop_s);
+    const left = toPixel(range, plotWidth, segment.start_s);
+    const right = toPixel(range, plotWidth, segment.stop_s);
     if (right - drawn < 0.5) continue;
     drawn = right;
-    const color = store.colorOf(segment);
+    const color = store.getColor(segment);
     if (color) {
       pen.globalAlpha = 0.16;
       pen.fillStyle = color;
       pen.fillRect(left, top, right - left, height);
       pen.globalAlpha = 1;
     }
-    pen.fillStyle = cssColor("line");
+    pen.fillStyle = readColor("line");
     if (right - left > 4) pen.fillRect(Math.round(left), top, 1, height);
   }
 }
 
 function drawCurve(pen: Pen, curve: number, tiles: CurveTiles, store: Store, box: Box): void {
-  const bounds = tiles.bounds(curve);
+  const bounds = tiles.getBounds(curve);
   if (!bounds) return;
   const [low, high] = bounds[0] < bounds[1] ? bounds : [bounds[0] - 1, bounds[1] + 1];
-  const scale = (box.height - 2 * PAD) / (high - low);
-  const y = (value: number): number => box.top + box.height - PAD - (value - low) * scale;
+  const scale = (box.height - 2 * PADDING) / (high - low);
+  const y = (value: number): number => box.top + box.height - PADDING - (value - low) * scale;
   if (low < 0 && high > 0) {
-    pen.fillStyle = cssColor("line");
-    pen.fillRect(0, Math.round(y(0)), box.room, 1);
+    pen.fillStyle = readColor("line");
+    pen.fillRect(0, Math.round(y(0)), box.plotWidth, 1);
   }
-  pen.strokeStyle = cssColor("text");
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 1.2;
   pen.lineJoin = "round";
-  stroke(pen, shownOf(curve, tiles, store, box.room), y);
+  strokeOutline(pen, sampleOutline(curve, tiles, store, box.plotWidth), y);
 }
 
-/** As fine as the screen; what has not come yet is drawn as coarse as it is known. */
-function shownOf(curve: number, tiles: CurveTiles, store: Store, room: number): Outline {
+/** Return the curve's outline; coarser bins stand in for tiles that are still loading. */
+function sampleOutline(curve: number, tiles: CurveTiles, store: Store, plotWidth: number): Outline {
   const { factor, levels, tile } = tiles.list;
   const range = store.range.value;
   const fps = store.fps.value;
   const frames = store.recording.value?.n_frames ?? 0;
-  const perPixel = ((range.stop_s - range.start_s) * fps) / room;
-  const outlineAt = (level: number): Outline => {
+  const perPixel = ((range.stop_s - range.start_s) * fps) / plotWidth;
+  const computeAtLevel = (level: number): Outline => {
     const wide = factor ** level;
     const bins = Math.ceil(frames / wide);
     let number = -1;
@@ -130,20 +135,20 @@ function shownOf(curve: number, tiles: CurveTiles, store: Store, room: number): 
       const at = 2 * (i - number * tile);
       return pairs?.length ? [pairs[at]!, pairs[at + 1]!] : null;
     };
-    return outlineOf(bin, bins, fps / wide, range, room);
+    return computeOutline(bin, bins, fps / wide, range, plotWidth);
   };
   let missing = false;
-  const fine = outlineAt(levelFor(perPixel, factor, levels));
+  const fine = computeAtLevel(chooseLevel(perPixel, factor, levels));
   if (!missing) return fine;
-  const coarse = outlineAt(levels - 1);
+  const coarse = computeAtLevel(levels - 1);
   return {
     low: fine.low.map((value, i) => (Number.isNaN(value) ? coarse.low[i]! : value)),
     high: fine.high.map((value, i) => (Number.isNaN(value) ? coarse.high[i]! : value)),
   };
 }
 
-/** One line up and down through every column, broken where nothing was seen. */
-function stroke(pen: Pen, { low, high }: Outline, y: (value: number) => number): void {
+/** Draw one line up and down through every pixel column, with gaps at missing values. */
+function strokeOutline(pen: Pen, { low, high }: Outline, y: (value: number) => number): void {
   pen.beginPath();
   let down = true;
   let broken = true;

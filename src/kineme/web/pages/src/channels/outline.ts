@@ -1,23 +1,20 @@
-/** From tiles of a curve to what each pixel shows of it. Pure functions. */
+/** Compute what each pixel shows of a curve. Pure functions. */
 import type { Span } from "../view";
 
-/** The least and the greatest value in each column of pixels; NaN where there is none. */
+/** Minimum and maximum of each pixel column; NaN if there is none. */
 export interface Outline {
   low: Float32Array;
   high: Float32Array;
 }
 
-/** The coarsest level of which no bin is wider than a pixel. */
-export function levelFor(framesPerPixel: number, factor: number, levels: number): number {
+/** Return the coarsest level whose bins are no wider than a pixel. */
+export function chooseLevel(framesPerPixel: number, factor: number, levels: number): number {
   const level = Math.floor(Math.log(Math.max(framesPerPixel, 1)) / Math.log(factor) + 1e-9);
   return Math.min(level, levels - 1);
 }
 
-/**
- * What each of `width` pixels shows of a curve: all of its bins that lie in it. A pixel between
- * two bins that are farther apart shows the straight line between them.
- */
-export function outlineOf(
+/** Return the range of values in each of `width` pixels, interpolated if bins are wider. */
+export function computeOutline(
   bin: (index: number) => readonly [number, number] | null,
   bins: number,
   perSecond: number,
@@ -32,7 +29,7 @@ export function outlineOf(
     const from = first + x * perPixel;
     const until = from + perPixel;
     if (perPixel < 1) {
-      const value = between(bin, bins, from + 0.5 * perPixel);
+      const value = interpolateBins(bin, bins, from + 0.5 * perPixel);
       low[x] = high[x] = value;
       continue;
     }
@@ -46,8 +43,8 @@ export function outlineOf(
   return { low, high };
 }
 
-/** The value of a curve between two of its samples. */
-function between(
+/** Interpolate between two bins; NaN outside of the curve. */
+function interpolateBins(
   bin: (index: number) => readonly [number, number] | null,
   bins: number,
   at: number,

@@ -1,12 +1,12 @@
-/** Every cluster with its colour, how often it occurs and how long it lasts; else the labels. */
+/** List the clusters with count and duration; without clusters, the labels. */
 import type { JSX } from "preact";
 import { useStore } from "../context";
-import { clusterColor, NO_COLOR } from "../colors";
+import { getClusterColor, NO_COLOR } from "../colors";
 import type { Segment } from "../messages";
-import { labelsOf, type Cluster } from "../segments";
-import { clock } from "../view";
+import { countLabels, type Cluster } from "../segments";
+import { formatTime } from "../view";
 import { ClusterName } from "./ClusterName";
-import { Button } from "../layout/controls";
+import { Button, Swatch, TableHead } from "../layout/controls";
 
 export function ClusterList(): JSX.Element {
   const store = useStore();
@@ -18,7 +18,7 @@ export function ClusterList(): JSX.Element {
       <Head first="Cluster" />
       <tbody onPointerLeave={() => (store.hovered.value = null)}>
         {clusters.map((cluster) => (
-          <Row key={cluster.id} cluster={cluster} most={most} />
+          <ClusterRow key={cluster.id} cluster={cluster} most={most} />
         ))}
       </tbody>
     </table>
@@ -27,18 +27,14 @@ export function ClusterList(): JSX.Element {
 
 function Head({ first }: { first: string }): JSX.Element {
   return (
-    <thead>
-      <tr>
-        <th scope="col">{first}</th>
-        <th scope="col">Count</th>
-        <th scope="col" title="Mean duration of one, seconds">
-          Mean
-        </th>
-        <th scope="col" title="All of them together">
-          Total
-        </th>
-      </tr>
-    </thead>
+    <TableHead
+      columns={[
+        first,
+        "Count",
+        ["Mean", "Mean duration of one, seconds"],
+        ["Total", "All of them together"],
+      ]}
+    />
   );
 }
 
@@ -47,7 +43,7 @@ interface RowProps {
   most: number;
 }
 
-function Row({ cluster, most }: RowProps): JSX.Element {
+function ClusterRow({ cluster, most }: RowProps): JSX.Element {
   const store = useStore();
   const { id, members, mean_s, total_s } = cluster;
   const shown = store.cluster.value === id;
@@ -60,12 +56,15 @@ function Row({ cluster, most }: RowProps): JSX.Element {
       <th scope="row">
         <ClusterName cluster={cluster} />
       </th>
-      <Counts color={clusterColor(id)} {...{ count: members.length, most, mean_s, total_s }} />
+      <CountCells
+        color={getClusterColor(id)}
+        {...{ count: members.length, most, mean_s, total_s }}
+      />
     </tr>
   );
 }
 
-function Counts(props: {
+function CountCells(props: {
   color: string;
   count: number;
   most: number;
@@ -80,21 +79,21 @@ function Counts(props: {
         {count}
       </td>
       <td class="number">{mean_s.toFixed(2)} s</td>
-      <td class="number">{clock(total_s, total_s < 60 ? 1 : 0)}</td>
+      <td class="number">{formatTime(total_s, total_s < 60 ? 1 : 0)}</td>
     </>
   );
 }
 
-/** The labels of a table that has no clusters: somebody named what happens, nobody grouped it. */
+/** List the labels of a table without clusters. */
 function LabelList(): JSX.Element {
   const store = useStore();
   const { primitives, activities } = store;
   const lane = primitives.value.some((each) => each.label) ? primitives : activities;
-  const labels = labelsOf(lane.value);
+  const labels = countLabels(lane.value);
   if (!labels.length)
     return <p class="empty quiet">Nothing repeats itself here: there are no clusters.</p>;
   const most = Math.max(...labels.map(({ count }) => count));
-  const go = (label: string): void => {
+  const selectNext = (label: string): void => {
     const next = (each: Segment): boolean => each.label === label;
     const later = lane.value.find((each) => next(each) && each.start_frame > store.frame.value);
     const target = later ?? lane.value.find(next);
@@ -107,14 +106,14 @@ function LabelList(): JSX.Element {
         {labels.map(({ label, count, total_s }) => {
           const color = store.labelColors.value.get(label) ?? NO_COLOR;
           return (
-            <tr key={label} onClick={() => go(label)}>
+            <tr key={label} onClick={() => selectNext(label)}>
               <th scope="row">
                 <Button class="plain" title="Go to the next one">
-                  <span class="swatch" style={{ background: color }} />
+                  <Swatch color={color} />
                   <span class="cluster-name">{label}</span>
                 </Button>
               </th>
-              <Counts {...{ color, count, most, mean_s: total_s / count, total_s }} />
+              <CountCells {...{ color, count, most, mean_s: total_s / count, total_s }} />
             </tr>
           );
         })}

@@ -1,4 +1,4 @@
-/** What can be done to clusters where edits are possible: numbered anew, two made one. */
+/** Renumber clusters or merge two of them. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStore } from "../context";
@@ -19,9 +19,13 @@ export function ClusterTools(): JSX.Element | null {
   const clusters = store.clusters.value;
   const shown = store.shownCluster.value;
   if (!edit || clusters.length < 2) return null;
-  const order = (name: string): void => {
+  const applyOrder = (name: string): void => {
     const by = ORDERS.find(([each]) => each === name)?.[1];
-    if (by) edit({ kind: "order_clusters", order: [...allOf(store, clusters.slice().sort(by))] });
+    if (by)
+      edit({
+        kind: "order_clusters",
+        order: [...orderAllClusters(store, clusters.slice().sort(by))],
+      });
   };
   return (
     <div class="cluster-tools">
@@ -29,7 +33,7 @@ export function ClusterTools(): JSX.Element | null {
         aria-label="Number the clusters anew"
         value=""
         onChange={(event) => {
-          order(event.currentTarget.value);
+          applyOrder(event.currentTarget.value);
           event.currentTarget.value = "";
         }}
       >
@@ -64,8 +68,8 @@ export function ClusterTools(): JSX.Element | null {
   );
 }
 
-/** Every cluster of the table once: those of activities alone keep their places at the end. */
-function allOf(store: Store, ordered: readonly Cluster[]): Set<number> {
+/** Return all cluster numbers of the table; clusters that only activities have come last. */
+function orderAllClusters(store: Store, ordered: readonly Cluster[]): Set<number> {
   const rows = store.recording.value?.segmentation.segments ?? [];
   const others = [...new Set(rows.map((row) => row.cluster))].filter((each) => each >= 0);
   return new Set([...ordered.map(({ id }) => id), ...others.sort((a, b) => a - b)]);

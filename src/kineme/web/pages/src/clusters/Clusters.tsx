@@ -1,4 +1,4 @@
-/** The clusters, and the curves of the one that is looked at. */
+/** Show the clusters and the curves of the selected one. */
 import type { JSX } from "preact";
 import { ClusterList } from "./ClusterList";
 import { ClusterTools } from "./ClusterTools";

@@ -1,18 +1,23 @@
-/** The repetitions of a cluster over each other, with mean and deviation, as kineme measures them. */
-import { counted } from "../counted";
+/** Overlay the repetitions of a cluster with their mean and standard deviation. */
+import { formatCount } from "../formatCount";
 import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
-import { Line } from "../canvas/Line";
-import { clusterColor } from "../colors";
+import { PlayheadLine } from "../canvas/PlayheadLine";
+import { getClusterColor } from "../colors";
 import type { ClusterCurves, CycleChannel, CycleCurve } from "../messages";
-import { BesideSelect, idOf, othersOf, whatIsBeside } from "./Beside";
-import { cycleAt, leftOutOf, selectCycle, summarizeRanges, withUnit } from "./cycles";
-import { Chosen, Farthest, LeftOut } from "./Outliers";
-import { drawCurves, LEFT, nearestCurve, RIGHT } from "./curveDrawing";
-import { shownCluster, useClusterCurves } from "./useClusterCurves";
-import { Select } from "../layout/controls";
+import {
+  ComparisonSelect,
+  getId,
+  getOtherRecordings,
+  describeComparison,
+} from "./ComparisonSelect";
+import { findCurrentCycle, findExcluded, selectCycle, summarizeRanges, appendUnit } from "./cycles";
+import { CurrentCycle, FarthestCycles, ExcludedCycles } from "./Outliers";
+import { drawCurves, MARGIN_LEFT, findNearestCurve, MARGIN_RIGHT } from "./curveDrawing";
+import { getShownCluster, useClusterCurves } from "./useClusterCurves";
+import { Select, Swatch } from "../layout/controls";
 
 const DASHED = " (dashed)";
 
@@ -20,11 +25,13 @@ export function Curves(): JSX.Element {
   const store = useStore();
   const chosen = useSignal("");
   const besideId = useSignal("");
-  const beside = useComputed(() => othersOf(store).find((each) => idOf(each) === besideId.value));
+  const beside = useComputed(() =>
+    getOtherRecordings(store).find((each) => getId(each) === besideId.value),
+  );
   const measured = useClusterCurves(chosen, beside);
   const cycles = useComputed(() => measured.value?.curves?.cycles ?? []);
-  const selected = useComputed(() => cycleAt(store, cycles.value));
-  const leftOut = useComputed(() => leftOutOf(store, cycles.value));
+  const selected = useComputed(() => findCurrentCycle(store, cycles.value));
+  const leftOut = useComputed(() => findExcluded(store, cycles.value));
   const now = measured.value;
   if (!store.clusters.value.length) return <p class="empty quiet">No cluster to show.</p>;
   if (!now?.curves)
@@ -34,29 +41,29 @@ export function Curves(): JSX.Element {
       </p>
     );
   const { channels, curves, opposite } = now;
-  const color = clusterColor(shownCluster(store));
+  const color = getClusterColor(getShownCluster(store));
   const ranges = summarizeRanges(
     curves.cycles.filter(({ counts }, i) => counts && !leftOut.value.has(i)),
   );
   return (
     <div class="curves">
       <div class="curve-choice">
-        <span class="swatch" style={{ background: color }} />
+        <Swatch color={color} />
         <ChannelSelect
           channels={channels}
           channel={curves.channel}
-          choose={(name) => (chosen.value = name)}
+          onChoose={(name) => (chosen.value = name)}
         />
         <span class="quiet">{curves.unit}</span>
       </div>
-      <BesideSelect
-        others={othersOf(store)}
+      <ComparisonSelect
+        others={getOtherRecordings(store)}
         id={beside.value ? besideId.value : ""}
-        choose={(id) => (besideId.value = id)}
+        onChoose={(id) => (besideId.value = id)}
       />
       <div class="curve-room">
         <Canvas
-          label={`Curves of ${counted(curves.total, "repetition")}, with mean and deviation. Click one to go to it.`}
+          label={`Curves of ${formatCount(curves.total, "repetition")}, with mean and deviation. Click one to go to it.`}
           watch={() => void [measured.value, selected.value, leftOut.value, store.cluster.value]}
           draw={(pen, width, height) => {
             const shown = measured.value;
@@ -68,7 +75,7 @@ export function Curves(): JSX.Element {
                   opposite: shown.opposite,
                   leftOut: leftOut.value,
                   selected: selected.value,
-                  color: clusterColor(shownCluster(store)),
+                  color: getClusterColor(getShownCluster(store)),
                 },
                 width,
                 height,
@@ -79,30 +86,30 @@ export function Curves(): JSX.Element {
             const [x, y] = [event.clientX - left, event.clientY - top];
             selectCycle(
               store,
-              curves.cycles[nearestCurve(now.curves!, now.opposite, x, y, width, height)],
+              curves.cycles[findNearestCurve(now.curves!, now.opposite, x, y, width, height)],
             );
           }}
         />
-        <Now cycles={curves.cycles} />
+        <CyclePlayhead cycles={curves.cycles} />
       </div>
-      <Chosen curves={curves} at={selected.value} leftOut={leftOut.value} />
-      <Farthest curves={curves} leftOut={leftOut.value} />
-      <LeftOut curves={curves} leftOut={leftOut.value} />
+      <CurrentCycle curves={curves} at={selected.value} leftOut={leftOut.value} />
+      <FarthestCycles curves={curves} leftOut={leftOut.value} />
+      <ExcludedCycles curves={curves} leftOut={leftOut.value} />
       <p class="quiet note">
-        {whatIsShown(curves)}
-        {ranges && `; range ${withUnit(ranges, curves.unit)}`}
-        {beside.value && whatIsBeside(store, beside.value, curves)}
+        {describeRepetitions(curves)}
+        {ranges && `; range ${appendUnit(ranges, curves.unit)}`}
+        {beside.value && describeComparison(store, beside.value, curves)}
         {opposite && `; ${opposite.channel}${DASHED}`}
         {curves.turned > 0 &&
-          `; ${counted(curves.turned, "activity", "activities")} turned to the phase of the others`}
+          `; ${formatCount(curves.turned, "activity", "activities")} turned to the phase of the others`}
       </p>
     </div>
   );
 }
 
-/** How many repetitions the mean is of, and which. */
-function whatIsShown({ n, total, ends, left_out, cycles }: ClusterCurves): string {
-  const all = counted(total, "repetition");
+/** Describe how many repetitions the mean includes, and which. */
+function describeRepetitions({ n, total, ends, left_out, cycles }: ClusterCurves): string {
+  const all = formatCount(total, "repetition");
   const mean = "mean ± standard deviation";
   const drawn = cycles.length < total ? `, ${cycles.length} drawn` : "";
   const without = left_out ? `, ${left_out} left out by hand` : "";
@@ -113,43 +120,45 @@ function whatIsShown({ n, total, ends, left_out, cycles }: ClusterCurves): strin
   return `${n}${ends ? "" : " inner"} of ${all}${drawn}${without}, ${mean}`;
 }
 
-interface Choice {
+interface ChannelSelectProps {
   channels: readonly CycleChannel[];
   channel: string;
-  choose: (name: string) => void;
+  onChoose: (name: string) => void;
 }
 
-function ChannelSelect({ channels, channel, choose }: Choice): JSX.Element {
+function ChannelSelect({ channels, channel, onChoose }: ChannelSelectProps): JSX.Element {
   const group = channels.find(({ name }) => name === channel)?.group ?? "";
   const groups = [...new Set(channels.map((each) => each.group))];
-  const names = (of: string): string[] =>
+  const listNames = (of: string): string[] =>
     channels.filter((each) => each.group === of).map(({ name }) => name);
   return (
     <>
       <Select
         label="Channel"
         value={channel}
-        options={names(group).map((name) => [name, name])}
-        onSelect={choose}
+        options={listNames(group).map((name) => [name, name])}
+        onSelect={onChoose}
       />
       <Select
         label="What is measured"
         value={group}
         options={groups.map((each) => [each, each])}
-        onSelect={(chosen) => choose(names(chosen)[0]!)}
+        onSelect={(chosen) => onChoose(listNames(chosen)[0]!)}
       />
     </>
   );
 }
 
-/** How far the present repetition is; apart from the canvas, so that playing redraws no curves. */
-function Now({ cycles }: { cycles: readonly CycleCurve[] }): JSX.Element {
+/** Show the playhead in the current repetition, above the canvas to avoid redrawing it. */
+function CyclePlayhead({ cycles }: { cycles: readonly CycleCurve[] }): JSX.Element {
   const store = useStore();
   const at = store.playhead.value;
   const present = cycles.find((each) => each.start_s <= at && at < each.stop_s);
   return (
-    <div class="curve-now" style={{ left: `${LEFT}px`, right: `${RIGHT}px` }}>
-      {present && <Line share={(at - present.start_s) / (present.stop_s - present.start_s)} />}
+    <div class="curve-now" style={{ left: `${MARGIN_LEFT}px`, right: `${MARGIN_RIGHT}px` }}>
+      {present && (
+        <PlayheadLine share={(at - present.start_s) / (present.stop_s - present.start_s)} />
+      )}
     </div>
   );
 }

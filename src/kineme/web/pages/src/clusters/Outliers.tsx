@@ -1,34 +1,36 @@
-/** Below the curves: the repetition one looks at, those farthest from the mean, those left out. */
+/** List the current repetition, those farthest from the mean and the excluded ones. */
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import type { ClusterCurves, CycleCurve } from "../messages";
-import { formatNumber, rangeOf, selectCycle, withUnit } from "./cycles";
+import { formatNumber, computeRange, selectCycle, appendUnit } from "./cycles";
 import { Button } from "../layout/controls";
 
-const FARTHEST = 3; // repetitions named that differ most from the mean
+const MAX_FARTHEST = 3;
 
-interface Shown {
+interface OutlierProps {
   curves: ClusterCurves;
-  /** Numbers of the repetitions that people left out. */
+  /** Indices of the excluded repetitions. */
   leftOut: ReadonlySet<number>;
 }
 
-/** The repetition at the playhead, how far it is from the mean, or why it is not in it. */
-export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Element {
+/** Show the repetition at the playhead and its distance from the mean. */
+export function CurrentCycle({ curves, leftOut, at }: OutlierProps & { at: number }): JSX.Element {
   const store = useStore();
   const cycle = curves.cycles[at];
   if (!cycle) return <p class="chosen quiet">None of them at the playhead.</p>;
   const isOut = leftOut.has(at);
-  const range = rangeOf(cycle);
+  const range = computeRange(cycle);
   const key = store.selected.value?.start_frame === cycle.start_frame ? " (X)" : "";
   const edit = store.edit.value;
   return (
     <p class="chosen" aria-label="At the playhead">
       <span class="number">{cycle.start_s.toFixed(2)} s</span>
       {range !== null && (
-        <span class="quiet">range {withUnit(formatNumber(range), curves.unit)}</span>
+        <span class="quiet">range {appendUnit(formatNumber(range), curves.unit)}</span>
       )}
-      <span class="quiet">{isOut ? "left out by hand" : deviationOf(cycle, curves.unit)}</span>
+      <span class="quiet">
+        {isOut ? "left out by hand" : describeDeviation(cycle, curves.unit)}
+      </span>
       <span class="spacer" />
       {edit && (
         <Button
@@ -42,19 +44,19 @@ export function Chosen({ curves, leftOut, at }: Shown & { at: number }): JSX.Ele
   );
 }
 
-/** Each a way to it, and where edits are possible a way to leave it out. */
-export function Farthest({ curves, leftOut }: Shown): JSX.Element | null {
+/** List the repetitions farthest from the mean, with buttons to exclude them. */
+export function FarthestCycles({ curves, leftOut }: OutlierProps): JSX.Element | null {
   const { cycles, unit, n } = curves;
   if (n < 3) return null;
   const inMean = cycles.filter(({ counts }, i) => counts && !leftOut.has(i));
   return (
     <p class="farthest" aria-label="Farthest from the mean">
       <span class="quiet">Farthest:</span>
-      {inMean.slice(0, FARTHEST).map((cycle) => (
-        <Chip
+      {inMean.slice(0, MAX_FARTHEST).map((cycle) => (
+        <CycleChip
           key={cycle.start_frame}
           cycle={cycle}
-          deviation={deviationOf(cycle, unit)}
+          deviation={describeDeviation(cycle, unit)}
           excluded={true}
         />
       ))}
@@ -62,8 +64,8 @@ export function Farthest({ curves, leftOut }: Shown): JSX.Element | null {
   );
 }
 
-/** Each a way to it, and where edits are possible a way to bring it back. */
-export function LeftOut({ curves, leftOut }: Shown): JSX.Element | null {
+/** List the excluded repetitions, with buttons to include them again. */
+export function ExcludedCycles({ curves, leftOut }: OutlierProps): JSX.Element | null {
   if (!leftOut.size) return null;
   return (
     <p class="farthest left-out" aria-label="Left out by hand">
@@ -71,7 +73,7 @@ export function LeftOut({ curves, leftOut }: Shown): JSX.Element | null {
       {curves.cycles.map(
         (cycle, i) =>
           leftOut.has(i) && (
-            <Chip
+            <CycleChip
               key={cycle.start_frame}
               cycle={cycle}
               deviation="left out by hand"
@@ -86,11 +88,11 @@ export function LeftOut({ curves, leftOut }: Shown): JSX.Element | null {
 interface ChipProps {
   cycle: CycleCurve;
   deviation: string;
-  /** What a click on its sign makes of it. */
+  /** The state that a click on the second button sets. */
   excluded: boolean;
 }
 
-function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
+function CycleChip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
   const store = useStore();
   const edit = store.edit.value;
   const at = `${cycle.start_s.toFixed(1)} s`;
@@ -108,7 +110,8 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
           title={what}
           aria-label={`${what}: ${at}`}
           onClick={({ detail }) => {
-            if (detail < 2) edit({ kind: "exclude", frames: [cycle.start_frame], excluded }); // the next comes in its place
+            // Ignore double clicks: the next chip moves under the pointer.
+            if (detail < 2) edit({ kind: "exclude", frames: [cycle.start_frame], excluded });
           }}
         >
           {excluded ? "×" : "↺"}
@@ -118,9 +121,9 @@ function Chip({ cycle, deviation, excluded }: ChipProps): JSX.Element {
   );
 }
 
-/** How far a repetition is from the mean, and why it is not in it. */
-function deviationOf({ distance, note }: CycleCurve, unit: string): string {
+/** Describe a repetition's distance from the mean and why it is not included. */
+function describeDeviation({ distance, note }: CycleCurve, unit: string): string {
   const number = distance?.toPrecision(2);
-  const far = number === undefined ? "" : withUnit(number, unit);
+  const far = number === undefined ? "" : appendUnit(number, unit);
   return [far && `${far} from the mean`, note].filter(Boolean).join(", ");
 }

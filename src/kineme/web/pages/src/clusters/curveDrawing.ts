@@ -1,28 +1,28 @@
-/** How the curves of a cluster look. */
-import { onPage } from "../colors";
+/** Draw the curves of a cluster. */
+import { adaptColor } from "../colors";
 import type { ClusterCurves } from "../messages";
-import { cssColor, theme } from "../theme";
+import { readColor, theme } from "../theme";
 
 type Pen = CanvasRenderingContext2D;
-/** Numbers over the cycle; null where nothing was recorded. */
+/** Values over the cycle; null if not recorded. */
 type Values = readonly (number | null)[];
 
 export interface CurvePicture {
   curves: ClusterCurves;
-  /** The other side of the body, of which the mean is drawn. */
+  /** Curves of the other side of the body; only their mean is drawn. */
   opposite: ClusterCurves | null;
-  /** Numbers of the repetitions that people left out. */
+  /** Indices of the excluded repetitions. */
   leftOut: ReadonlySet<number>;
-  /** Which of the repetitions is selected; -1: none. */
+  /** Index of the selected repetition; -1 for none. */
   selected: number;
   color: string;
 }
 
-/** Pixels around the curves. */
-export const LEFT = 34;
-export const RIGHT = 8;
-const BELOW = 16;
-const ABOVE = 8;
+/** Margins around the curves, in pixels. */
+export const MARGIN_LEFT = 34;
+export const MARGIN_RIGHT = 8;
+const MARGIN_BOTTOM = 16;
+const MARGIN_TOP = 8;
 
 const DASHES = [5, 4];
 
@@ -30,51 +30,51 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   const { curves, opposite, leftOut, selected } = picture;
   const { cycles, mean } = curves;
   const { beside } = curves;
-  const [low, high] = boundsOf(curves, opposite);
+  const [low, high] = computeBounds(curves, opposite);
   const last = mean.length - 1;
-  const x = (i: number): number => LEFT + (i / last) * (width - LEFT - RIGHT);
+  const x = (i: number): number => MARGIN_LEFT + (i / last) * (width - MARGIN_LEFT - MARGIN_RIGHT);
   const y = (value: number): number =>
-    ABOVE + ((high - value) / (high - low)) * (height - ABOVE - BELOW);
+    MARGIN_TOP + ((high - value) / (high - low)) * (height - MARGIN_TOP - MARGIN_BOTTOM);
   drawAxes(pen, { low, high, x, y, height, last });
-  const color = onPage(picture.color, theme.value);
+  const color = adaptColor(picture.color, theme.value);
   pen.lineJoin = "round";
   if (beside) {
-    pen.fillStyle = cssColor("quiet");
+    pen.fillStyle = readColor("quiet");
     pen.globalAlpha = 0.2;
-    band(pen, beside, x, y);
+    fillBand(pen, beside, x, y);
   }
   pen.fillStyle = color;
   pen.globalAlpha = 0.25;
-  band(pen, curves, x, y);
+  fillBand(pen, curves, x, y);
   const alpha = Math.max(0.18, Math.min(0.6, 6 / cycles.length));
   pen.lineWidth = 1;
   for (const [i, { values, counts }] of cycles.entries()) {
-    pen.strokeStyle = leftOut.has(i) ? cssColor("quiet") : color;
-    pen.globalAlpha = counts && !leftOut.has(i) ? alpha : alpha / 2; // in no mean: it stands back
-    line(pen, values, x, y);
+    pen.strokeStyle = leftOut.has(i) ? readColor("quiet") : color;
+    pen.globalAlpha = counts && !leftOut.has(i) ? alpha : alpha / 2; // not in the mean: paler
+    strokeCurve(pen, values, x, y);
   }
   pen.strokeStyle = color;
   pen.globalAlpha = 1;
   pen.lineWidth = 2.5;
-  line(pen, mean, x, y);
+  strokeCurve(pen, mean, x, y);
   const other = beside ?? opposite;
   if (other) {
-    if (beside) pen.strokeStyle = cssColor("quiet");
+    if (beside) pen.strokeStyle = readColor("quiet");
     pen.lineWidth = beside ? 2 : 1.5;
     pen.setLineDash(DASHES);
-    line(pen, other.mean, x, y);
+    strokeCurve(pen, other.mean, x, y);
     pen.setLineDash([]);
   }
   pen.fillStyle = color;
   for (const [i, differs] of (beside?.differs ?? []).entries())
-    if (differs) pen.fillRect(x(i - 0.5), height - BELOW - 3, x(1) - x(0) + 0.5, 3);
-  pen.strokeStyle = cssColor("text");
+    if (differs) pen.fillRect(x(i - 0.5), height - MARGIN_BOTTOM - 3, x(1) - x(0) + 0.5, 3);
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 1.5;
-  if (cycles[selected]) line(pen, cycles[selected].values, x, y);
+  if (cycles[selected]) strokeCurve(pen, cycles[selected].values, x, y);
 }
 
-/** The repetition whose curve passes nearest to a point of the canvas. */
-export function nearestCurve(
+/** Return the index of the repetition whose curve is nearest to a point of the canvas. */
+export function findNearestCurve(
   curves: ClusterCurves,
   opposite: ClusterCurves | null,
   px: number,
@@ -82,15 +82,15 @@ export function nearestCurve(
   width: number,
   height: number,
 ): number {
-  const [low, high] = boundsOf(curves, opposite);
-  const share = Math.min(Math.max((px - LEFT) / (width - LEFT - RIGHT), 0), 1);
+  const [low, high] = computeBounds(curves, opposite);
+  const share = Math.min(Math.max((px - MARGIN_LEFT) / (width - MARGIN_LEFT - MARGIN_RIGHT), 0), 1);
   const i = Math.round(share * (curves.mean.length - 1));
-  const value = high - ((py - ABOVE) / (height - ABOVE - BELOW)) * (high - low);
+  const value = high - ((py - MARGIN_TOP) / (height - MARGIN_TOP - MARGIN_BOTTOM)) * (high - low);
   const far = curves.cycles.map(({ values }) => Math.abs((values[i] ?? Infinity) - value));
   return far.indexOf(Math.min(...far));
 }
 
-function boundsOf(curves: ClusterCurves, opposite: ClusterCurves | null): [number, number] {
+function computeBounds(curves: ClusterCurves, opposite: ClusterCurves | null): [number, number] {
   let [low, high] = [Infinity, -Infinity];
   const means = [opposite?.mean ?? [], curves.beside?.mean ?? []];
   for (const values of [...curves.cycles.map((each) => each.values), ...means])
@@ -111,7 +111,7 @@ interface Axes {
   x: (i: number) => number;
   y: (value: number) => number;
   height: number;
-  /** The number of the last point. */
+  /** Index of the last sample. */
   last: number;
 }
 
@@ -119,18 +119,18 @@ function drawAxes(pen: Pen, { low, high, x, y, height, last }: Axes): void {
   pen.font = "10px system-ui, sans-serif";
   pen.textBaseline = "middle";
   pen.textAlign = "right";
-  pen.fillStyle = cssColor("quiet");
-  pen.strokeStyle = cssColor("line");
+  pen.fillStyle = readColor("quiet");
+  pen.strokeStyle = readColor("line");
   pen.lineWidth = 1;
-  const step = stepOf(high - low);
+  const step = chooseStep(high - low);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   for (let i = Math.ceil(low / step); i * step <= high; i++) {
     const at = Math.round(y(i * step)) + 0.5;
     pen.beginPath();
-    pen.moveTo(LEFT, at);
+    pen.moveTo(MARGIN_LEFT, at);
     pen.lineTo(x(last), at);
     pen.stroke();
-    pen.fillText((i * step).toFixed(Math.min(digits, 4)), LEFT - 5, at);
+    pen.fillText((i * step).toFixed(Math.min(digits, 4)), MARGIN_LEFT - 5, at);
   }
   for (const [share, align] of [
     [0, "left"],
@@ -138,18 +138,18 @@ function drawAxes(pen: Pen, { low, high, x, y, height, last }: Axes): void {
     [1, "right"],
   ] as const) {
     pen.textAlign = align;
-    pen.fillText(`${100 * share} %`, x(share * last), height - BELOW / 2 + 1);
+    pen.fillText(`${100 * share} %`, x(share * last), height - MARGIN_BOTTOM / 2 + 1);
   }
   pen.textAlign = "left";
 }
 
-/** 1, 2 or 5 times a power of ten: five steps or fewer in an extent. */
-function stepOf(extent: number): number {
+/** Return 1, 2 or 5 times a power of ten that divides an extent into at most five steps. */
+function chooseStep(extent: number): number {
   const power = 10 ** Math.floor(Math.log10(extent / 5));
   return [1, 2, 5, 10].map((times) => times * power).find((step) => extent / step <= 5)!;
 }
 
-function line(pen: Pen, curve: Values, x: Axes["x"], y: Axes["y"]): void {
+function strokeCurve(pen: Pen, curve: Values, x: Axes["x"], y: Axes["y"]): void {
   pen.beginPath();
   let down = false;
   curve.forEach((value, i) => {
@@ -163,8 +163,8 @@ function line(pen: Pen, curve: Values, x: Axes["x"], y: Axes["y"]): void {
   pen.stroke();
 }
 
-/** A deviation from the mean; nothing where there is none, as of a single repetition. */
-function band(
+/** Fill mean ± standard deviation; nothing if it is unknown, as for a single repetition. */
+function fillBand(
   pen: Pen,
   { mean, sd }: Pick<ClusterCurves, "mean" | "sd">,
   x: Axes["x"],

@@ -1,7 +1,7 @@
-/** How fine the segments are: coarser to the left, finer to the right. */
+/** Choose how fine the segments are. */
 import type { JSX } from "preact";
 import { useStore } from "../context";
-import { positionOf } from "../store";
+import { findDetailIndex } from "../store";
 
 export function DetailSlider(): JSX.Element | null {
   const store = useStore();
@@ -22,7 +22,7 @@ export function DetailSlider(): JSX.Element | null {
         min={0}
         max={all.length - 1}
         step={1}
-        value={positionOf(detail, all)}
+        value={findDetailIndex(detail, all)}
         onInput={(event) => choose(all[event.currentTarget.valueAsNumber]!)}
       />
     </label>

@@ -1,29 +1,29 @@
-/** The places of a page: header, viewer, matrix, side panel, transport bar, timeline, curves. */
+/** Arrange the parts of a page. */
 import type { ComponentChildren, JSX } from "preact";
-import { sizeStyle, SIZES } from "./sizes";
+import { getSizeStyle, SIZES } from "./sizes";
 import { Splitter } from "./Splitter";
 
-interface Places {
+interface LayoutProps {
   header: ComponentChildren;
-  /** A column on the left, used by the studio. */
+  /** Left column; only the studio has one. */
   left?: ComponentChildren;
-  /** Nothing for a recording without a skeleton: the matrix then takes its place. */
+  /** Empty for a recording without a skeleton; the matrix then takes its place. */
   viewer: ComponentChildren;
   matrix: ComponentChildren;
   side: ComponentChildren;
   transport: ComponentChildren;
   timeline: ComponentChildren;
-  /** Below the timeline, while they are wanted. */
+  /** Curves below the timeline, if shown. */
   curves?: ComponentChildren;
 }
 
-export function Layout(places: Places): JSX.Element {
+export function Layout(places: LayoutProps): JSX.Element {
   const names = ["layout"];
   if (places.left) names.push("with-left");
   if (!places.viewer) names.push("without-viewer");
   if (places.curves) names.push("with-curves");
   return (
-    <div class={names.join(" ")} style={sizeStyle()}>
+    <div class={names.join(" ")} style={getSizeStyle()}>
       <header class="place-header">{places.header}</header>
       {places.left && (
         <aside class="place-left" aria-label="Recordings and segmentation">

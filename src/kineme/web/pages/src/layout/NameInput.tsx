@@ -1,12 +1,12 @@
-/** A field for a name: Enter or leaving it takes the name, Escape leaves it as it was. */
+/** Edit a name; Enter or leaving the field saves it, Escape restores it. */
 import type { JSX, Ref } from "preact";
-import { useDraft } from "./draft";
+import { useDraft } from "./useDraft";
 
 interface Props {
   value: string;
   placeholder?: string;
   label?: string;
-  /** The id of a list of names to offer. */
+  /** Id of a datalist with suggestions. */
   list?: string;
   field?: Ref<HTMLInputElement>;
   onName: (name: string) => void;

@@ -1,6 +1,6 @@
-/** A number field that shows what is typed until Enter or leaving it; Escape restores the value. */
+/** Edit a number; Enter or leaving the field saves it, Escape restores it. */
 import type { JSX } from "preact";
-import { useDraft } from "./draft";
+import { useDraft } from "./useDraft";
 
 interface Props {
   value: number;

@@ -1,7 +1,7 @@
-/** Several panels in one place, one shown at a time; arrow keys go from tab to tab. */
+/** Show one of several panels; arrow keys switch between tabs. */
 import { useSignal, type Signal } from "@preact/signals";
 import type { ComponentChildren, JSX } from "preact";
-import { isForPlayer } from "../focus";
+import { isPlayerKey } from "../focus";
 import { Button } from "./controls";
 
 export interface Tab {
@@ -13,7 +13,7 @@ export interface Tab {
 interface Props {
   label: string;
   tabs: readonly Tab[];
-  /** Which tab is open; the first where not given. */
+  /** Id of the open tab; the first tab by default. */
   open?: Signal<string>;
 }
 
@@ -23,7 +23,7 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
   const tab = tabs.find((each) => each.id === shown.value) ?? tabs[0];
   const onKeyDown = (event: KeyboardEvent): void => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!by || !tab || isForPlayer(event)) return;
+    if (!by || !tab || isPlayerKey(event)) return;
     event.preventDefault();
     event.stopPropagation();
     const next = tabs[(tabs.indexOf(tab) + by + tabs.length) % tabs.length]!;
@@ -43,7 +43,7 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
             tabIndex={each === tab ? 0 : -1}
             onClick={(event) => {
               shown.value = each.id;
-              bringUp(event.currentTarget);
+              scrollToPanel(event.currentTarget);
             }}
           >
             {each.title}
@@ -65,8 +65,8 @@ export function Tabs({ label, tabs, open }: Props): JSX.Element {
   );
 }
 
-/** Where the page itself scrolls, a panel that is asked for gets the height of the window. */
-function bringUp(tab: Element): void {
+/** On scrolling pages, scroll the opened panel to the top of the window. */
+function scrollToPanel(tab: Element): void {
   if (document.documentElement.scrollHeight > innerHeight)
     tab.closest(".tabs")?.scrollIntoView({ block: "start" });
 }

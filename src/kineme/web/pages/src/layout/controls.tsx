@@ -1,7 +1,8 @@
-/** The buttons and fields of every page. */
+/** Buttons and fields that all pages use. */
+import type { Signal } from "@preact/signals";
 import type { ComponentChildren, ComponentProps, JSX } from "preact";
 
-/** A button that sends no form; `busy` while what it began is under way. */
+/** Render a button that submits no form; `busy` adds a spinner. */
 export function Button(props: ComponentProps<"button"> & { busy?: boolean }): JSX.Element {
   const { busy = false, children, ...rest } = props;
   return (
@@ -12,7 +13,7 @@ export function Button(props: ComponentProps<"button"> & { busy?: boolean }): JS
   );
 }
 
-/** A cross that takes something away. */
+/** Render a cross that closes or removes something. */
 export function CloseButton(props: {
   label: string;
   title?: string;
@@ -26,15 +27,54 @@ export function CloseButton(props: {
   );
 }
 
+/** Render a small square in the colour of a cluster or label. */
+export function Swatch({ color }: { color: string }): JSX.Element {
+  return <span class="swatch" style={{ background: color }} />;
+}
+
+/** Render the head of a table; a column is its title, or title and tooltip. */
+export function TableHead(props: {
+  columns: readonly (string | readonly [title: string, tooltip: string])[];
+}): JSX.Element {
+  return (
+    <thead>
+      <tr>
+        {props.columns.map((column) => {
+          const [title, tooltip] = typeof column === "string" ? [column] : column;
+          return (
+            <th key={title} {...(title && { scope: "col" })} {...(tooltip && { title: tooltip })}>
+              {title}
+            </th>
+          );
+        })}
+      </tr>
+    </thead>
+  );
+}
+
+type TextInputProps = Omit<ComponentProps<"input">, "value"> & { value: Signal<string> };
+
+/** Edit a text signal. */
+export function TextInput({ value, ...rest }: TextInputProps): JSX.Element {
+  return (
+    <input
+      type="text"
+      {...(rest as object)} // its type is a union that cannot be spread
+      value={value.value}
+      onInput={(event) => (value.value = event.currentTarget.value)}
+    />
+  );
+}
+
 interface SelectProps<Value extends string | number> {
-  /** What it chooses, where no visible label says so. */
+  /** Accessible name, if no visible label exists. */
   label?: string;
   value: Value;
   options: readonly (readonly [value: Value, text: string])[];
   onSelect: (value: Value) => void;
 }
 
-/** A choice of one of some values. */
+/** Select one of several values. */
 export function Select<Value extends string | number>(props: SelectProps<Value>): JSX.Element {
   const { label, value, options, onSelect } = props;
   return (
@@ -52,7 +92,7 @@ export function Select<Value extends string | number>(props: SelectProps<Value>)
   );
 }
 
-/** A box to tick, and what it says. */
+/** Render a checkbox with its label. */
 export function Checkbox(props: {
   checked: boolean;
   title?: string;
@@ -72,8 +112,8 @@ export function Checkbox(props: {
   );
 }
 
-/** The values with one more, or without that one. */
-export function toggled<Value>(chosen: ReadonlySet<Value>, value: Value): ReadonlySet<Value> {
+/** Return the set with a value added, or removed if it is a member. */
+export function toggleMember<Value>(chosen: ReadonlySet<Value>, value: Value): ReadonlySet<Value> {
   const next = new Set(chosen);
   if (!next.delete(value)) next.add(value);
   return next;

@@ -1,4 +1,4 @@
-/** Full screen: the stage, how to play it, and the timeline. */
+/** Enter or leave full screen. */
 export function toggleFullScreen(): void {
   if (document.fullscreenElement) void document.exitFullscreen();
   else void document.querySelector(".layout")?.requestFullscreen();

@@ -1,31 +1,32 @@
-/** How large the panels are: dragged or set with keys, and remembered. */
+/** Store the sizes of panels, which the user can change. */
+import { readStored } from "./browser";
 import { signal, type Signal } from "@preact/signals";
 
-/** A panel's size in pixels; null: as the page has it. */
+/** A panel's size in pixels; null for the default. */
 export interface Size {
   name: string;
   title: string;
-  least: number;
+  minimum: number;
   pixels: Signal<number | null>;
 }
 
-const KEY = "kineme.sizes";
-const stored = remembered();
+const STORAGE_KEY = "kineme.sizes";
+const stored = (readStored(STORAGE_KEY) ?? {}) as Record<string, number | null>;
 
-function size(name: string, title: string, least: number): Size {
-  return { name, title, least, pixels: signal(stored[name] ?? null) };
+function createSize(name: string, title: string, minimum: number): Size {
+  return { name, title, minimum, pixels: signal(stored[name] ?? null) };
 }
 
 export const SIZES = {
-  left: size("left", "recordings and segmentation", 150),
-  matrix: size("matrix", "matrix", 160),
-  side: size("side", "side panel", 220),
-  timeline: size("timeline", "timeline", 110),
-  curves: size("curves", "curves", 70),
+  left: createSize("left", "recordings and segmentation", 150),
+  matrix: createSize("matrix", "matrix", 160),
+  side: createSize("side", "side panel", 220),
+  timeline: createSize("timeline", "timeline", 110),
+  curves: createSize("curves", "curves", 70),
 };
 
-/** Those that were set, as CSS variables of the layout. */
-export function sizeStyle(): Record<string, string> {
+/** Return the changed sizes as CSS variables of the layout. */
+export function getSizeStyle(): Record<string, string> {
   return Object.fromEntries(
     Object.values(SIZES).flatMap(({ name, pixels }) =>
       pixels.value === null ? [] : [[`--${name}`, `${pixels.value}px`]],
@@ -33,18 +34,13 @@ export function sizeStyle(): Record<string, string> {
   );
 }
 
-/** Sets a size within what the page has room for; null: as the page has it. */
-export function setSize({ name, least, pixels }: Size, extent: number | null, most: number): void {
-  pixels.value = extent === null ? null : Math.round(Math.min(Math.max(extent, least), most));
+/** Set a size between the minimum and `most` pixels; null restores the default. */
+export function setSize(
+  { name, minimum, pixels }: Size,
+  extent: number | null,
+  most: number,
+): void {
+  pixels.value = extent === null ? null : Math.round(Math.min(Math.max(extent, minimum), most));
   stored[name] = pixels.value;
-  localStorage.setItem(KEY, JSON.stringify(stored));
-}
-
-function remembered(): Record<string, number | null> {
-  try {
-    const found: unknown = JSON.parse(localStorage.getItem(KEY) ?? "{}");
-    return found && typeof found === "object" ? (found as Record<string, number | null>) : {};
-  } catch {
-    return {};
-  }
+  localStorage.setItem(STORAGE_KEY, JSON.stringify(stored));
 }

@@ -1,21 +1,21 @@
-/** The self-similarity matrix: similar frames are bright; click to go there. */
+/** Show the self-similarity matrix; similar frames are bright. */
 import { useMemo } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
-import { Line } from "../canvas/Line";
+import { PlayheadLine } from "../canvas/PlayheadLine";
 import { theme } from "../theme";
-import { clock, toPixel, type Span } from "../view";
+import { formatTime, toPixel, type Span } from "../view";
 import { drawMatrix, EDGE } from "./drawing";
 import { MatrixGestures } from "./gestures";
-import { Tiles } from "./tiles";
+import { MatrixTiles } from "./tiles";
 
 export function Matrix(): JSX.Element {
   const store = useStore();
   const data = store.active.value?.data;
-  const tiles = useMemo(() => (data ? new Tiles(data) : null), [data]);
+  const tiles = useMemo(() => (data ? new MatrixTiles(data) : null), [data]);
   const gestures = useMemo(() => new MatrixGestures(store), [store]);
-  const { pointed, rows } = gestures;
+  const { pointer, rows } = gestures;
   if (!tiles) return <div class="matrix" />;
 
   return (
@@ -30,38 +30,39 @@ export function Matrix(): JSX.Element {
               rows.value,
               store.range.value,
               store.hovered.value,
-              tiles.arrived.value,
+              tiles.loadCount.value,
             ];
           }}
           draw={(pen, width) => {
-            // Those of one recording and the tiles of another do not go together.
+            // While the recording changes, its head and the tiles may belong to different
+            // recordings.
             const { active } = store;
-            tiles.colorFor(theme.value);
+            tiles.applyTheme(theme.value);
             const head = active.value?.data === data ? store.recording.value?.matrix : undefined;
             const frame = { side: width - EDGE, down: rows.value, across: store.range.value };
             if (head && head.sizes.length) drawMatrix(pen, head, tiles, frame, store);
           }}
           gestures={gestures}
         />
-        <Cross rows={rows} />
+        <Crosshair rows={rows} />
       </div>
       <p class="matrix-note quiet number">
-        {pointed.value
-          ? `${clock(Math.max(pointed.value.x, 0), 1)} and ${clock(Math.max(pointed.value.y, 0), 1)}`
+        {pointer.value
+          ? `${formatTime(Math.max(pointer.value.x, 0), 1)} and ${formatTime(Math.max(pointer.value.y, 0), 1)}`
           : "How similar any two frames are"}
       </p>
     </div>
   );
 }
 
-/** The playhead on both axes. */
-function Cross({ rows }: { rows: { value: Span } }): JSX.Element {
+/** Show the playhead on both axes. */
+function Crosshair({ rows }: { rows: { value: Span } }): JSX.Element {
   const store = useStore();
   const { playhead, range } = store;
   return (
     <div class="cross">
-      <Line share={toPixel(range.value, 1, playhead.value)} />
-      <Line share={toPixel(rows.value, 1, playhead.value)} lying />
+      <PlayheadLine share={toPixel(range.value, 1, playhead.value)} />
+      <PlayheadLine share={toPixel(rows.value, 1, playhead.value)} horizontal />
     </div>
   );
 }

@@ -1,45 +1,51 @@
-/** What pointers do on the matrix: go to a time, pan, zoom; two fingers zoom, too. */
+/** Handle pointers on the matrix: seek, pan and zoom. */
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
-import { CLICK, Fingers, placeOf, wheelFactor, type Point } from "../canvas/pointers";
-import { segmentAt } from "../segments";
+import {
+  CLICK_TOLERANCE,
+  TouchTracker,
+  getPosition,
+  getZoomFactor,
+  type Point,
+} from "../canvas/pointers";
+import { findSegmentAt } from "../segments";
 import type { Store } from "../store";
-import { panned, toSeconds, zoomed, type Span } from "../view";
+import { panRange, toSeconds, zoomRange, type Span } from "../view";
 import { EDGE } from "./drawing";
-import { rowsFor } from "./pyramid";
+import { chooseRows } from "./pyramid";
 
 export class MatrixGestures {
-  /** The two times under the pointer, in seconds. */
-  readonly pointed = signal<Point | null>(null);
-  /** What is shown from top to bottom; from left to right it is what the timeline shows. */
+  /** The two times at the pointer, in seconds; null outside. */
+  readonly pointer = signal<Point | null>(null);
+  /** Time span from top to bottom; the timeline's range is shown from left to right. */
   readonly rows: ReadonlySignal<Span>;
-  private readonly moved = signal<Span | null>(null);
-  private readonly fingers = new Fingers();
+  private readonly movedRows = signal<Span | null>(null);
+  private readonly touches = new TouchTracker();
   private pressed: { place: Point; last: Point; far: boolean } | null = null;
 
   constructor(private readonly store: Store) {
-    this.rows = computed(() => rowsFor(this.moved.value, store.range.value));
+    this.rows = computed(() => chooseRows(this.movedRows.value, store.range.value));
   }
 
   down(event: PointerEvent): void {
-    const place = placeOf(event);
+    const place = getPosition(event);
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
-    this.fingers.press(event.pointerId, place);
-    this.pressed = this.fingers.count > 1 ? null : { place, last: place, far: false };
+    this.touches.press(event.pointerId, place);
+    this.pressed = this.touches.count > 1 ? null : { place, last: place, far: false };
   }
 
   move(event: PointerEvent): void {
-    const place = placeOf(event);
-    const side = sideOf(event);
-    this.pointed.value = this.timesAt(place, side);
-    const pinch = this.fingers.move(event.pointerId, place);
+    const place = getPosition(event);
+    const side = getSide(event);
+    this.pointer.value = this.getTimesAt(place, side);
+    const pinch = this.touches.move(event.pointerId, place);
     if (pinch) {
-      this.zoom(pinch.factor, this.timesAt(pinch.from, side));
+      this.zoom(pinch.factor, this.getTimesAt(pinch.from, side));
       this.pan(pinch.from, pinch.to, side);
     }
     const { pressed } = this;
     if (!pressed) return;
     const from = pressed.place;
-    pressed.far ||= Math.hypot(place.x - from.x, place.y - from.y) >= CLICK;
+    pressed.far ||= Math.hypot(place.x - from.x, place.y - from.y) >= CLICK_TOLERANCE;
     if (!pressed.far) return;
     this.pan(pressed.last, place, side);
     pressed.last = place;
@@ -48,41 +54,41 @@ export class MatrixGestures {
   up(event: PointerEvent): void {
     const clicked = this.pressed && !this.pressed.far;
     this.pressed = null;
-    this.fingers.lift(event.pointerId);
+    this.touches.lift(event.pointerId);
     if (!clicked) return;
-    const { x } = this.timesAt(placeOf(event), sideOf(event));
-    const segment = segmentAt(this.store.primitives.value, this.store.frameAt(x));
+    const { x } = this.getTimesAt(getPosition(event), getSide(event));
+    const segment = findSegmentAt(this.store.primitives.value, this.store.getFrameAt(x));
     if (segment) this.store.select(segment, { seek: false });
     this.store.seek(x);
   }
 
   cancel(): void {
     this.pressed = null;
-    this.fingers.clear();
+    this.touches.clear();
   }
 
   leave(): void {
-    this.pointed.value = null;
+    this.pointer.value = null;
   }
 
   wheel(event: WheelEvent): void {
-    this.zoom(wheelFactor(event), this.timesAt(placeOf(event), sideOf(event)));
+    this.zoom(getZoomFactor(event), this.getTimesAt(getPosition(event), getSide(event)));
   }
 
   private zoom(factor: number, at: Point): void {
-    const next = zoomed(this.rows.value, factor, at.y, this.store.duration.value);
+    const next = zoomRange(this.rows.value, factor, at.y, this.store.duration.value);
     this.store.zoomBy(factor, at.x);
-    this.moved.value = this.store.zoom.value ? next : null;
+    this.movedRows.value = this.store.zoom.value ? next : null;
   }
 
   private pan(from: Point, to: Point, side: number): void {
     if (!this.store.zoom.value) return;
-    const [before, after] = [this.timesAt(from, side), this.timesAt(to, side)];
-    this.moved.value = panned(this.rows.value, before.y - after.y, this.store.duration.value);
+    const [before, after] = [this.getTimesAt(from, side), this.getTimesAt(to, side)];
+    this.movedRows.value = panRange(this.rows.value, before.y - after.y, this.store.duration.value);
     this.store.panBy(before.x - after.x);
   }
 
-  private timesAt({ x, y }: Point, side: number): Point {
+  private getTimesAt({ x, y }: Point, side: number): Point {
     return {
       x: toSeconds(this.store.range.value, side, x - EDGE),
       y: toSeconds(this.rows.value, side, y - EDGE),
@@ -90,7 +96,7 @@ export class MatrixGestures {
   }
 }
 
-/** Pixels from edge to edge of what is drawn. */
-function sideOf(event: MouseEvent): number {
+/** Return the side of the drawn square in pixels. */
+function getSide(event: MouseEvent): number {
   return (event.currentTarget as Element).clientWidth - EDGE;
 }

@@ -1,88 +1,88 @@
-/** Tiles as pictures in the page's colours, loaded when they are first asked for. */
+/** Load matrix tiles on demand and colour them for the theme. */
 import { signal } from "@preact/signals";
-import { channelsOf } from "../colors";
+import { parseColor } from "../colors";
 import type { RecordingData } from "../recordingData";
-import { cssColor, type Theme } from "../theme";
-import type { Place } from "./pyramid";
+import { readColor, type Theme } from "../theme";
+import type { TilePosition } from "./pyramid";
 
-const MOST = 240; // tiles in memory, a third of a megabyte each
-const AT_ONCE = 6;
+const MAX_TILES = 240; // of 0.3 MB each
+const MAX_CONCURRENT = 6;
 
 interface Tile {
-  /** How similar, from 0 to 255. */
+  /** Similarity from 0 to 255. */
   grey: Uint8Array;
   picture: OffscreenCanvas;
 }
 
-export class Tiles {
-  /** Grows whenever a tile has come. */
-  readonly arrived = signal(0);
-  private readonly pictures = new Map<string, Tile | null>();
-  private readonly waiting = new Map<string, Place>();
+export class MatrixTiles {
+  /** Number of loaded tiles; redraws depend on it. */
+  readonly loadCount = signal(0);
+  private readonly cache = new Map<string, Tile | null>();
+  private readonly queue = new Map<string, TilePosition>();
   private loading = 0;
-  private shades = shadesOfPage();
+  private shades = computeShades();
   private theme: Theme | null = null;
 
   constructor(private readonly data: RecordingData) {}
 
-  /** The picture of a tile; undefined while it is on its way, null where there is none. */
-  get(place: Place): OffscreenCanvas | null | undefined {
+  /** Return a tile's picture; undefined while loading, null if there is none. */
+  get(place: TilePosition): OffscreenCanvas | null | undefined {
     const key = `${place.level}/${place.row}/${place.column}`;
-    const tile = this.pictures.get(key);
+    const tile = this.cache.get(key);
     if (tile !== undefined) {
-      this.pictures.delete(key); // to the end: the first ones are forgotten first
-      this.pictures.set(key, tile);
+      this.cache.delete(key); // move to the end: the first ones are dropped first
+      this.cache.set(key, tile);
       return tile && tile.picture;
     }
-    if (!this.waiting.has(key)) {
-      this.waiting.set(key, place);
+    if (!this.queue.has(key)) {
+      this.queue.set(key, place);
       void this.load();
     }
     return undefined;
   }
 
-  /** Forgets what has not been asked for since the last call, so that it does not come first. */
-  forgetQueue(): void {
-    this.waiting.clear();
+  /** Drop requests that wait from an earlier draw, so that current ones come first. */
+  clearQueue(): void {
+    this.queue.clear();
   }
 
-  /** Puts all tiles into the colours of a theme at once, as paper does not wait. */
-  colorFor(theme: Theme): void {
+  /** Recolour all tiles at once, since printing does not wait. */
+  applyTheme(theme: Theme): void {
     if (theme === this.theme) return;
     this.theme = theme;
-    this.shades = shadesOfPage();
-    for (const tile of this.pictures.values()) if (tile) paint(tile, this.shades);
+    this.shades = computeShades();
+    for (const tile of this.cache.values()) if (tile) colorTile(tile, this.shades);
   }
 
   private async load(): Promise<void> {
-    if (this.loading >= AT_ONCE) return;
-    const next = this.waiting.entries().next().value;
+    if (this.loading >= MAX_CONCURRENT) return;
+    const next = this.queue.entries().next().value;
     if (!next) return;
     const [key, { level, row, column }] = next;
-    this.waiting.delete(key);
+    this.queue.delete(key);
     this.loading += 1;
     try {
-      const blob = await this.data.tile(level, row, column);
-      const tile = blob && (await decoded(blob));
-      if (tile) paint(tile, this.shades);
-      this.store(key, tile);
+      const blob = await this.data.loadTile(level, row, column);
+      const tile = blob && (await decodeTile(blob));
+      if (tile) colorTile(tile, this.shades);
+      this.storeTile(key, tile);
     } catch {
-      this.store(key, null); // a coarser tile is shown in its place
+      this.storeTile(key, null); // a coarser tile replaces it
     } finally {
       this.loading -= 1;
     }
-    this.arrived.value += 1;
+    this.loadCount.value += 1;
     void this.load();
   }
 
-  private store(key: string, tile: Tile | null): void {
-    this.pictures.set(key, tile);
-    const first = this.pictures.keys().next().value;
-    if (this.pictures.size > MOST && first !== undefined) this.pictures.delete(first);
+  private storeTile(key: string, tile: Tile | null): void {
+    this.cache.set(key, tile);
+    const first = this.cache.keys().next().value;
+    if (this.cache.size > MAX_TILES && first !== undefined) this.cache.delete(first);
   }
 }
 
-async function decoded(blob: Blob): Promise<Tile> {
+async function decodeTile(blob: Blob): Promise<Tile> {
   const bitmap = await createImageBitmap(blob);
   const picture = new OffscreenCanvas(bitmap.width, bitmap.height);
   const pen = picture.getContext("2d", { willReadFrequently: true })!;
@@ -94,8 +94,8 @@ async function decoded(blob: Blob): Promise<Tile> {
   return { grey, picture };
 }
 
-/** Grey becomes the colour between those of unlike and equal. */
-function paint({ grey, picture }: Tile, shades: Uint8ClampedArray): void {
+/** Map similarity to a colour between those of different and equal. */
+function colorTile({ grey, picture }: Tile, shades: Uint8ClampedArray): void {
   const pixels = new ImageData(picture.width, picture.height);
   const { data } = pixels;
   for (let i = 0; i < grey.length; i++) {
@@ -108,9 +108,9 @@ function paint({ grey, picture }: Tile, shades: Uint8ClampedArray): void {
   picture.getContext("2d")!.putImageData(pixels, 0, 0);
 }
 
-function shadesOfPage(): Uint8ClampedArray {
-  const low = channelsOf(cssColor("matrix-low"));
-  const high = channelsOf(cssColor("matrix-high"));
+function computeShades(): Uint8ClampedArray {
+  const low = parseColor(readColor("matrix-low"));
+  const high = parseColor(readColor("matrix-high"));
   const shades = new Uint8ClampedArray(3 * 256);
   for (let grey = 0; grey < 256; grey++)
     for (let c = 0; c < 3; c++)

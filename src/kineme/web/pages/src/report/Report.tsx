@@ -1,22 +1,21 @@
-/** The page of a report. */
+/** Render the page of a report. */
 import type { JSX } from "preact";
 import { useStore } from "../context";
-import { About, aboutTitle } from "../about/About";
+import { About, getAboutTitle } from "../about/About";
 import { Keys } from "../about/Keys";
 import { PAGE_KEYS } from "../keys";
 import { Channels } from "../channels/Channels";
 import { Clusters } from "../clusters/Clusters";
-import { Film } from "../film/Film";
+import { RecordingVideo } from "../video/RecordingVideo";
 import { DetailSlider } from "../layout/DetailSlider";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
-import { MatrixPlace } from "../matrix/MatrixPlace";
-import { theme, toggleTheme } from "../theme";
+import { MatrixPanel } from "../matrix/MatrixPanel";
 import { Timeline } from "../timeline/Timeline";
-import { IconButton } from "../transport/icons";
+import { ThemeButton } from "../transport/icons";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
-import { Paper, Repetitions } from "../paper/Repetitions";
+import { PrintedReport, Repetitions } from "../print/Repetitions";
 
 export function Report(): JSX.Element {
   const store = useStore();
@@ -31,9 +30,13 @@ export function Report(): JSX.Element {
         </>
       ),
     },
-    { id: "repetitions", title: "Repetitions", panel: () => <Repetitions of={store.recording} /> },
+    {
+      id: "repetitions",
+      title: "Repetitions",
+      panel: () => <Repetitions recording={store.recording} />,
+    },
     { id: "keys", title: "Keys", panel: () => <Keys keys={PAGE_KEYS} /> },
-    { id: "about", title: aboutTitle(store), panel: () => <About /> },
+    { id: "about", title: getAboutTitle(store), panel: () => <About /> },
   ];
   return (
     <>
@@ -42,28 +45,27 @@ export function Report(): JSX.Element {
         viewer={
           <>
             {store.recording.value?.motion ? <Viewer /> : <Channels ruler />}
-            <Film />
+            <RecordingVideo />
           </>
         }
-        matrix={<MatrixPlace />}
+        matrix={<MatrixPanel />}
         side={<Tabs label="About the recording" tabs={tabs} />}
         transport={<Transport />}
         timeline={<Timeline />}
       />
-      <Paper />
+      <PrintedReport />
     </>
   );
 }
 
 function Header(): JSX.Element {
   const store = useStore();
-  const other = theme.value === "dark" ? "light" : "dark";
   return (
     <>
       <h1>{store.recording.value?.name}</h1>
       <span class="quiet">kineme report</span>
       <span class="spacer" />
-      <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
+      <ThemeButton />
     </>
   );
 }

@@ -1,15 +1,15 @@
-/** The report: one recording out of the page itself. */
+/** Start a report: one recording, stored in the page itself. */
 import { batch } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import { StoreProvider } from "../context";
-import { startKeys } from "../keys";
+import { listenToKeys } from "../keys";
 import { startPlayer } from "../player";
-import { startPrinting } from "../paper/printing";
+import { startPrinting } from "../print/printing";
 import { exposeSnapshot } from "../snapshot";
 import { EmbeddedData } from "../recordingData";
-import { loadMotion, openRecording, type ShownRecording } from "../opened";
-import { positionOf, Store } from "../store";
+import { loadMotion, openRecording, type ShownRecording } from "../openRecording";
+import { findDetailIndex, Store } from "../store";
 import { Report } from "./Report";
 
 async function start(): Promise<void> {
@@ -20,7 +20,7 @@ async function start(): Promise<void> {
   document.title = `${opened.recording.value.name} · kineme report`;
   exposeSnapshot(store);
   startPlayer(store);
-  startKeys(store);
+  listenToKeys(store);
   startPrinting();
   render(
     <StoreProvider value={store}>
@@ -31,20 +31,21 @@ async function start(): Promise<void> {
   await loadMotion(opened);
 }
 
-/** The tables at other details are looked at in place of the first one. */
+/** Let the user replace the table by those at other details. */
 function offerLevels(store: Store, { recording }: ShownRecording): void {
   const { levels, segmentation } = recording.value;
   if (levels.length < 2) return;
   const given = segmentation.provenance.detail;
   const choose = (detail: number): void => {
-    const chosen = levels[positionOf(detail, all)]!;
+    const chosen = levels[findDetailIndex(detail, all)]!;
     const { segments } = chosen;
     batch(() => {
       store.levels.value = { all, detail: chosen.detail, choose };
       const isShown = chosen.detail === shown;
       recording.value = {
         ...recording.value,
-        revision: isShown ? 0 : 1 + positionOf(detail, all), // of the curves of repetitions
+        // Selects the curves of this table.
+        revision: isShown ? 0 : 1 + findDetailIndex(detail, all),
         segmentation: isShown ? segmentation : { ...segmentation, cluster_names: {}, segments },
       };
     });

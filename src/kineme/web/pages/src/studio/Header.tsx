@@ -1,22 +1,20 @@
-/** The bar on top: what is open, undo and redo, whether everything is saved, and the dialogs. */
-import { counted } from "../counted";
+/** Show the header: what is open, undo and redo, save state and dialogs. */
+import { formatCount } from "../formatCount";
 import type { JSX } from "preact";
-import { theme, toggleTheme } from "../theme";
-import { IconButton } from "../transport/icons";
+import { ThemeButton } from "../transport/icons";
 import { type DialogName, useStudio } from "./context";
-import { pageAddress } from "./server/address";
+import { buildPageAddress } from "./server/address";
 import { Button } from "../layout/controls";
 
 export function Header(): JSX.Element {
-  const { session, front } = useStudio();
+  const { session, view } = useStudio();
   const edited = session.edited.value;
   const recording = edited?.confirmed.value;
-  const news = session.bulletin.news.value;
-  const other = theme.value === "dark" ? "light" : "dark";
+  const news = session.notifications.news.value;
   return (
     <>
       <h1>kineme</h1>
-      {session.state.value?.of_library && <a href={pageAddress(session.api.token)}>Library</a>}
+      {session.state.value?.of_library && <a href={buildPageAddress(session.api.token)}>Library</a>}
       <span class="folder quiet" title={session.state.value?.folder}>
         {recording?.name ?? session.state.value?.folder}
       </span>
@@ -41,29 +39,33 @@ export function Header(): JSX.Element {
       </span>
       <SaveState />
       <span class="group">
-        <Opener
+        <DialogButton
           name="versions"
           title="Tables that were replaced: look at them, bring them back (H)"
           disabled={!recording}
         >
           History…
-        </Opener>
-        <Opener name="transfer" title="Labels from a knowledge base (T)" disabled={!recording}>
+        </DialogButton>
+        <DialogButton
+          name="transfer"
+          title="Labels from a knowledge base (T)"
+          disabled={!recording}
+        >
           Labels…
-        </Opener>
-        <Opener name="compare" title="Compare with another result (C)" disabled={!recording}>
+        </DialogButton>
+        <DialogButton name="compare" title="Compare with another result (C)" disabled={!recording}>
           Compare…
-        </Opener>
-        <Opener name="export" title="Write the segments as a file (E)" disabled={!recording}>
+        </DialogButton>
+        <DialogButton name="export" title="Write the segments as a file (E)" disabled={!recording}>
           Export…
-        </Opener>
+        </DialogButton>
       </span>
-      <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
+      <ThemeButton />
       <Button
         class="icon"
         title="Keys and help (?)"
         aria-label="Keys and help"
-        onClick={() => front.show("help")}
+        onClick={() => view.show("help")}
       >
         ?
       </Button>
@@ -71,21 +73,21 @@ export function Header(): JSX.Element {
   );
 }
 
-function Opener(props: {
+function DialogButton(props: {
   name: DialogName;
   title: string;
   disabled: boolean;
   children: string;
 }): JSX.Element {
-  const { front } = useStudio();
+  const { view } = useStudio();
   return (
-    <Button title={props.title} disabled={props.disabled} onClick={() => front.show(props.name)}>
+    <Button title={props.title} disabled={props.disabled} onClick={() => view.show(props.name)}>
       {props.children}
     </Button>
   );
 }
 
-/** That segments are being found, "saved as …", or how many edits are not. */
+/** Show whether segments are being computed, the file name, or the number of unsaved edits. */
 function SaveState(): JSX.Element {
   const { session } = useStudio();
   const { saved, finding } = session.edited.value?.confirmed.value ?? {};
@@ -93,7 +95,7 @@ function SaveState(): JSX.Element {
   const text = finding
     ? "finding the segments…"
     : waiting
-      ? `saving ${counted(waiting, "edit")}…`
+      ? `saving ${formatCount(waiting, "edit")}…`
       : saved
         ? `saved as ${saved}`
         : "not corrected yet";

@@ -1,58 +1,58 @@
-/** What needs attention: above the page, which gives it room, so that nothing is covered. */
+/** Show problems and unsaved edits above the page. */
 import type { JSX } from "preact";
-import { Offered } from "./folder/Offered";
+import { NameOfferNotice } from "./folder/NameOfferNotice";
 import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
 import { Button, CloseButton } from "../layout/controls";
 
 export function Notices(): JSX.Element {
   const { session } = useStudio();
-  const { bulletin, trouble, unsent } = session;
+  const { notifications, trouble, unsent } = session;
   return (
     <div class="notices">
       <div role="alert">
         {trouble.value && (
           <div class="notice danger" data-notice="trouble">
             <p>
-              {trouble.value} {unsent.value.length > 0 && <Waiting edits={unsent.value} />}
+              {trouble.value} {unsent.value.length > 0 && <UnsentEdits edits={unsent.value} />}
             </p>
           </div>
         )}
         {!trouble.value &&
-          session.blocked.value.map((edited) => <Blocked key={edited.id} edited={edited} />)}
-        {bulletin.problems.value.map(({ text }) => (
+          session.blocked.value.map((edited) => <BlockedEdits key={edited.id} edited={edited} />)}
+        {notifications.problems.value.map(({ text }) => (
           <div class="notice danger" data-notice="problem" key={text}>
             <p>{text}</p>
             <CloseButton
               label="Dismiss"
               title="Dismiss (Escape)"
-              onClick={() => bulletin.dismiss(text)}
+              onClick={() => notifications.dismiss(text)}
             />
           </div>
         ))}
       </div>
-      <Offered />
+      <NameOfferNotice />
     </div>
   );
 }
 
-/** Edits of another table than the present one, and the choice to make or drop them. */
-function Blocked({ edited }: { edited: EditedRecording }): JSX.Element {
+/** Ask whether to apply edits that were made on an older table. */
+function BlockedEdits({ edited }: { edited: EditedRecording }): JSX.Element {
   return (
     <div class="notice" data-notice="held">
       <p>
         {edited.confirmed.value.name}: {edited.blocked.value}. It is shown as it is now.{" "}
-        <Waiting edits={edited.unsent()} />
+        <UnsentEdits edits={edited.describeUnsent()} />
       </p>
       <Button class="primary" onClick={() => edited.retry()}>
         Make them here
       </Button>
-      <Button onClick={() => edited.drop()}>Drop them</Button>
+      <Button onClick={() => edited.discardEdits()}>Drop them</Button>
     </div>
   );
 }
 
-function Waiting({ edits }: { edits: string[] }): JSX.Element {
+function UnsentEdits({ edits }: { edits: string[] }): JSX.Element {
   const last = edits.slice(-3);
   const more = edits.length - last.length;
   return (

@@ -1,17 +1,18 @@
-/** The page of the studio: the parts of every page, and around them what changes a result. */
+/** Render the studio: the parts of every page and those that edit a result. */
 import type { JSX } from "preact";
-import { About, aboutTitle } from "../about/About";
+import { About, getAboutTitle } from "../about/About";
 import { Channels } from "../channels/Channels";
 import { Clusters } from "../clusters/Clusters";
 import { useStore } from "../context";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
-import { MatrixPlace } from "../matrix/MatrixPlace";
-import { Paper } from "../paper/Repetitions";
+import { MatrixPanel } from "../matrix/MatrixPanel";
+import { PrintedReport } from "../print/Repetitions";
 import { Timeline } from "../timeline/Timeline";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
 import { type DialogName, useStudio } from "./context";
+import type { DialogProps } from "./dialogs/Dialog";
 import { CompareDialog } from "./dialogs/CompareDialog";
 import { ComparePanel } from "./panels/ComparePanel";
 import { DropZone } from "./panels/DropZone";
@@ -19,15 +20,15 @@ import { EditTools } from "./panels/EditTools";
 import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
 import { QueueBar } from "./folder/QueueBar";
-import { useStageTurn } from "./folder/stageTurn";
+import { useStageReady } from "./folder/useStageReady";
 import { FolderPanel } from "./panels/FolderPanel";
 import { Header } from "./Header";
 import { VersionsDialog } from "./dialogs/VersionsDialog";
 import { LoopsDialog } from "./dialogs/LoopsDialog";
 import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
-import { Opening } from "./panels/Opening";
-import { Video } from "./panels/Video";
+import { OpeningProgress } from "./panels/OpeningProgress";
+import { StudioVideo } from "./panels/StudioVideo";
 import { PosesOffer } from "./poses/PosesOffer";
 import { PresetPanel } from "./panels/PresetPanel";
 import { ReadingPanel } from "./panels/ReadingPanel";
@@ -38,35 +39,20 @@ import { TransferDialog } from "./dialogs/TransferDialog";
 
 export function Studio(): JSX.Element {
   const store = useStore();
-  const { front } = useStudio();
-  const { value: dialog } = front.dialog;
+  const { view } = useStudio();
+  const { value: dialog } = view.dialog;
   const close = (): void => {
-    if (front.dialog.value === dialog) front.dialog.value = null; // not one opened since
+    if (view.dialog.value === dialog) view.dialog.value = null; // another one may be open by now
   };
+  const OpenDialog = dialog && DIALOGS[dialog];
   const hasFigure = Boolean(store.recording.value?.motion);
   const tabs = [
-    {
-      id: "segment",
-      title: "Segment",
-      panel: () => <SegmentPanel />,
-    },
-    {
-      id: "table",
-      title: "Table",
-      panel: () => <SegmentTable key={store.recording.value?.id} />,
-    },
-    {
-      id: "review",
-      title: "Review",
-      panel: () => <ReviewPanel />,
-    },
+    { id: "segment", title: "Segment", panel: () => <SegmentPanel /> },
+    { id: "table", title: "Table", panel: () => <SegmentTable key={store.recording.value?.id} /> },
+    { id: "review", title: "Review", panel: () => <ReviewPanel /> },
     { id: "clusters", title: "Clusters", panel: () => <Clusters /> },
-    {
-      id: "compare",
-      title: "Compare",
-      panel: () => <ComparePanel />,
-    },
-    { id: "about", title: aboutTitle(store), panel: () => <About /> },
+    { id: "compare", title: "Compare", panel: () => <ComparePanel /> },
+    { id: "about", title: getAboutTitle(store), panel: () => <About /> },
   ];
   return (
     <>
@@ -81,8 +67,8 @@ export function Studio(): JSX.Element {
           </>
         }
         viewer={<Stage />}
-        matrix={store.active.value && <MatrixPlace key={store.recording.value?.id} />}
-        side={<Tabs label="About the recording" tabs={tabs} open={front.tab} />}
+        matrix={store.active.value && <MatrixPanel key={store.recording.value?.id} />}
+        side={<Tabs label="About the recording" tabs={tabs} open={view.tab} />}
         transport={
           <>
             <Transport curves={hasFigure} />
@@ -93,35 +79,35 @@ export function Studio(): JSX.Element {
         curves={hasFigure && store.curves.value && <Channels />}
       />
       <FolderPage />
-      <Paper />
+      <PrintedReport />
       <DropZone />
-      <OpenDialog name={dialog} close={close} />
+      {OpenDialog && <OpenDialog close={close} />}
     </>
   );
 }
 
-/** The figures; their stage is set up at once, while the first recording is on its way. */
+/** Show the figures; the 3-D stage is set up while the first recording loads. */
 function Stage(): JSX.Element {
   const store = useStore();
   const { session } = useStudio();
-  const turn = useStageTurn();
+  const turn = useStageReady();
   if (store.recording.value?.motion === null)
     return (
       <>
         <Channels ruler />
-        <Video />
+        <StudioVideo />
         <QueueBar />
         <PosesOffer />
-        <Opening />
+        <OpeningProgress />
       </>
     );
   return (
     <>
       {turn.value && <Viewer />}
-      <Video />
+      <StudioVideo />
       <QueueBar />
       <PosesOffer />
-      {!store.active.value && !session.needing.value && (
+      {!store.active.value && !session.videoWithoutPoses.value && (
         <p class="empty quiet">
           {session.opening.value || !session.state.value ? (
             <span class="busy" role="status" aria-label="Opening" />
@@ -130,31 +116,16 @@ function Stage(): JSX.Element {
           )}
         </p>
       )}
-      <Opening />
+      <OpeningProgress />
     </>
   );
 }
 
-interface DialogProps {
-  name: DialogName | null;
-  close: () => void;
-}
-
-function OpenDialog({ name, close }: DialogProps): JSX.Element | null {
-  switch (name) {
-    case "versions":
-      return <VersionsDialog close={close} />;
-    case "transfer":
-      return <TransferDialog close={close} />;
-    case "compare":
-      return <CompareDialog close={close} />;
-    case "export":
-      return <ExportDialog close={close} />;
-    case "loops":
-      return <LoopsDialog close={close} />;
-    case "help":
-      return <HelpDialog close={close} />;
-    case null:
-      return null;
-  }
-}
+const DIALOGS: Record<DialogName, (props: DialogProps) => JSX.Element> = {
+  versions: VersionsDialog,
+  transfer: TransferDialog,
+  compare: CompareDialog,
+  export: ExportDialog,
+  loops: LoopsDialog,
+  help: HelpDialog,
+};

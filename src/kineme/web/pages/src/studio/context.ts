@@ -1,4 +1,4 @@
-/** What every component of the studio has at hand. */
+/** Provide the studio's services to its components. */
 import { signal, type Signal } from "@preact/signals";
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
@@ -10,11 +10,11 @@ import type { Session } from "./session";
 
 export type DialogName = "versions" | "transfer" | "compare" | "export" | "help" | "loops";
 
-/** What of the page is in front. */
-export class Front {
+/** Which dialog, tab and page are shown. */
+export class StudioView {
   readonly dialog: Signal<DialogName | null> = signal(null);
   readonly tab = signal("segment");
-  /** Whether the page of the folder lies over that of a recording; null: where none is open. */
+  /** Whether the folder page covers the recording; null: only if none is open. */
   readonly folder = signal<boolean | null>(null);
 
   show(dialog: DialogName): void {
@@ -22,20 +22,20 @@ export class Front {
   }
 }
 
-export interface StudioParts {
+export interface StudioServices {
   session: Session;
   editor: Editor;
   review: Review;
   uploads: Uploads;
   poses: Poses;
-  front: Front;
+  view: StudioView;
 }
 
-const StudioContext = createContext<StudioParts | null>(null);
+const StudioContext = createContext<StudioServices | null>(null);
 
 export const StudioProvider = StudioContext.Provider;
 
-export function useStudio(): StudioParts {
+export function useStudio(): StudioServices {
   const parts = useContext(StudioContext);
   if (!parts) throw new Error("A component stands outside of the StudioProvider.");
   return parts;

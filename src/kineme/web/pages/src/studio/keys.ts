@@ -1,9 +1,9 @@
-/** The keys of the studio, beyond those of every page. */
-import type { StudioParts } from "./context";
+/** Define the keys that only the studio has. */
+import type { StudioServices } from "./context";
 import type { Editor } from "./editing/editor";
 import type { Session } from "./session";
 
-/** Keys and what they do, as the help shows them. */
+/** Keys and their actions, as the help shows them. */
 export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["S", "Split at the playhead"],
   ["M", "Merge the segment with the next one"],
@@ -29,10 +29,10 @@ export const STUDIO_KEYS: readonly (readonly [string, string])[] = [
   ["?", "This help"],
 ];
 
-/** What a key does in the studio; undefined where it does nothing. */
-export function commandOf(
+/** Return a key's command in the studio, or undefined. */
+export function getStudioCommand(
   event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
-  { session, editor, review, front }: Omit<StudioParts, "uploads" | "poses">,
+  { session, editor, review, view }: Omit<StudioServices, "uploads" | "poses">,
 ): (() => void) | undefined {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   if (event.ctrlKey || event.metaKey) {
@@ -50,29 +50,30 @@ export function commandOf(
     m: () => editor.mergeWithNext(),
     Delete: () => editor.deleteBorder(),
     Backspace: () => editor.deleteBorder(),
-    a: () => session.store.changeLevel(),
+    a: () => session.store.toggleLevel(),
     n: () => editor.startNaming(event.shiftKey ? "cluster" : "segment"),
-    "[": () => editor.borderHere("start"),
-    "]": () => editor.borderHere("stop"),
-    j: () => void review.next(),
-    k: () => (event.shiftKey ? review.toggle() : review.checkAndGoOn()),
+    "[": () => editor.moveBorderHere("start"),
+    "]": () => editor.moveBorderHere("stop"),
+    j: () => void review.goToNext(),
+    k: () => (event.shiftKey ? review.toggleChecked() : review.checkAndGoOn()),
     x: () => editor.toggleExcluded(),
     PageDown: () => void session.openNext(1),
     PageUp: () => void session.openNext(-1),
-    h: () => front.show("versions"),
-    t: () => front.show("transfer"),
-    c: () => front.show("compare"),
-    e: () => front.show("export"),
-    "?": () => front.show("help"),
+    h: () => view.show("versions"),
+    t: () => view.show("transfer"),
+    c: () => view.show("compare"),
+    e: () => view.show("export"),
+    "?": () => view.show("help"),
   };
   if (session.segmenting.value) commands["Escape"] = () => session.cancel();
-  else if (session.bulletin.problems.value.length)
-    commands["Escape"] = () => session.bulletin.dismiss();
+  else if (session.notifications.problems.value.length)
+    commands["Escape"] = () => session.notifications.dismiss();
   return commands[key];
 }
 
 function nameByKey(digit: number, session: Session, editor: Editor): void {
   const label = session.state.value?.labels[digit - 1];
   if (label) editor.nameTarget(label);
-  else session.bulletin.tell(`No label is on the key ${digit} yet: add it in “Segment”, below.`);
+  else
+    session.notifications.tell(`No label is on the key ${digit} yet: add it in “Segment”, below.`);
 }

@@ -1,21 +1,21 @@
-/** The recordings of the folder, as the list shows them. */
+/** Filter and sort the recordings of the folder. */
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 import type { Listing, State } from "../messages";
-import { checkedIn } from "../segments";
+import { countChecked } from "../segments";
 import type { EditedRecording } from "./editing/editedRecording";
 
-/** How far a recording is. */
+/** Review status of a recording. */
 export type Status = "new" | "corrected" | "labelled" | "checked";
 type Order = (typeof ORDERS)[number][0];
 
-const FAR: readonly Status[] = ["new", "corrected", "labelled", "checked"];
+export const STATUS_ORDER: readonly Status[] = ["new", "corrected", "labelled", "checked"];
 
-/** What the list can be narrowed to. */
+/** Filters of the list. */
 export const STATUSES: readonly (readonly [Status | "", string])[] = [
   ["", "all"],
-  ...FAR.map((status) => [status, status] as const),
+  ...STATUS_ORDER.map((status) => [status, status] as const),
 ];
-/** What the list can be ordered by. */
+/** Orders of the list. */
 export const ORDERS = [
   ["name", "by name"],
   ["left", "what is left first"],
@@ -23,21 +23,16 @@ export const ORDERS = [
 ] as const;
 
 export class RecordingList {
-  /** What the list of recordings shows. */
   readonly search = signal("");
   readonly order = signal<Order>("name");
   readonly status = signal<Status | "">("");
   readonly listed = computed(() => {
-    const text = this.search.value.trim().toLowerCase();
-    const all = this.state.value?.recordings ?? [];
-    const found = all.filter(
-      (each) =>
-        each.name.toLowerCase().includes(text) &&
-        (!this.status.value || this.statusOf(each) === this.status.value),
-    );
+    const found = (this.state.value?.recordings ?? []).filter((each) => this.matches(each));
     if (this.order.value === "size") found.sort((a, b) => b.bytes - a.bytes);
     if (this.order.value === "left")
-      found.sort((a, b) => FAR.indexOf(this.statusOf(a)) - FAR.indexOf(this.statusOf(b)));
+      found.sort(
+        (a, b) => STATUS_ORDER.indexOf(this.getStatus(a)) - STATUS_ORDER.indexOf(this.getStatus(b)),
+      );
     return found;
   });
 
@@ -46,26 +41,33 @@ export class RecordingList {
     private readonly recordings: ReadonlySignal<EditedRecording[]>,
   ) {}
 
-  /** How far a recording is: as it is shown, else as the folder was told to be. */
-  statusOf(listing: Listing): Status {
+  /** Return a recording's status: of the open table, else of the listing. */
+  getStatus(listing: Listing): Status {
     const open = this.recordings.value.find((edited) => edited.id === listing.id);
     const { saved, segmentation } = open?.confirmed.value ?? {};
-    if (!segmentation || !saved) return listing.corrected ? status(listing) : "new";
+    if (!segmentation || !saved) return listing.corrected ? computeStatus(listing) : "new";
     const { segments } = segmentation;
-    return status({
+    return computeStatus({
       segments: segments.length,
-      checked: checkedIn(segmentation),
+      checked: countChecked(segmentation),
       named: segments.filter(({ label }) => label).length,
       to_name: segments.filter(({ kind }) => kind !== "transition").length,
     });
   }
 
+  /** Return whether a recording passes the filter. */
+  matches(listing: Listing): boolean {
+    const { value: wanted } = this.status;
+    const isNamed = listing.name.toLowerCase().includes(this.search.value.trim().toLowerCase());
+    return isNamed && (!wanted || this.getStatus(listing) === wanted);
+  }
+
   isChecked(listing: Listing): boolean {
-    return this.statusOf(listing) === "checked";
+    return this.getStatus(listing) === "checked";
   }
 }
 
-function status(of: Pick<Listing, "segments" | "checked" | "named" | "to_name">): Status {
+function computeStatus(of: Pick<Listing, "segments" | "checked" | "named" | "to_name">): Status {
   if (of.checked > 0 && of.checked >= of.segments) return "checked";
   return of.named > 0 && of.named >= of.to_name ? "labelled" : "corrected";
 }

@@ -1,4 +1,4 @@
-/** Each recording keeps the level one works in, over a reload, too. */
+/** Remember the edited level of each recording. */
 import { computed, effect, untracked } from "@preact/signals";
 import type { Store } from "../store";
 

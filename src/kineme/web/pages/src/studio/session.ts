@@ -1,23 +1,18 @@
-/**
- * What the studio has at hand: the folder, the open recordings, the line to the server.
- *
- * A recording that was opened stays with the session, shown or not, so that its
- * edits are sent even after it was closed.
- */
+/** Manage the folder, the recordings (until their edits are sent) and the connection. */
 
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { Changed, ReadRequest, Recording, State } from "../messages";
-import { loadMotion, type OpenRecording } from "../opened";
+import { loadMotion, type OpenRecording } from "../openRecording";
 import type { Store } from "../store";
-import { type Api, explain, Refused, RETRY, Unreachable } from "./server/api";
-import { Beside } from "./editing/beside";
-import { needsPoses, notRead } from "./server/answers";
+import { type Api, explainError, Refused, RETRY_INTERVAL, Unreachable } from "./server/api";
+import { Comparisons } from "./editing/comparisons";
+import { needsPoses, getUnreadPeople } from "./server/answers";
 import { EditedRecording } from "./editing/editedRecording";
-import { openInAddress, openToAddress, secondsInAddress } from "./server/address";
+import { readOpenIds, writeOpenIds, readStartTime } from "./server/address";
 import { ServerData } from "./server/serverData";
 import { shareToken } from "./server/token";
-import { Bulletin } from "./news";
-import { People } from "./people/people";
+import { Notifications } from "./notifications";
+import { PeopleComparison } from "./people/people";
 import { RecordingList } from "./recordingList";
 
 const NO_ANSWER =
@@ -25,11 +20,11 @@ const NO_ANSWER =
 const STARTED_ANEW =
   "The studio was started anew. Open the address it printed: then this tab goes on, too.";
 
-/** Problems of a table, and of a recording, which are none of the next one's. */
+/** Problems that disappear when the table or the recording changes. */
 const OF_TABLE = ["preview", "compare"];
 const OF_RECORDING = ["video", "versions", "clips", "export"];
 
-/** A recording that was not read as it was told to be. */
+/** A recording that could not be read. */
 export interface Unread {
   id: string;
   name: string;
@@ -38,148 +33,157 @@ export interface Unread {
 
 export class Session {
   readonly state = signal<State | null>(null);
-  /** Why the server cannot be worked with, in a sentence; null while it can. */
+  /** Why the server is unavailable, as a sentence; null if it is available. */
   readonly trouble = signal<string | null>(null);
-  /** The recording that is being opened. */
+  /** Id of the recording being opened. */
   readonly opening = signal<string | null>(null);
-  /** The recording that could not be read, and the people in it. */
+  /** The recording that could not be read and its people. */
   readonly unread = signal<Unread | null>(null);
-  /** The video that could not be opened because its poses are to be estimated first. */
-  readonly needing = signal<string | null>(null);
-  /** Who of several people is to be seen, in a sentence; empty where nothing is asked. */
+  /** Id of the video whose poses must be estimated first. */
+  readonly videoWithoutPoses = signal<string | null>(null);
+  /** Question which of several people to show; empty if none is asked. */
   readonly question = computed(() => {
     const { people = [], name } = this.unread.value ?? {};
     const many = `${people.length} people are in ${name}: choose one of them on the left, or all.`;
     return people.length > 1 ? many : "";
   });
-  readonly bulletin: Bulletin;
-  /** Those that are open, and those whose edits are on their way. */
+  readonly notifications: Notifications;
+  /** Open recordings and closed ones with unsent edits. */
   readonly recordings = signal<EditedRecording[]>([]);
   readonly list = new RecordingList(this.state, this.recordings);
   readonly edited = computed(() => {
     const id = this.store.recording.value?.id;
     return this.recordings.value.find((edited) => edited.id === id);
   });
-  /** Recordings whose edits wait for a decision. */
+  /** Recordings whose edits are blocked. */
   readonly blocked = computed(() => this.recordings.value.filter((edited) => edited.blocked.value));
-  /** Edits of all recordings that the server has not confirmed. */
-  readonly unsent = computed(() => this.recordings.value.flatMap((edited) => edited.unsent()));
+  /** Descriptions of all unconfirmed edits. */
+  readonly unsent = computed(() =>
+    this.recordings.value.flatMap((edited) => edited.describeUnsent()),
+  );
 
-  /** Whether the server is finding segments of the recording in front. */
+  /** Whether the server is segmenting the active recording. */
   readonly segmenting = computed(() => {
     const { edited } = this;
     const finding = edited.value?.busy.value || edited.value?.confirmed.value.finding;
-    return Boolean(finding) || this.beside.draft.value !== null;
+    return Boolean(finding) || this.comparisons.draft.value !== null;
   });
 
-  readonly beside: Beside;
-  readonly people: People;
-  /** Revisions that were announced of recordings while these were still on their way here. */
-  private readonly missed = new Map<string, number>();
-  private retrying = 0;
-  private started = false;
+  readonly comparisons: Comparisons;
+  readonly people: PeopleComparison;
+  /** Revisions announced for recordings that are still loading. */
+  private readonly missedRevisions = new Map<string, number>();
+  private retryTimer = 0;
+  private hasStarted = false;
 
   constructor(
     readonly api: Api,
     readonly store: Store,
   ) {
-    this.bulletin = new Bulletin(() => tableOf(store.recording.value));
-    this.beside = new Beside(this);
-    this.people = new People(this);
-    const over = (topics: readonly string[], inFront: () => unknown): void =>
+    this.notifications = new Notifications(() => getTableKey(store.recording.value));
+    this.comparisons = new Comparisons(this);
+    this.people = new PeopleComparison(this);
+    const clearOnChange = (topics: readonly string[], inFront: () => unknown): void =>
       void effect(() => {
         void inFront();
-        untracked(() => topics.forEach((what) => this.bulletin.solved(what)));
+        untracked(() => topics.forEach((what) => this.notifications.clearProblem(what)));
       });
-    over(OF_TABLE, () => tableOf(store.recording.value));
-    over(OF_RECORDING, () => store.recording.value?.id);
+    clearOnChange(OF_TABLE, () => getTableKey(store.recording.value));
+    clearOnChange(OF_RECORDING, () => store.recording.value?.id);
   }
 
-  /** @param announced once other tabs know of this one, which edits are taken over by */
+  /** @param announced resolves once this tab's lock is held, so that edits can be taken over */
   async start(announced: Promise<void>): Promise<void> {
     shareToken(this.api);
     const [answered] = await Promise.all([this.refresh(), announced]);
-    if (answered) await this.begin();
+    if (answered) await this.openInitial();
   }
 
-  /** The folder as it is now; whether the server told. */
+  /** Reload the folder; return whether the server answered. */
   async refresh(): Promise<boolean> {
     try {
-      this.state.value = await this.api.state();
-      this.bulletin.solved("folder");
+      this.state.value = await this.api.loadState();
+      this.notifications.clearProblem("folder");
       return true;
     } catch (error) {
-      if (error instanceof Unreachable) this.lost();
-      else if (error instanceof Refused && error.status === 403) this.lost(STARTED_ANEW);
-      else this.bulletin.problem(explain(error), "folder");
+      if (error instanceof Unreachable) this.handleLostConnection();
+      else if (error instanceof Refused && error.status === 403)
+        this.handleLostConnection(STARTED_ANEW);
+      else this.notifications.reportProblem(explainError(error), "folder");
       return false;
     }
   }
 
-  /** Shows a recording, alone or beside those shown; `shown` is called before its figure comes. */
+  /** Show a recording, alone or with the open ones; `shown` is called before its motion loads. */
   async open(id: string, { beside = false, shown = (): void => undefined } = {}): Promise<void> {
     const { store } = this;
     if (this.opening.value === id) return;
     const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
     if (index >= 0) {
       store.show(index);
-      this.bulletin.solved("open");
+      this.notifications.clearProblem("open");
       if (!beside) this.closeOthers(id, store.people.value);
       shown();
       return;
     }
     this.opening.value = id;
     this.unread.value = null;
-    this.needing.value = null;
+    this.videoWithoutPoses.value = null;
     try {
-      const opened = await this.opened(id);
-      if (this.opening.value !== id) return; // another one has been chosen since
+      const opened = await this.loadOpened(id);
+      if (this.opening.value !== id) return; // another one was chosen meanwhile
       if (!beside) store.playhead.value = 0;
       store.add(opened);
       if (!beside) this.closeOthers(id);
       shown();
-      this.bulletin.solved("open");
+      this.notifications.clearProblem("open");
       void this.refresh();
       await loadMotion(opened);
     } catch (error) {
       const isShown = store.opened.value.some((each) => each.recording.value.id === id);
-      if (this.opening.value !== id && !isShown) return; // cancelled, or another one chosen
+      if (this.opening.value !== id && !isShown) return; // cancelled, or another one was chosen
       if (needsPoses(error)) {
-        this.needing.value = id;
-        this.bulletin.solved("open");
+        this.videoWithoutPoses.value = id;
+        this.notifications.clearProblem("open");
         return void this.refresh();
       }
-      const isAsked = this.notRead(id, error);
+      const isAsked = this.handleUnread(id, error);
       if (!isAsked || store.opened.value.length)
-        // else the stage asks
-        this.bulletin.problem(isAsked ? this.question.value : explain(error), "open");
+        // otherwise the viewer asks
+        this.notifications.reportProblem(
+          isAsked ? this.question.value : explainError(error),
+          "open",
+        );
     } finally {
       if (this.opening.value === id) this.opening.value = null;
     }
   }
 
-  /** Reads a file otherwise from now on, and shows it, or the people of it who are asked for. */
+  /** Change how a file is read and show it, or the requested people. */
   async readAs(id: string, request: ReadRequest): Promise<void> {
     let asked: string[];
     try {
       asked = await this.api.readAs(id, request);
     } catch (error) {
-      const isAsked = this.notRead(id, error);
-      this.bulletin.solved("open");
-      this.bulletin.problem(isAsked ? this.question.value : explain(error), "reading");
+      const isAsked = this.handleUnread(id, error);
+      this.notifications.clearProblem("open");
+      this.notifications.reportProblem(
+        isAsked ? this.question.value : explainError(error),
+        "reading",
+      );
       return;
     }
-    for (const what of ["reading", "open"]) this.bulletin.solved(what);
+    for (const what of ["reading", "open"]) this.notifications.clearProblem(what);
     const { value: recording } = this.store.recording;
     const shown = recording?.id === id ? this.store.people.value : [];
     const before = shown.map((each) => each.recording.value.id);
     const isSame = asked.length === 1 && asked[0] === id;
     for (const each of [id, ...before]) this.close(each);
-    await this.refresh(); // of several people each is listed now
+    await this.refresh(); // each person is listed separately
     await this.openTogether(isSame && before.length ? before : asked);
   }
 
-  /** Shows recordings beside each other, the first of them in front. */
+  /** Open recordings together and activate the first. */
   private async openTogether(ids: readonly string[]): Promise<void> {
     for (const [i, id] of ids.entries()) await this.open(id, { beside: i > 0 });
     const { opened } = this.store;
@@ -187,16 +191,16 @@ export class Session {
     if (ids.length > 1 && first >= 0) this.store.show(first);
   }
 
-  /** Offers to say how a recording is to be read, where that is what is wrong; whether of people. */
-  private notRead(id: string, error: unknown): boolean {
-    const people = notRead(error);
+  /** Show the reading options of an unread recording; return whether to ask for a person. */
+  private handleUnread(id: string, error: unknown): boolean {
+    const people = getUnreadPeople(error);
     const name = this.state.value?.recordings.find((each) => each.id === id)?.name;
     const before = this.unread.value?.id === id ? this.unread.value.people : [];
     if (people && name) this.unread.value = { id, name, people: people.length ? people : before };
     return (people?.length ?? 0) > 1 && this.question.value !== "";
   }
 
-  /** Opens the next recording of the list, or the one before. */
+  /** Open the next or previous recording of the list. */
   async openNext(by: 1 | -1): Promise<void> {
     const { value: listed } = this.list.listed;
     const id = this.opening.value ?? this.store.recording.value?.id;
@@ -204,7 +208,9 @@ export class Session {
     const next = at < 0 ? listed[0] : listed[at + by];
     if (next) await this.open(next.id);
     else
-      this.bulletin.tell(by > 0 ? "This is the last recording." : "This is the first recording.");
+      this.notifications.tell(
+        by > 0 ? "This is the last recording." : "This is the first recording.",
+      );
   }
 
   close(id: string): void {
@@ -213,32 +219,33 @@ export class Session {
     this.forgetClosed();
   }
 
-  /** Stops waiting for the recording that is being opened. */
+  /** Cancel the opening of a recording. */
   stopOpening(): void {
     this.opening.value = null;
   }
 
-  /** Has the server leave what it is finding; what is there stays, what is being read is closed. */
+  /** Cancel the server's computation; close a recording that is still being read. */
   cancel(): void {
-    this.beside.cancel();
+    this.comparisons.cancel();
     const { value: edited } = this.edited;
     edited?.cancel();
     if (edited?.confirmed.value.being_read) this.close(edited.id);
   }
 
-  /** Nobody answers, or not to us: ask again every second until that has changed. */
-  lost(reason = NO_ANSWER): void {
+  /** Report a lost connection and retry every second. */
+  handleLostConnection(reason = NO_ANSWER): void {
     this.trouble.value = reason;
-    if (!this.retrying) this.retrying = window.setInterval(() => void this.recover(), RETRY);
+    if (!this.retryTimer)
+      this.retryTimer = window.setInterval(() => void this.recover(), RETRY_INTERVAL);
   }
 
-  /** The server is there, maybe another one: what was missed is asked for, what waits is sent. */
+  /** After a reconnect, reload what changed and send pending edits. */
   private async recover(): Promise<void> {
     if (!(await this.refresh())) return;
-    window.clearInterval(this.retrying);
-    this.retrying = 0;
+    window.clearInterval(this.retryTimer);
+    this.retryTimer = 0;
     this.trouble.value = null;
-    if (!this.started) await this.begin();
+    if (!this.hasStarted) await this.openInitial();
     else
       for (const edited of this.recordings.value) {
         await edited.resume();
@@ -246,92 +253,92 @@ export class Session {
       }
   }
 
-  /** Opens what was open before, and listens for changes from then on. */
-  private async begin(): Promise<void> {
-    this.started = true;
+  /** Restore the open recordings and listen to changes. */
+  private async openInitial(): Promise<void> {
+    this.hasStarted = true;
     this.api.listen(
-      (change) => void this.changed(change),
+      (change) => void this.handleChange(change),
       (up) => void (up ? this.recover() : this.refresh()),
     );
-    addEventListener("focus", () => void this.refresh()); // files may have come meanwhile
+    addEventListener("focus", () => void this.refresh()); // files may have been added
     const { recordings } = this.state.value!;
     const listed = new Set(recordings.map((each) => each.id));
-    const before = openInAddress().filter((id) => listed.has(id));
+    const before = readOpenIds().filter((id) => listed.has(id));
     const files = new Set(recordings.map((each) => each.file));
     if (before.length || files.size !== 1)
       for (const id of before) await this.open(id, { beside: true });
     else await this.openTogether([...listed]);
-    if (secondsInAddress()) this.store.seek(secondsInAddress());
-    effect(() => openToAddress(this.store.opened.value));
+    if (readStartTime()) this.store.seek(readStartTime());
+    effect(() => writeOpenIds(this.store.opened.value));
   }
 
-  private async opened(id: string): Promise<OpenRecording> {
+  private async loadOpened(id: string): Promise<OpenRecording> {
     const data = new ServerData(this.api, id);
     const edited =
       this.recordings.value.find((each) => each.id === id) ??
       (await EditedRecording.open(id, {
         api: this.api,
         folder: this.state.value?.folder ?? "",
-        isAway: () => this.trouble.peek() !== null,
-        lost: () => this.lost(),
-        tell: (text, refused) => this.bulletin.tell(this.withName(id, text), refused),
-        warn: (text) => this.bulletin.problem(this.withName(id, text), "edit"),
+        isOffline: () => this.trouble.peek() !== null,
+        onConnectionLost: () => this.handleLostConnection(),
+        tell: (text, refused) => this.notifications.tell(this.addName(id, text), refused),
+        warn: (text) => this.notifications.reportProblem(this.addName(id, text), "edit"),
       }));
     if (!this.recordings.value.includes(edited)) {
       this.recordings.value = [...this.recordings.value, edited];
-      const revision = this.missed.get(id) ?? 0;
-      if (revision > edited.confirmed.peek().revision) void edited.changed(revision);
-      this.missed.delete(id);
+      const revision = this.missedRevisions.get(id) ?? 0;
+      if (revision > edited.confirmed.peek().revision) void edited.handleChange(revision);
+      this.missedRevisions.delete(id);
     }
     return { data, recording: edited.confirmed, motion: signal(null), keypoints: signal(null) };
   }
 
-  /** News of a recording; those of one that is not in front are told with its name. */
-  private withName(id: string, text: string): string {
+  /** Prefix a message with the recording's name unless it is active. */
+  private addName(id: string, text: string): string {
     const edited = this.recordings.peek().find((each) => each.id === id);
     const isInFront = !edited || this.edited.peek() === edited;
     return isInFront ? text : `${edited.confirmed.peek().name}: ${text}`;
   }
 
-  /** Recordings that are neither shown nor have edits on their way need no memory. */
+  /** Drop recordings that are neither shown nor have unsent edits. */
   private forgetClosed(): void {
     const shown = new Set(this.store.opened.value.map((each) => each.recording.peek().id));
     const [kept, closed] = [[] as EditedRecording[], [] as EditedRecording[]];
     for (const edited of this.recordings.value)
-      (shown.has(edited.id) || edited.isOwing() ? kept : closed).push(edited);
+      (shown.has(edited.id) || edited.hasPending() ? kept : closed).push(edited);
     for (const edited of closed) edited.close();
     if (closed.length) this.recordings.value = kept;
   }
 
-  /** Closes all but one, and people who are shown with that one. */
+  /** Close all recordings except one and `kept`. */
   private closeOthers(id: string, kept: readonly OpenRecording[] = []): void {
     for (const each of this.store.opened.value)
       if (each.recording.value.id !== id && !kept.includes(each))
         this.close(each.recording.value.id);
   }
 
-  private async changed(change: Changed): Promise<void> {
+  private async handleChange(change: Changed): Promise<void> {
     const edited = this.recordings.value.find((each) => each.id === change.recording);
     if (!edited) {
-      this.missed.set(change.recording, change.revision);
+      this.missedRevisions.set(change.recording, change.revision);
       return void (await this.refresh());
     }
-    await edited.changed(change.revision);
+    await edited.handleChange(change.revision);
     await this.renewMotion(edited.id);
   }
 
-  /** The poses of a recording as it is now: those of a large one come bit by bit. */
+  /** Reload a recording's motion: large recordings are read in parts. */
   private async renewMotion(id: string): Promise<void> {
     const opened = this.store.opened.value.find((each) => each.recording.value.id === id);
     try {
       if (opened?.motion.value) await loadMotion(opened);
     } catch (error) {
-      this.bulletin.problem(explain(error), "open");
+      this.notifications.reportProblem(explainError(error), "open");
     }
   }
 }
 
-/** Which table is in front: another one after each edit. */
-function tableOf(recording: Recording | undefined): string {
+/** Return a key of the active table, which changes with each edit. */
+function getTableKey(recording: Recording | undefined): string {
   return recording ? `${recording.id} ${recording.revision}` : "";
 }

@@ -1,5 +1,5 @@
-/** `window.kineme` of the studio: that of every page, with the table and what is not saved. */
-import { snapshotOf } from "../snapshot";
+/** Expose the studio's state as `window.kineme`, for tests. */
+import { createSnapshot } from "../snapshot";
 import type { Session } from "./session";
 
 export function exposeStudio(session: Session): void {
@@ -7,7 +7,7 @@ export function exposeStudio(session: Session): void {
   Object.defineProperty(window, "kineme", {
     get: () =>
       Object.freeze({
-        ...snapshotOf(store),
+        ...createSnapshot(store),
         recordings: store.opened.value.map((opened) => opened.recording.value.name),
         segments: store.table.value?.segments ?? [],
         checked: (store.table.value?.segments ?? []).flatMap((row, i) => (row.checked ? [i] : [])),

@@ -1,9 +1,9 @@
-/** The whole recording in a strip, and the part that the lanes show; drag to move it, or to scrub. */
+/** Show the whole recording and the visible range; drag to move the range or to seek. */
 import { useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Canvas } from "../canvas/Canvas";
-import { cssColor } from "../theme";
+import { readColor } from "../theme";
 import type { Store } from "../store";
 import { toPixel } from "../view";
 
@@ -45,11 +45,11 @@ export function Overview(): JSX.Element {
 
 function draw(pen: CanvasRenderingContext2D, width: number, height: number, store: Store): void {
   const recording = { start_s: 0, stop_s: store.duration.value };
-  pen.fillStyle = cssColor("lane");
+  pen.fillStyle = readColor("lane");
   pen.fillRect(0, 0, width, height);
   for (const segment of store.activities.value) {
     const { start_s, stop_s } = segment;
-    const color = store.colorOf(segment);
+    const color = store.getColor(segment);
     if (!color) continue;
     const left = toPixel(recording, width, start_s);
     pen.fillStyle = color;
@@ -59,10 +59,10 @@ function draw(pen: CanvasRenderingContext2D, width: number, height: number, stor
   const left = toPixel(recording, width, start_s);
   const right = toPixel(recording, width, stop_s);
   pen.globalAlpha = 0.6;
-  pen.fillStyle = cssColor("page");
+  pen.fillStyle = readColor("page");
   pen.fillRect(0, 0, left, height);
   pen.fillRect(right, 0, width - right, height);
   pen.globalAlpha = 1;
-  pen.strokeStyle = cssColor("quiet");
+  pen.strokeStyle = readColor("quiet");
   pen.strokeRect(left + 0.5, 0.5, Math.max(right - left - 1, 2), height - 1);
 }

@@ -1,13 +1,21 @@
-/** How lanes look. */
-import { inkOn } from "../colors";
+/** Draw the timeline's lanes. */
+import { getTextColor } from "../colors";
 import type { Segment } from "../messages";
-import { nameOf } from "../segments";
+import { getSegmentName } from "../segments";
 import type { Drag } from "../state";
 import type { Store } from "../store";
-import { cssColor } from "../theme";
+import { readColor } from "../theme";
 import { toPixel, type Span } from "../view";
-import { drawInAndOut, drawLoop, drawRuler, drawTitle, FONT, hatching, shortened } from "./frame";
-import { GUTTER, visible, type Lane } from "./lanes";
+import {
+  drawMarks,
+  drawLoop,
+  drawRuler,
+  drawTitle,
+  FONT,
+  createHatch,
+  shortenText,
+} from "./decoration";
+import { GUTTER_WIDTH, findVisible, type Lane } from "./lanes";
 
 type Pen = CanvasRenderingContext2D;
 
@@ -21,50 +29,55 @@ export function drawLanes(
   width: number,
 ): void {
   const range = store.range.value;
-  const room = width - GUTTER;
+  const plotWidth = width - GUTTER_WIDTH;
   pen.font = FONT;
   pen.textBaseline = "middle";
-  drawRuler(pen, range, room);
-  const hatch = hatching(pen);
+  drawRuler(pen, range, plotWidth);
+  const hatch = createHatch(pen);
   for (const lane of lanes) {
     drawTitle(pen, lane);
     pen.save();
     pen.beginPath();
-    pen.rect(GUTTER, lane.top - 2, room, lane.height + 4);
+    pen.rect(GUTTER_WIDTH, lane.top - 2, plotWidth, lane.height + 4);
     pen.clip();
-    pen.translate(GUTTER, 0);
-    pen.fillStyle = cssColor("lane");
-    pen.fillRect(0, lane.top, room, lane.height);
-    drawSegments(pen, lane, moved(lane, drag, store.fps.value), { range, room, hatch, store });
+    pen.translate(GUTTER_WIDTH, 0);
+    pen.fillStyle = readColor("lane");
+    pen.fillRect(0, lane.top, plotWidth, lane.height);
+    drawSegments(pen, lane, applyDrag(lane, drag, store.fps.value), {
+      range,
+      plotWidth,
+      hatch,
+      store,
+    });
     pen.restore();
   }
-  drawLoop(pen, store.loop.value, range, room);
-  drawInAndOut(pen, store, range, room);
+  drawLoop(pen, store.loop.value, range, plotWidth);
+  drawMarks(pen, store, range, plotWidth);
 }
 
 interface Scene {
   range: Span;
-  room: number;
+  plotWidth: number;
   hatch: CanvasPattern | string;
   store: Store;
 }
 
 function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene: Scene): void {
-  const { range, room, hatch, store } = scene;
-  const [from, to] = visible(segments, range.start_s, range.stop_s);
+  const { range, plotWidth, hatch, store } = scene;
+  const [from, to] = findVisible(segments, range.start_s, range.stop_s);
   const hovered = store.hovered.value;
-  const edge = cssColor("edge");
-  let drawn = -Infinity; // right end of what has been drawn
+  const edge = readColor("edge");
+  let drawn = -Infinity; // right edge drawn so far, pixels
   for (let i = from; i < to; i++) {
     const segment = segments[i]!;
-    const left = toPixel(range, room, segment.start_s);
-    const right = toPixel(range, room, segment.stop_s);
-    if (right - drawn < 0.5) continue; // as fine as the screen
+    const left = toPixel(range, plotWidth, segment.start_s);
+    const right = toPixel(range, plotWidth, segment.stop_s);
+    if (right - drawn < 0.5) continue; // narrower than half a pixel
     drawn = right;
-    const color = store.colorOf(segment);
+    const color = store.getColor(segment);
     pen.fillStyle = color ?? hatch;
     const wide = right - left > 3;
-    box(
+    traceBox(
       pen,
       left + (wide ? 0.75 : 0),
       lane.top,
@@ -74,11 +87,12 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
     pen.fill();
     const pointed = hovered !== null && lane.person === null && segment.cluster === hovered;
     if (wide || pointed) {
-      pen.strokeStyle = pointed ? cssColor("accent") : edge;
+      pen.strokeStyle = pointed ? readColor("accent") : edge;
       pen.lineWidth = pointed ? 2 : 0.75;
       pen.stroke();
     }
-    if (color && right - left > 16) writeName(pen, lane, segment, left, right, room, inkOn(color));
+    if (color && right - left > 16)
+      writeName(pen, lane, segment, left, right, plotWidth, getTextColor(color));
     if (lane.level && segment.checked && right - left > 8) drawTick(pen, lane, right);
     if (lane.level && segment.excluded) drawStrike(pen, lane, left, right);
   }
@@ -86,10 +100,10 @@ function drawSegments(pen: Pen, lane: Lane, segments: readonly Segment[], scene:
   drawTarget(pen, lane, scene);
 }
 
-/** A tick in the corner of a checked segment. */
+/** Draw a tick in the corner of a checked segment. */
 function drawTick(pen: Pen, lane: Lane, right: number): void {
-  pen.fillStyle = cssColor("panel");
-  pen.strokeStyle = cssColor("text");
+  pen.fillStyle = readColor("panel");
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 1.5;
   const [x, y] = [right - 8, lane.top + lane.height - 6];
   pen.beginPath();
@@ -102,9 +116,9 @@ function drawTick(pen: Pen, lane: Lane, right: number): void {
   pen.stroke();
 }
 
-/** Through a repetition that people left out of means. */
+/** Strike through a repetition excluded from means. */
 function drawStrike(pen: Pen, lane: Lane, left: number, right: number): void {
-  pen.strokeStyle = cssColor("panel");
+  pen.strokeStyle = readColor("panel");
   pen.lineWidth = 2;
   pen.beginPath();
   pen.moveTo(left + 1, lane.top + lane.height);
@@ -112,12 +126,12 @@ function drawStrike(pen: Pen, lane: Lane, left: number, right: number): void {
   pen.stroke();
 }
 
-/** Borders that the other result has not. */
-function drawDifferences(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
-  pen.fillStyle = cssColor("danger");
+/** Mark borders that the other result lacks. */
+function drawDifferences(pen: Pen, lane: Lane, { range, plotWidth, store }: Scene): void {
+  pen.fillStyle = readColor("danger");
   for (const frame of lane.differences) {
-    const x = toPixel(range, room, frame / store.fps.value);
-    if (x < -2 || x > room + 2) continue;
+    const x = toPixel(range, plotWidth, frame / store.fps.value);
+    if (x < -2 || x > plotWidth + 2) continue;
     pen.fillRect(x - 1.5, lane.top - 2, 3, lane.height + 4);
   }
 }
@@ -128,34 +142,35 @@ function writeName(
   segment: Segment,
   left: number,
   right: number,
-  room: number,
+  plotWidth: number,
   ink: string,
 ): void {
   const from = Math.max(left, 0) + 5;
-  const space = Math.min(right, room) - from - 4;
-  const text = segment.label || (segment.cluster >= 0 ? String(segment.cluster) : nameOf(segment));
-  const shown = shortened(pen, text, space);
+  const space = Math.min(right, plotWidth) - from - 4;
+  const text =
+    segment.label || (segment.cluster >= 0 ? String(segment.cluster) : getSegmentName(segment));
+  const shown = shortenText(pen, text, space);
   if (!shown) return;
   pen.fillStyle = ink;
   pen.fillText(shown, from, lane.top + lane.height / 2 + 0.5);
 }
 
-/** What edits are for: the segment, broken where it was not chosen, and the border nearest by. */
-function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
+/** Outline the segment that edits apply to (dashed if not selected) and mark the nearest border. */
+function drawTarget(pen: Pen, lane: Lane, { range, plotWidth, store }: Scene): void {
   const target = store.edit.value ? store.target.value : store.selected.value;
   if (!target || lane.level !== target.level) return;
-  const left = toPixel(range, room, target.start_s);
-  const right = toPixel(range, room, target.stop_s);
-  pen.strokeStyle = cssColor("text");
+  const left = toPixel(range, plotWidth, target.start_s);
+  const right = toPixel(range, plotWidth, target.stop_s);
+  pen.strokeStyle = readColor("text");
   pen.lineWidth = 2;
   pen.setLineDash(store.selected.value ? [] : [4, 3]);
-  box(pen, left, lane.top - 0.5, Math.max(right - left, 2), lane.height + 1);
+  traceBox(pen, left, lane.top - 0.5, Math.max(right - left, 2), lane.height + 1);
   pen.stroke();
   pen.setLineDash([]);
   const border = store.edit.value && store.border.value;
   if (!border) return;
-  const x = toPixel(range, room, border.start_s);
-  pen.fillStyle = cssColor("text");
+  const x = toPixel(range, plotWidth, border.start_s);
+  pen.fillStyle = readColor("text");
   for (const [tip, base] of [
     [lane.top + 5, lane.top - 2],
     [lane.top + lane.height - 5, lane.top + lane.height + 2],
@@ -168,18 +183,18 @@ function drawTarget(pen: Pen, lane: Lane, { range, room, store }: Scene): void {
   }
 }
 
-function box(pen: Pen, x: number, y: number, width: number, height: number): void {
+function traceBox(pen: Pen, x: number, y: number, width: number, height: number): void {
   pen.beginPath();
   if (width < 2 * ROUND) pen.rect(x, y, width, height);
   else pen.roundRect(x, y, width, height, ROUND);
 }
 
-/** The lane's segments with the dragged border where the pointer is. */
-function moved(lane: Lane, drag: Drag | null, fps: number): readonly Segment[] {
+/** Return the lane's segments with the dragged border at the pointer. */
+function applyDrag(lane: Lane, drag: Drag | null, fps: number): readonly Segment[] {
   if (drag?.lane !== lane.id) return lane.segments;
   const { frame, to } = drag;
   return lane.segments.map((segment) => {
-    const present = { ...segment, checked: false }; // these frames are not those that were checked
+    const present = { ...segment, checked: false }; // the check was for other frames
     if (segment.start_frame === frame) return { ...present, start_frame: to, start_s: to / fps };
     if (segment.stop_frame === frame) return { ...present, stop_frame: to, stop_s: to / fps };
     return segment;

@@ -1,43 +1,56 @@
 /**
- * What pointers do on the lanes: scrub, select, pan, drag a border; two fingers zoom. A press that
- * hardly moves selects, also beside a border; one that moves takes the border along, by as much.
+ * Handle pointers on the lanes: scrub, select, pan, drag a border, and zoom with two fingers. A
+ * press that hardly moves selects, even next to a border; otherwise it drags the border.
  */
-import { CLICK, Fingers, placeOf, wheelFactor, type Pinch } from "../canvas/pointers";
-import { indexAt } from "../segments";
+import {
+  CLICK_TOLERANCE,
+  TouchTracker,
+  getPosition,
+  getZoomFactor,
+  type Pinch,
+} from "../canvas/pointers";
+import { findIndexAt } from "../segments";
 import type { Drag } from "../state";
 import type { Store } from "../store";
 import { toSeconds } from "../view";
 
-import { borderNear, GUTTER, laneAt, roomFor, RULER, type Lane } from "./lanes";
+import {
+  findBorder,
+  GUTTER_WIDTH,
+  findLane,
+  getBorderLimits,
+  RULER_HEIGHT,
+  type Lane,
+} from "./lanes";
 
-const GRIP = 5; // pixels to either side of a border
-const FINGER = 12;
-const LEAST_WIDTH = 6; // pixels of a segment that a dragged border leaves of it
+const MOUSE_REACH = 5; // pixels to either side of a border
+const TOUCH_REACH = 12;
+const MIN_SEGMENT_WIDTH = 6; // pixels that a dragged border leaves of a segment
 
-/** A place on the canvas, and how far a border may be from it. */
+/** A position on the canvas, and how far away a border may be. */
 interface Spot {
   x: number;
   y: number;
   width: number;
-  grip: number;
+  reach: number;
 }
 
-/** A border that a press is near enough to take. */
-interface Grip {
+/** A border within reach of a press. */
+interface BorderGrip {
   lane: Lane;
   drag: Drag;
 }
 
-type Doing =
+type Gesture =
   | { what: "scrub" }
-  | { what: "press"; spot: Spot; border: Grip | null }
+  | { what: "press"; spot: Spot; border: BorderGrip | null }
   | { what: "pan"; last: number }
   | { what: "pinch" }
-  | ({ what: "border"; x: number } & Grip);
+  | ({ what: "border"; x: number } & BorderGrip);
 
-export class Gestures {
-  private doing: Doing | null = null;
-  private readonly fingers = new Fingers();
+export class TimelineGestures {
+  private gesture: Gesture | null = null;
+  private readonly touches = new TouchTracker();
 
   constructor(
     private readonly store: Store,
@@ -47,72 +60,75 @@ export class Gestures {
 
   down(event: PointerEvent): void {
     if (event.button !== 0) return;
-    const spot = spotOf(event);
+    const spot = getSpot(event);
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
-    this.fingers.press(event.pointerId, spot);
-    if (this.fingers.count > 1) {
+    this.touches.press(event.pointerId, spot);
+    if (this.touches.count > 1) {
       this.onDrag(null);
-      this.doing = { what: "pinch" };
+      this.gesture = { what: "pinch" };
       return;
     }
-    if (spot.y < RULER) {
-      this.doing = { what: "scrub" };
-      this.store.seek(this.secondsAt(spot));
-    } else this.doing = { what: "press", spot, border: this.borderAt(spot) };
+    if (spot.y < RULER_HEIGHT) {
+      this.gesture = { what: "scrub" };
+      this.store.seek(this.getSecondsAt(spot));
+    } else this.gesture = { what: "press", spot, border: this.findBorder(spot) };
   }
 
   move(event: PointerEvent): void {
-    const spot = spotOf(event);
-    const pinch = this.fingers.move(event.pointerId, spot);
-    if (pinch) this.pinched(pinch, spot);
-    if (this.doing?.what === "press" && Math.abs(spot.x - this.doing.spot.x) > CLICK) {
-      const { border } = this.doing;
-      const { x } = this.doing.spot;
-      this.doing = border ? { what: "border", x, ...border } : { what: "pan", last: x };
+    const spot = getSpot(event);
+    const pinch = this.touches.move(event.pointerId, spot);
+    if (pinch) this.applyPinch(pinch, spot);
+    if (
+      this.gesture?.what === "press" &&
+      Math.abs(spot.x - this.gesture.spot.x) > CLICK_TOLERANCE
+    ) {
+      const { border } = this.gesture;
+      const { x } = this.gesture.spot;
+      this.gesture = border ? { what: "border", x, ...border } : { what: "pan", last: x };
     }
-    const { doing } = this;
-    if (doing?.what === "scrub") this.store.seek(this.secondsAt(spot));
-    else if (doing?.what === "pan") {
-      this.store.panBy(this.secondsAt({ ...spot, x: doing.last }) - this.secondsAt(spot));
-      doing.last = spot.x;
-    } else if (doing?.what === "border") {
+    const { gesture } = this;
+    if (gesture?.what === "scrub") this.store.seek(this.getSecondsAt(spot));
+    else if (gesture?.what === "pan") {
+      this.store.panBy(this.getSecondsAt({ ...spot, x: gesture.last }) - this.getSecondsAt(spot));
+      gesture.last = spot.x;
+    } else if (gesture?.what === "border") {
       const { start_s, stop_s } = this.store.range.value;
-      const perPixel = ((stop_s - start_s) / (spot.width - GUTTER)) * this.store.fps.value;
-      const least = Math.max(Math.ceil(perPixel * LEAST_WIDTH), 1);
-      const { frame } = doing.drag;
-      const [low, high] = roomFor(doing.lane.segments, frame, least);
-      const to = Math.round(frame + perPixel * (spot.x - doing.x));
-      doing.drag = { ...doing.drag, to: Math.min(Math.max(to, low), high) };
-      this.onDrag(doing.drag);
-      this.store.seek(doing.drag.to / this.store.fps.value);
-    } else if (!doing) this.hover(event, spot);
+      const perPixel = ((stop_s - start_s) / (spot.width - GUTTER_WIDTH)) * this.store.fps.value;
+      const least = Math.max(Math.ceil(perPixel * MIN_SEGMENT_WIDTH), 1);
+      const { frame } = gesture.drag;
+      const [low, high] = getBorderLimits(gesture.lane.segments, frame, least);
+      const to = Math.round(frame + perPixel * (spot.x - gesture.x));
+      gesture.drag = { ...gesture.drag, to: Math.min(Math.max(to, low), high) };
+      this.onDrag(gesture.drag);
+      this.store.seek(gesture.drag.to / this.store.fps.value);
+    } else if (!gesture) this.updateHover(event, spot);
   }
 
   up(event: PointerEvent): void {
-    const { doing } = this;
-    this.fingers.lift(event.pointerId);
-    if (doing?.what === "pinch" && this.fingers.count) return;
-    this.doing = null;
-    if (doing?.what === "press") this.click(doing.spot);
-    if (doing?.what !== "border") return;
-    const { frame, to } = doing.drag;
-    const { level } = doing.lane;
+    const { gesture } = this;
+    this.touches.lift(event.pointerId);
+    if (gesture?.what === "pinch" && this.touches.count) return;
+    this.gesture = null;
+    if (gesture?.what === "press") this.handleClick(gesture.spot);
+    if (gesture?.what !== "border") return;
+    const { frame, to } = gesture.drag;
+    const { level } = gesture.lane;
     if (level && to !== frame) this.store.edit.value?.({ kind: "move_border", level, frame, to });
     else this.onDrag(null);
   }
 
-  /** Escape: a border goes back to where it was; whether there was anything to give up. */
-  giveUp(): boolean {
-    const { doing } = this;
-    if (doing?.what !== "border") return false;
+  /** Cancel the drag of a border; return whether one was dragged. */
+  cancelDrag(): boolean {
+    const { gesture } = this;
+    if (gesture?.what !== "border") return false;
     this.cancel();
-    this.store.seek(doing.drag.frame / this.store.fps.value);
+    this.store.seek(gesture.drag.frame / this.store.fps.value);
     return true;
   }
 
   cancel(): void {
-    this.fingers.clear();
-    this.doing = null;
+    this.touches.clear();
+    this.gesture = null;
     this.onDrag(null);
   }
 
@@ -121,65 +137,66 @@ export class Gestures {
   }
 
   wheel(event: WheelEvent): void {
-    const spot = spotOf(event);
+    const spot = getSpot(event);
     const { start_s, stop_s } = this.store.range.value;
     const sideways = event.shiftKey ? event.deltaY : event.deltaX;
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
-      this.store.panBy((sideways / (spot.width - GUTTER)) * (stop_s - start_s));
-    else this.store.zoomBy(wheelFactor(event), this.secondsAt(spot));
+      this.store.panBy((sideways / (spot.width - GUTTER_WIDTH)) * (stop_s - start_s));
+    else this.store.zoomBy(getZoomFactor(event), this.getSecondsAt(spot));
   }
 
-  /** What lies between two fingers stays there. */
-  private pinched(pinch: Pinch, spot: Spot): void {
-    const at = this.secondsAt({ ...spot, ...pinch.from });
+  /** Zoom around the midpoint of two fingers. */
+  private applyPinch(pinch: Pinch, spot: Spot): void {
+    const at = this.getSecondsAt({ ...spot, ...pinch.from });
     this.store.zoomBy(pinch.factor, at);
-    this.store.panBy(at - this.secondsAt({ ...spot, ...pinch.to }));
+    this.store.panBy(at - this.getSecondsAt({ ...spot, ...pinch.to }));
   }
 
-  private click(spot: Spot): void {
-    const segment = this.segmentAt(spot);
-    const person = laneAt(this.lanes(), spot.y)?.person ?? null;
+  private handleClick(spot: Spot): void {
+    const segment = this.findSegment(spot);
+    const person = findLane(this.lanes(), spot.y)?.person ?? null;
     if (person !== null) this.store.show(person);
     if (person !== null && segment) this.store.select(segment);
-    else if (person !== null && spot.x < GUTTER)
-      return; // their name alone
-    else if (segment && laneAt(this.lanes(), spot.y)?.level) this.store.select(segment);
-    else this.store.seek(segment?.start_s ?? this.secondsAt(spot));
+    else if (person !== null && spot.x < GUTTER_WIDTH)
+      return; // a click on the name only activates the person
+    else if (segment && findLane(this.lanes(), spot.y)?.level) this.store.select(segment);
+    else this.store.seek(segment?.start_s ?? this.getSecondsAt(spot));
   }
 
-  private hover(event: PointerEvent, spot: Spot): void {
-    const segment = this.segmentAt(spot);
-    const isInFront = (laneAt(this.lanes(), spot.y)?.person ?? null) === null;
+  private updateHover(event: PointerEvent, spot: Spot): void {
+    const segment = this.findSegment(spot);
+    const isInFront = (findLane(this.lanes(), spot.y)?.person ?? null) === null;
     this.store.hovered.value =
       segment && isInFront && segment.cluster >= 0 ? segment.cluster : null;
-    const cursor = spot.y < RULER || this.borderAt(spot) ? "ew-resize" : segment ? "pointer" : "";
+    const cursor =
+      spot.y < RULER_HEIGHT || this.findBorder(spot) ? "ew-resize" : segment ? "pointer" : "";
     (event.currentTarget as HTMLElement).style.cursor = cursor;
   }
 
-  private segmentAt(spot: Spot): Lane["segments"][number] | undefined {
-    const lane = laneAt(this.lanes(), spot.y);
-    if (!lane || spot.x < GUTTER) return undefined;
-    const seconds = this.secondsAt(spot);
-    const segment = lane.segments[indexAt(lane.segments, this.store.frameAt(seconds))];
+  private findSegment(spot: Spot): Lane["segments"][number] | undefined {
+    const lane = findLane(this.lanes(), spot.y);
+    if (!lane || spot.x < GUTTER_WIDTH) return undefined;
+    const seconds = this.getSecondsAt(spot);
+    const segment = lane.segments[findIndexAt(lane.segments, this.store.getFrameAt(seconds))];
     return segment && seconds < segment.stop_s && seconds >= segment.start_s ? segment : undefined;
   }
 
-  private borderAt(spot: Spot): Grip | null {
-    const lane = laneAt(this.lanes(), spot.y);
-    if (!this.store.edit.value || !lane?.level || spot.x < GUTTER) return null;
+  private findBorder(spot: Spot): BorderGrip | null {
+    const lane = findLane(this.lanes(), spot.y);
+    if (!this.store.edit.value || !lane?.level || spot.x < GUTTER_WIDTH) return null;
     const { start_s, stop_s } = this.store.range.value;
-    const reach = (spot.grip / (spot.width - GUTTER)) * (stop_s - start_s);
-    const frame = borderNear(lane.segments, this.secondsAt(spot), reach, this.store.fps.value);
+    const reach = (spot.reach / (spot.width - GUTTER_WIDTH)) * (stop_s - start_s);
+    const frame = findBorder(lane.segments, this.getSecondsAt(spot), reach, this.store.fps.value);
     return frame === null ? null : { lane, drag: { lane: lane.id, frame, to: frame } };
   }
 
-  private secondsAt({ x, width }: Spot): number {
-    return toSeconds(this.store.range.value, width - GUTTER, x - GUTTER);
+  private getSecondsAt({ x, width }: Spot): number {
+    return toSeconds(this.store.range.value, width - GUTTER_WIDTH, x - GUTTER_WIDTH);
   }
 }
 
-function spotOf(event: PointerEvent | WheelEvent): Spot {
+function getSpot(event: PointerEvent | WheelEvent): Spot {
   const { width } = (event.currentTarget as Element).getBoundingClientRect();
-  const grip = "pointerType" in event && event.pointerType === "touch" ? FINGER : GRIP;
-  return { ...placeOf(event), width, grip };
+  const reach = "pointerType" in event && event.pointerType === "touch" ? TOUCH_REACH : MOUSE_REACH;
+  return { ...getPosition(event), width, reach };
 }

@@ -1,6 +1,6 @@
-/** Which lanes the timeline has, and where; pure functions. */
+/** Compute the timeline's lanes and their layout. Pure functions. */
 import type { Level, Segment, Segments } from "../messages";
-import { durationOf, indexAt, laneOf } from "../segments";
+import { bisect, getDuration, findIndexAt, getLane } from "../segments";
 
 export interface Lane {
   id: string;
@@ -8,195 +8,166 @@ export interface Lane {
   top: number;
   height: number;
   segments: readonly Segment[];
-  /** Which level's borders can be dragged here; null: none. */
+  /** Level whose borders can be dragged here; null for none. */
   level: Level | null;
-  /** Frames of borders to point out: those that the other result has not. */
+  /** Frames of borders that the other result lacks. */
   differences: ReadonlySet<number>;
-  /** Of another person of the same file: their place among what is open; null: of the one in front. */
+  /** Index of another person's recording among the open ones; null for the active one. */
   person: number | null;
-  /** Whether its title is the name of the person in front. */
-  front: boolean;
+  /** Whether its title is the name of the active person. */
+  isActive: boolean;
 }
 
-/** A person of the file, and the table; null for the one in front. */
+/** A person of the file, with the table unless it is the active one. */
 export interface PersonLanes {
   name: string;
-  /** Place among what is open. */
+  /** Index among the open recordings. */
   index: number;
   segmentation: Segments | null;
 }
 
-export const RULER = 22;
-export const GUTTER = 78;
+export const RULER_HEIGHT = 22;
+export const GUTTER_WIDTH = 78;
 const GAP = 4;
-const BETWEEN = 7; // people
+const PEOPLE_GAP = 7; // people
 
-interface Given {
+interface LaneInput {
   activities: readonly Segment[];
   primitives: readonly Segment[];
   labels: readonly Segment[];
   others: readonly { name: string; segmentation: Segments; marked?: boolean }[];
-  /** Those of the file who are open, where they are several, from top to bottom. */
+  /** Open people of the file from top to bottom, if several. */
   people?: readonly PersonLanes[];
 }
 
-type Row = Omit<Lane, "top" | "height"> & { share: number; above: number };
+type LaneRow = Omit<Lane, "top" | "height"> & { share: number; above: number };
 
-const SAME = 0.1; // seconds from a border to one that counts as the same
-const NONE: ReadonlySet<number> = new Set();
+const BORDER_TOLERANCE = 0.1; // seconds between borders that count as equal
+const NO_FRAMES: ReadonlySet<number> = new Set();
+const DEFAULT_ROW = {
+  level: null,
+  differences: NO_FRAMES,
+  person: null,
+  isActive: false,
+  above: 0,
+};
 
-/** The lanes from top to bottom, sharing what height there is. */
-export function layOut(given: Given, height: number): Lane[] {
+/** Return the lanes from top to bottom, sharing the height in pixels. */
+export function layOutLanes(given: LaneInput, height: number): Lane[] {
   const { people = [] } = given;
   const rows = people.length
-    ? people.flatMap((person, i) => lanesOfPerson(person, given, i ? BETWEEN : 0))
-    : lanesInFront(given);
+    ? people.flatMap((person, i) => createPersonLanes(person, given, i ? PEOPLE_GAP : 0))
+    : createActiveLanes(given);
   const total = rows.reduce((sum, row) => sum + row.share, 0);
   const gaps = rows.reduce((sum, row) => sum + GAP + row.above, 0);
-  const room = Math.max(height - RULER - gaps, 0);
-  let top = RULER;
+  const available = Math.max(height - RULER_HEIGHT - gaps, 0);
+  let top = RULER_HEIGHT;
   return rows.map(({ share, above, ...row }) => {
     top += above;
-    const lane = { ...row, top, height: Math.min((room * share) / total, 44 * share) };
+    const lane = { ...row, top, height: Math.min((available * share) / total, 44 * share) };
     top += lane.height + GAP;
     return lane;
   });
 }
 
-/** What is seen of a person: all of the one in front, the segments of the others. */
-function lanesOfPerson(person: PersonLanes, given: Given, above: number): Row[] {
+/** Return a person's lanes: all of the active one, the segments of others. */
+function createPersonLanes(person: PersonLanes, given: LaneInput, above: number): LaneRow[] {
   const { name, index, segmentation } = person;
   if (!segmentation)
-    return lanesInFront(given).map((row, i) =>
-      i ? row : { ...row, title: name, front: true, above },
+    return createActiveLanes(given).map((row, i) =>
+      i ? row : { ...row, title: name, isActive: true, above },
     );
-  const shared = { level: null, differences: NONE, person: index, front: false };
   const levels = (["activity", "primitive"] as const).map((level) => ({
-    ...shared,
+    ...DEFAULT_ROW,
+    person: index,
     id: `person-${index}-${level}`,
     title: "",
-    segments: laneOf(segmentation, level),
+    segments: getLane(segmentation, level),
     share: 0.8,
-    above: 0,
   }));
   return levels
     .filter(({ segments }, i) => !i || segments.length)
     .map((row, i) => (i ? row : { ...row, title: name, above }));
 }
 
-function lanesInFront({ activities, primitives, labels, others }: Given): Row[] {
+function createActiveLanes({ activities, primitives, labels, others }: LaneInput): LaneRow[] {
   const below = others.map(({ name, segmentation, marked }) => ({
     name,
     marked,
-    activity: laneOf(segmentation, "activity"),
-    primitive: laneOf(segmentation, "primitive"),
+    activity: getLane(segmentation, "activity"),
+    primitive: getLane(segmentation, "primitive"),
   }));
   const marked = below.find((each) => each.marked);
-  const only = (mine: readonly Segment[], counterpart?: readonly Segment[]): ReadonlySet<number> =>
-    marked && counterpart ? without(mine, counterpart) : NONE;
-  const shared = { person: null, front: false, above: 0 };
-  const rows: Row[] = [
-    {
-      ...shared,
-      id: "activity",
-      title: "Activities",
-      segments: activities,
+  const compare = (mine: readonly Segment[], others?: readonly Segment[]): ReadonlySet<number> =>
+    others ? findUnmatchedBorders(mine, others) : NO_FRAMES;
+  const createRow = (
+    id: string,
+    title: string,
+    segments: readonly Segment[],
+    share: number,
+    rest: Partial<LaneRow> = {},
+  ): LaneRow => ({ ...DEFAULT_ROW, id, title, segments, share, ...rest });
+  const rows = [
+    createRow("activity", "Activities", activities, 1, {
       level: "activity",
-      share: 1,
-      differences: only(activities, marked?.activity),
-    },
-    {
-      ...shared,
-      id: "primitive",
-      title: "Primitives",
-      segments: primitives,
+      differences: compare(activities, marked?.activity),
+    }),
+    createRow("primitive", "Primitives", primitives, 1.2, {
       level: "primitive",
-      share: 1.2,
-      differences: only(primitives, marked?.primitive),
-    },
-    {
-      ...shared,
-      id: "label",
-      title: "Labels",
-      segments: labels,
-      level: null,
-      share: 0.7,
-      differences: NONE,
-    },
+      differences: compare(primitives, marked?.primitive),
+    }),
+    createRow("label", "Labels", labels, 0.7),
   ];
-  below.forEach((other, i) => {
-    rows.push({
-      ...shared,
-      id: `other-activity-${i}`,
-      title: other.name,
-      segments: other.activity,
-      level: null,
-      share: 0.8,
-      differences: other.marked ? without(other.activity, activities) : NONE,
-    });
-    if (below.length > 1 && !other.primitive.length) return; // room for those who have some
-    rows.push({
-      ...shared,
-      id: `other-primitive-${i}`,
-      title: "",
-      segments: other.primitive,
-      level: null,
-      share: 0.8,
-      differences: other.marked ? without(other.primitive, primitives) : NONE,
-    });
+  below.forEach(({ name, marked, activity, primitive }, i) => {
+    const differences = compare(activity, marked ? activities : undefined);
+    rows.push(createRow(`other-activity-${i}`, name, activity, 0.8, { differences }));
+    // Leave space for results that have some.
+    if (below.length > 1 && !primitive.length) return;
+    const unmatched = compare(primitive, marked ? primitives : undefined);
+    rows.push(createRow(`other-primitive-${i}`, "", primitive, 0.8, { differences: unmatched }));
   });
   return rows;
 }
 
-/** The borders that one lane has, and another has none as near as the eye takes for the same. */
-function without(mine: readonly Segment[], others: readonly Segment[]): ReadonlySet<number> {
-  const near = ({ start_s }: Segment): boolean => {
-    let [low, high] = [0, others.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (others[middle]!.start_s < start_s - SAME) low = middle + 1;
-      else high = middle;
-    }
-    return low < others.length && others[low]!.start_s <= start_s + SAME;
+/** Return the borders of one lane without a counterpart in another. */
+function findUnmatchedBorders(
+  mine: readonly Segment[],
+  others: readonly Segment[],
+): ReadonlySet<number> {
+  const hasMatch = ({ start_s }: Segment): boolean => {
+    const i = bisect(others, (each) => each.start_s < start_s - BORDER_TOLERANCE);
+    return i < others.length && others[i]!.start_s <= start_s + BORDER_TOLERANCE;
   };
-  return new Set(mine.filter((each) => !near(each)).map((each) => each.start_frame));
+  return new Set(mine.filter((each) => !hasMatch(each)).map((each) => each.start_frame));
 }
 
-/** The lane at a height of the canvas. */
-export function laneAt(lanes: readonly Lane[], y: number): Lane | undefined {
+/** Return the lane at a vertical position. */
+export function findLane(lanes: readonly Lane[], y: number): Lane | undefined {
   return lanes.find((lane) => y >= lane.top && y < lane.top + lane.height);
 }
 
-/** The segments of a lane that a span of time shows: from the first to behind the last. */
-export function visible(
+/** Return the index range of the segments within a time span. */
+export function findVisible(
   segments: readonly Segment[],
   start_s: number,
   stop_s: number,
 ): [number, number] {
-  let low = 0;
-  let high = segments.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (segments[middle]!.stop_s < start_s) low = middle + 1;
-    else high = middle;
-  }
-  let end = low;
-  while (end < segments.length && segments[end]!.start_s <= stop_s) end++;
-  return [low, end];
+  const first = bisect(segments, (each) => each.stop_s < start_s);
+  return [first, bisect(segments, (each) => each.start_s <= stop_s, first)];
 }
 
 /**
- * The frame of the border nearest to a time, if it is less than `reach` seconds away; in a segment
- * that is not much wider less than a third of it, so that its middle is the segment's own.
+ * Return the frame of the border nearest to a time, if within `reach` seconds. In a narrow segment
+ * the limit is a third of its duration, so that its middle stays clickable.
  */
-export function borderNear(
+export function findBorder(
   segments: readonly Segment[],
   seconds: number,
   reach: number,
   fps: number,
 ): number | null {
-  const i = indexAt(segments, Math.floor(seconds * fps));
-  const share = segments[i] ? durationOf(segments[i]) / 3 : 0;
+  const i = findIndexAt(segments, Math.floor(seconds * fps));
+  const share = segments[i] ? getDuration(segments[i]) / 3 : 0;
   const near = [segments[i], segments[i + 1]]
     .filter((segment) => segment !== undefined && segment.start_frame > 0)
     .map((segment) => ({ frame: segment!.start_frame, far: Math.abs(segment!.start_s - seconds) }))
@@ -204,16 +175,13 @@ export function borderNear(
   return near && near.far < Math.min(reach, share) ? near.frame : null;
 }
 
-/**
- * Where a border may go: so many frames are left of its two segments each that both can still be
- * seen, or as many as they have if that is fewer.
- */
-export function roomFor(
+/** Return a border's limits, which leave both segments `least` frames or their length. */
+export function getBorderLimits(
   segments: readonly Segment[],
   border: number,
   least: number,
 ): [number, number] {
-  const i = indexAt(segments, border);
+  const i = findIndexAt(segments, border);
   const low = segments[i - 1]?.start_frame ?? 0;
   const high = segments[i]?.stop_frame ?? border;
   return [Math.min(low + least, border), Math.max(high - least, border)];

@@ -1,18 +1,18 @@
-/** Play, step, loop, speed, and where in the recording we are. */
+/** Offer the playback controls. */
 import type { JSX } from "preact";
 import { useStore } from "../context";
-import { useCalm } from "../canvas/calm";
+import { useThrottled } from "../canvas/useThrottled";
 import { toggleFullScreen } from "../layout/fullScreen";
 import { NumberInput } from "../layout/NumberInput";
 import { togglePlay } from "../player";
-import { clock } from "../view";
+import { formatTime } from "../view";
 import { IconButton } from "./icons";
 import { Button, Select } from "../layout/controls";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 interface Props {
-  /** Whether there are curves to show below the timeline. */
+  /** Whether curves are available below the timeline. */
   curves?: boolean;
 }
 
@@ -82,16 +82,17 @@ export function Transport({ curves = false }: Props): JSX.Element {
   );
 }
 
-/** Time and frame, and a slider over the whole recording. */
+/** Show time and frame, with a slider over the recording. */
 function Clock(): JSX.Element {
   const store = useStore();
   const { duration } = store;
-  const playhead = useCalm(store.playhead, store.playing);
-  const frame = store.frameAt(playhead.value);
+  const playhead = useThrottled(store.playhead, store.playing);
+  const frame = store.getFrameAt(playhead.value);
   return (
     <>
       <output class="clock number">
-        <b>{clock(playhead.value, 2)}</b> <span class="quiet">/ {clock(duration.value, 2)}</span>
+        <b>{formatTime(playhead.value, 2)}</b>{" "}
+        <span class="quiet">/ {formatTime(duration.value, 2)}</span>
       </output>
       <label class="clock-frame quiet">
         frame
@@ -107,7 +108,7 @@ function Clock(): JSX.Element {
         type="range"
         class="scrub"
         aria-label="Playhead"
-        aria-valuetext={clock(playhead.value, 2)}
+        aria-valuetext={formatTime(playhead.value, 2)}
         min={0}
         max={duration.value}
         step={0.01}

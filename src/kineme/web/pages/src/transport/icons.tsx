@@ -1,6 +1,7 @@
-/** Small pictures on buttons; drawn in the text's colour. */
+/** Draw icon buttons in the text's colour. */
 import type { JSX } from "preact";
 import { Button } from "../layout/controls";
+import { theme, toggleTheme } from "../theme";
 
 const PATHS = {
   play: "M4 2.5v11l9-5.5z",
@@ -29,7 +30,7 @@ export function Icon({ name }: { name: IconName }): JSX.Element {
 
 interface ButtonProps {
   icon: IconName;
-  /** What it does, for the tooltip and for those who do not see the icon. */
+  /** Accessible name and tooltip. */
   label: string;
   keys?: string;
   pressed?: boolean;
@@ -57,4 +58,10 @@ export function IconButton({
       <Icon name={icon} />
     </Button>
   );
+}
+
+/** Render a button that switches between the dark and the light theme. */
+export function ThemeButton(): JSX.Element {
+  const other = theme.value === "dark" ? "light" : "dark";
+  return <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />;
 }

@@ -1,14 +1,14 @@
-/** What is played, in words over the picture. */
+/** Describe what is played, over the picture. */
 import type { JSX } from "preact";
 import { NO_COLOR } from "../colors";
 import { useStore } from "../context";
-import { counted } from "../counted";
-import { personCalled, type OpenRecording } from "../opened";
-import { nameOf, primitiveAt } from "../segments";
-import { clock } from "../view";
-import { MOST_MEMBERS } from "./placement";
+import { formatCount } from "../formatCount";
+import { formatPerson, type OpenRecording } from "../openRecording";
+import { getSegmentName, findPrimitiveAt } from "../segments";
+import { formatTime } from "../view";
+import { MAX_MEMBERS } from "./placement";
+import { Swatch } from "../layout/controls";
 
-/** What is played: the primitive under the playhead, of each person, and which cluster is shown. */
 export function Caption(): JSX.Element {
   const store = useStore();
   const present = store.present.value;
@@ -16,22 +16,21 @@ export function Caption(): JSX.Element {
   const stepping = store.inStep.value && shown;
   const people = stepping ? [] : store.people.value;
   const n = shown?.members.length ?? 0;
-  const all = counted(n, "member");
-  const count = n > MOST_MEMBERS ? `the first ${MOST_MEMBERS} of ${n} members` : all;
+  const all = formatCount(n, "member");
+  const count = n > MAX_MEMBERS ? `the first ${MAX_MEMBERS} of ${n} members` : all;
   return (
     <div class="caption">
       {people.map((each) => (
-        <PersonPresent key={each.recording.value.id} opened={each} />
+        <PersonCaption key={each.recording.value.id} opened={each} />
       ))}
       {present && !people.length && (
         <p>
-          <span class="swatch" style={{ background: store.colorOf(present) ?? NO_COLOR }} />{" "}
-          {nameOf(present)}
+          <Swatch color={store.getColor(present) ?? NO_COLOR} /> {getSegmentName(present)}
         </p>
       )}
       {store.ghost.value && !stepping && (
         <p class="quiet">
-          ghost: {nameOf(store.ghost.value)} of {clock(store.ghost.value.start_s, 2)}
+          ghost: {getSegmentName(store.ghost.value)} of {formatTime(store.ghost.value.start_s, 2)}
         </p>
       )}
       {stepping && <p class="quiet">{count} in step</p>}
@@ -44,20 +43,17 @@ export function Caption(): JSX.Element {
   );
 }
 
-/** The primitive of one of several people at the playhead; the name of the one in front is bold. */
-function PersonPresent({ opened }: { opened: OpenRecording }): JSX.Element {
+/** Show the primitive of one of several people; the active one's name is bold. */
+function PersonCaption({ opened }: { opened: OpenRecording }): JSX.Element {
   const store = useStore();
   const { person, name, segmentation } = opened.recording.value;
-  const present = primitiveAt(segmentation, store.playhead.value);
-  const called = personCalled(person ?? name);
+  const present = findPrimitiveAt(segmentation, store.playhead.value);
+  const called = formatPerson(person ?? name);
   return (
     <p>
-      <span
-        class="swatch"
-        style={{ background: (present && store.colorOf(present)) ?? NO_COLOR }}
-      />{" "}
+      <Swatch color={(present && store.getColor(present)) ?? NO_COLOR} />{" "}
       {opened === store.active.value ? <strong>{called}</strong> : called}{" "}
-      <span class="quiet">{present && nameOf(present)}</span>
+      <span class="quiet">{present && getSegmentName(present)}</span>
     </p>
   );
 }

@@ -1,9 +1,9 @@
-/** The figures in 3-D: drag to orbit, wheel to zoom, right button or two fingers to pan. */
+/** Show the figures in 3-D. */
 import { useEffect, useRef } from "preact/hooks";
 import type { JSX } from "preact";
 import { useStore } from "../context";
 import { Caption } from "./Caption";
-import { keepUpToDate, turnByKey } from "./updates";
+import { startUpdates, turnByKey } from "./updates";
 import { FigureScene } from "./scene";
 import { ViewerButtons } from "./ViewerButtons";
 
@@ -15,7 +15,7 @@ export function Viewer(): JSX.Element {
     const element = canvas.current!;
     const made = new FigureScene(store, element);
     scene.current = made;
-    const stop = keepUpToDate(store, made, element);
+    const stop = startUpdates(store, made, element);
     return () => {
       stop();
       made.dispose();
@@ -31,7 +31,7 @@ export function Viewer(): JSX.Element {
         onKeyDown={(event) => turnByKey(event, scene.current)}
       />
       <Caption />
-      <ViewerButtons onFrame={() => scene.current?.frame()} />
+      <ViewerButtons onFrame={() => scene.current?.frameFigures()} />
     </div>
   );
 }

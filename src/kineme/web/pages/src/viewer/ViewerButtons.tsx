@@ -1,4 +1,4 @@
-/** What the viewer shows besides the figure, and the way back to a good view. */
+/** Offer the viewer's options. */
 import type { Signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useStore } from "../context";
@@ -19,7 +19,7 @@ export function ViewerButtons({ onFrame }: { onFrame: () => void }): JSX.Element
         on={store.inStep}
         title="All members of the selected cluster, playing in step"
         disabled={store.clusters.value.length === 0 || !store.active.value?.motion.value}
-        onTurn={() => store.cluster.value ?? store.selectCluster(clusterNear(store))}
+        onBeforeToggle={() => store.cluster.value ?? store.selectCluster(getCurrentCluster(store))}
       >
         In step
       </Toggle>
@@ -42,19 +42,25 @@ interface ToggleProps {
   on: Signal<boolean>;
   title: string;
   disabled?: boolean;
-  /** Done before it is turned on or off. */
-  onTurn?: () => unknown;
+  /** Called before the signal changes. */
+  onBeforeToggle?: () => unknown;
   children: string;
 }
 
-function Toggle({ on, title, disabled = false, onTurn, children }: ToggleProps): JSX.Element {
+function Toggle({
+  on,
+  title,
+  disabled = false,
+  onBeforeToggle,
+  children,
+}: ToggleProps): JSX.Element {
   return (
     <Button
       aria-pressed={on.value}
       title={title}
       disabled={disabled}
       onClick={() => {
-        onTurn?.();
+        onBeforeToggle?.();
         on.value = !on.value;
       }}
     >
@@ -63,8 +69,8 @@ function Toggle({ on, title, disabled = false, onTurn, children }: ToggleProps):
   );
 }
 
-/** The cluster under the playhead, else the first. */
-function clusterNear(store: Store): number {
+/** Return the cluster at the playhead, else the first. */
+function getCurrentCluster(store: Store): number {
   const present = store.present.value?.cluster ?? -1;
   return present >= 0 ? present : (store.clusters.value[0]?.id ?? 0);
 }

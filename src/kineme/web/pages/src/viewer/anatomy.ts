@@ -1,22 +1,23 @@
-/** How thick the bones of a skeleton are drawn, and how large the body is. Pure functions. */
-import { poseAt, type Motion } from "../motion";
+/** Compute the size of a body and the thickness of its bones. Pure functions. */
+import { memoize } from "../memoize";
+import { computePose, type Motion } from "../motion";
 import type { MotionHead } from "../messages";
 
 /** Radii in metres; a bone tapers from `bones[i]` to `TAPER` times that. */
 export interface Anatomy {
-  /** Height of the body, or the length of what was recorded of it. */
+  /** Height of the body, or the extent of the recorded part, metres. */
   size: number;
-  /** Height of the ground it stands on. */
+  /** Height of the ground, metres. */
   ground: number;
   bones: Float32Array;
   joints: Float32Array;
-  /** The bone drawn as a head; -1 where none is known. */
+  /** Index of the bone drawn as a head; -1 if unknown. */
   skull: number;
 }
 
 export const TAPER = 0.62;
 
-export function anatomyOf(motion: Motion): Anatomy {
+export function measureAnatomy(motion: Motion): Anatomy {
   const { head } = motion;
   const pose = new Float32Array(head.joints.length * 3);
   const lowest: number[] = [];
@@ -24,30 +25,30 @@ export function anatomyOf(motion: Motion): Anatomy {
   const lengths = head.bones.map(() => [] as number[]);
   const seconds = head.n_samples / head.sample_fps;
   for (let i = 0; i < 100; i++) {
-    poseAt(motion, (seconds * i) / 100, pose);
-    const box = boxOf(pose);
+    computePose(motion, (seconds * i) / 100, pose);
+    const box = computeBox(pose);
     if (!box) continue;
     lowest.push(box.low[1]);
     extents.push(Math.max(...box.high.map((high, axis) => high - box.low[axis]!)));
     head.bones.forEach(([a, b], bone) => {
-      const length = distance(pose, a, b);
+      const length = computeDistance(pose, a, b);
       if (Number.isFinite(length)) lengths[bone]!.push(length);
     });
   }
-  const size = quantile(extents, 0.5) || 1;
-  const bones = boneRadii(
+  const size = computeQuantile(extents, 0.5) || 1;
+  const bones = computeBoneRadii(
     head,
     size,
-    lengths.map((all) => quantile(all, 0.5)),
+    lengths.map((all) => computeQuantile(all, 0.5)),
   );
-  const joints = jointRadii(head, size, bones);
+  const joints = computeJointRadii(head, size, bones);
   const skull = head.bones.findIndex(([, tip]) => tip === head.effectors["head"]);
-  return { size, ground: quantile(lowest, 0.05) - 0.008 * size, bones, joints, skull };
+  return { size, ground: computeQuantile(lowest, 0.05) - 0.008 * size, bones, joints, skull };
 }
 
-/** Long bones are thick, fingers thin, the spine thickest. */
-function boneRadii(head: MotionHead, size: number, lengths: number[]): Float32Array {
-  const spine = pathToRoot(head, head.effectors["head"] ?? -1);
+/** Return bone radii in metres: long bones are thick, fingers thin, the spine thickest. */
+function computeBoneRadii(head: MotionHead, size: number, lengths: number[]): Float32Array {
+  const spine = tracePathToRoot(head, head.effectors["head"] ?? -1);
   return Float32Array.from(lengths, (length, bone) => {
     const [from, to] = head.bones[bone]!;
     const share = 0.03 * Math.sqrt(length / (0.23 * size));
@@ -56,8 +57,8 @@ function boneRadii(head: MotionHead, size: number, lengths: number[]): Float32Ar
   });
 }
 
-/** A joint covers the ends of its bones; alone it is a marker. */
-function jointRadii(head: MotionHead, size: number, bones: Float32Array): Float32Array {
+/** Return joint radii in metres; a joint covers the ends of its bones. */
+function computeJointRadii(head: MotionHead, size: number, bones: Float32Array): Float32Array {
   const radii = new Float32Array(head.joints.length);
   head.bones.forEach(([from, to], bone) => {
     radii[from] = Math.max(radii[from]!, 1.12 * bones[bone]!);
@@ -65,19 +66,19 @@ function jointRadii(head: MotionHead, size: number, bones: Float32Array): Float3
   });
   const crown = head.effectors["head"] ?? -1;
   return radii.map((radius, joint) => {
-    const inside = joint === crown && radius > 0; // covered by the head
+    const inside = joint === crown && radius > 0; // hidden inside the head
     return inside ? 0 : radius || 0.011 * size;
   });
 }
 
-function pathToRoot(head: MotionHead, joint: number): Set<number> {
+function tracePathToRoot(head: MotionHead, joint: number): Set<number> {
   const path = new Set<number>();
   for (let at = joint; at >= 0 && !path.has(at); at = head.parents[at] ?? -1) path.add(at);
   return path;
 }
 
-/** The smallest box around the joints that are there. */
-export function boxOf(
+/** Return the bounding box of the joints that are not missing; null if all are. */
+export function computeBox(
   pose: Float32Array,
 ): { low: [number, number, number]; high: [number, number, number] } | null {
   const low: [number, number, number] = [Infinity, Infinity, Infinity];
@@ -92,22 +93,16 @@ export function boxOf(
   return low[0] <= high[0] ? { low, high } : null;
 }
 
-function distance(pose: Float32Array, a: number, b: number): number {
+function computeDistance(pose: Float32Array, a: number, b: number): number {
   const at = (joint: number, axis: number): number => pose[3 * joint + axis]!;
   return Math.hypot(at(a, 0) - at(b, 0), at(a, 1) - at(b, 1), at(a, 2) - at(b, 2));
 }
 
-/** The value below which a share of the values lies; 0 of none. */
-export function quantile(values: readonly number[], share: number): number {
+/** Return a quantile; 0 of no values. */
+export function computeQuantile(values: readonly number[], share: number): number {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)] ?? 0;
 }
 
-const anatomies = new WeakMap<Motion, Anatomy>();
-
-/** The same, once for each motion. */
-export function anatomyOfCached(motion: Motion): Anatomy {
-  let anatomy = anatomies.get(motion);
-  if (!anatomy) anatomies.set(motion, (anatomy = anatomyOf(motion)));
-  return anatomy;
-}
+/** Return the cached anatomy of a motion. */
+export const getAnatomy = memoize(measureAnatomy);

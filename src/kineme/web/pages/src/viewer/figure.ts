@@ -1,8 +1,8 @@
-/** A skeleton on the stage: tapered bones, round joints, a head, and their shadow. */
+/** Draw a skeleton with tapered bones, round joints, a head and a shadow. */
 import * as THREE from "three";
 import type { MotionHead } from "../messages";
 import { TAPER, type Anatomy } from "./anatomy";
-import { bodyPaint, type Haze } from "./paints";
+import { createBodyMaterial, type Fog } from "./materials";
 
 export interface Colors {
   body: string;
@@ -11,7 +11,7 @@ export interface Colors {
 }
 
 const UP = new THREE.Vector3(0, 1, 0);
-const LIGHT = new THREE.Vector3(0.35, 1, 0.25); // where the shadow's light comes from
+const LIGHT = new THREE.Vector3(0.35, 1, 0.25); // direction of the light that casts the shadow
 const HEAD_WIDTH = 0.4; // of the length of the head's bone
 const bone = new THREE.CylinderGeometry(TAPER, 1, 1, 10, 1, true).translate(0, 0.5, 0);
 const ball = new THREE.SphereGeometry(1, 14, 10);
@@ -21,71 +21,77 @@ export class Figure {
   private readonly bones: THREE.InstancedMesh;
   private readonly joints: THREE.InstancedMesh;
   private readonly skull: THREE.InstancedMesh;
-  private readonly paints: Record<keyof Colors, THREE.RawShaderMaterial>;
+  private readonly materials: Record<keyof Colors, THREE.RawShaderMaterial>;
 
   constructor(
-    haze: Haze,
+    haze: Fog,
     private readonly head: MotionHead,
     private readonly anatomy: Anatomy,
   ) {
     const paints = {
-      body: bodyPaint(haze, 1),
-      joint: bodyPaint(haze, 1),
-      shadow: bodyPaint(haze, 0),
+      body: createBodyMaterial(haze, 1),
+      joint: createBodyMaterial(haze, 1),
+      shadow: createBodyMaterial(haze, 0),
     };
-    this.paints = paints;
-    this.bones = instanced(bone, paints.body, head.bones.length);
-    this.joints = instanced(ball, paints.joint, head.joints.length);
-    this.skull = instanced(ball, paints.body, 1);
+    this.materials = paints;
+    this.bones = createInstances(bone, paints.body, head.bones.length);
+    this.joints = createInstances(ball, paints.joint, head.joints.length);
+    this.skull = createInstances(ball, paints.body, 1);
     const shade = new THREE.Group();
     shade.matrixAutoUpdate = false;
-    shade.matrix.copy(flattening(anatomy.ground + 0.001 * anatomy.size));
-    shade.add(...[this.bones, this.joints, this.skull].map((mesh) => this.shadowOf(mesh)));
+    shade.matrix.copy(createShadowMatrix(anatomy.ground + 0.001 * anatomy.size));
+    shade.add(...[this.bones, this.joints, this.skull].map((mesh) => this.createShadow(mesh)));
     this.group.add(this.bones, this.joints, this.skull, shade);
   }
 
-  /** Puts every joint where the pose has it (x, y, z per joint); NaN hides it and its bones. */
-  pose(positions: Float32Array): void {
+  /** Apply a pose (x, y, z per joint); NaN hides a joint and its bones. */
+  setPose(positions: Float32Array): void {
     const { bones, joints, skull } = this.anatomy;
     this.head.bones.forEach(([from, to], i) => {
       const radius = i === skull ? 0.6 * bones[i]! : bones[i]!;
-      this.bones.setMatrixAt(i, between(at(positions, from, a), at(positions, to, b), radius));
+      this.bones.setMatrixAt(
+        i,
+        placeBone(readPoint(positions, from, a), readPoint(positions, to, b), radius),
+      );
     });
     for (let i = 0; i < joints.length; i++) {
-      at(positions, i, a);
+      readPoint(positions, i, a);
       const radius = Number.isNaN(a.x) ? 0 : joints[i]!;
-      this.joints.setMatrixAt(i, matrix.makeScale(radius, radius, radius).setPosition(finite(a)));
+      this.joints.setMatrixAt(
+        i,
+        matrix.makeScale(radius, radius, radius).setPosition(zeroIfMissing(a)),
+      );
     }
-    this.skull.setMatrixAt(0, this.skullAt(positions));
+    this.skull.setMatrixAt(0, this.placeSkull(positions));
     for (const mesh of [this.bones, this.joints, this.skull])
       mesh.instanceMatrix.needsUpdate = true;
   }
 
-  paint(colors: Colors): void {
+  setColors(colors: Colors): void {
     for (const part of ["body", "joint", "shadow"] as const)
-      (this.paints[part].uniforms.color!.value as THREE.Color).set(colors[part]);
+      (this.materials[part].uniforms.color!.value as THREE.Color).set(colors[part]);
   }
 
-  /** Lets what is behind shine through; its shadow is not drawn. */
-  fade(alpha: number): void {
-    for (const paint of [this.paints.body, this.paints.joint]) {
+  /** Make the figure transparent, without a shadow. */
+  setOpacity(alpha: number): void {
+    for (const paint of [this.materials.body, this.materials.joint]) {
       paint.uniforms.alpha!.value = alpha;
       paint.transparent = true;
     }
-    this.paints.shadow.visible = false;
+    this.materials.shadow.visible = false;
   }
 
   dispose(): void {
     for (const mesh of [this.bones, this.joints, this.skull]) mesh.dispose();
-    for (const paint of Object.values(this.paints)) paint.dispose();
+    for (const paint of Object.values(this.materials)) paint.dispose();
   }
 
-  /** Around the bone of the head; nothing where there is none. */
-  private skullAt(positions: Float32Array): THREE.Matrix4 {
+  /** Return the matrix of the head; zero if there is none. */
+  private placeSkull(positions: Float32Array): THREE.Matrix4 {
     const pair = this.head.bones[this.anatomy.skull];
     if (!pair) return matrix.makeScale(0, 0, 0);
-    at(positions, pair[0], a);
-    at(positions, pair[1], b);
+    readPoint(positions, pair[0], a);
+    readPoint(positions, pair[1], b);
     const length = direction.subVectors(b, a).length();
     if (!(length > 0)) return matrix.makeScale(0, 0, 0);
     const width = Math.min(HEAD_WIDTH * length, 0.07 * this.anatomy.size);
@@ -93,9 +99,9 @@ export class Figure {
     return matrix.compose(a.lerp(b, 0.55), turn, size.set(width, 0.55 * length, width * 1.1));
   }
 
-  private shadowOf(mesh: THREE.InstancedMesh): THREE.InstancedMesh {
-    const shadow = instanced(mesh.geometry, this.paints.shadow, mesh.count);
-    shadow.instanceMatrix = mesh.instanceMatrix; // one buffer for both
+  private createShadow(mesh: THREE.InstancedMesh): THREE.InstancedMesh {
+    const shadow = createInstances(mesh.geometry, this.materials.shadow, mesh.count);
+    shadow.instanceMatrix = mesh.instanceMatrix; // shares one buffer
     return shadow;
   }
 }
@@ -107,7 +113,7 @@ const size = new THREE.Vector3();
 const turn = new THREE.Quaternion();
 const matrix = new THREE.Matrix4();
 
-function instanced(
+function createInstances(
   geometry: THREE.BufferGeometry,
   paint: THREE.Material,
   n: number,
@@ -117,24 +123,24 @@ function instanced(
   return mesh;
 }
 
-function at(positions: Float32Array, joint: number, out: THREE.Vector3): THREE.Vector3 {
+function readPoint(positions: Float32Array, joint: number, out: THREE.Vector3): THREE.Vector3 {
   return out.fromArray(positions, 3 * joint);
 }
 
-function finite(point: THREE.Vector3): THREE.Vector3 {
+function zeroIfMissing(point: THREE.Vector3): THREE.Vector3 {
   return Number.isNaN(point.x) ? point.set(0, 0, 0) : point;
 }
 
-/** Brings the unit bone between two points; to nothing where a point is missing. */
-function between(from: THREE.Vector3, to: THREE.Vector3, radius: number): THREE.Matrix4 {
+/** Return the matrix that moves the unit bone between two points; zero if one is missing. */
+function placeBone(from: THREE.Vector3, to: THREE.Vector3, radius: number): THREE.Matrix4 {
   const length = direction.subVectors(to, from).length();
   if (!(length > 0)) return matrix.makeScale(0, 0, 0);
   turn.setFromUnitVectors(UP, direction.divideScalar(length));
   return matrix.compose(from, turn, size.set(radius, length, radius));
 }
 
-/** Projects along the light onto the plane at a height. */
-function flattening(height: number): THREE.Matrix4 {
+/** Return the projection along the light onto a horizontal plane. */
+function createShadowMatrix(height: number): THREE.Matrix4 {
   const x = LIGHT.x / LIGHT.y;
   const z = LIGHT.z / LIGHT.y;
   return new THREE.Matrix4(

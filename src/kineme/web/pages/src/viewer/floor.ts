@@ -1,21 +1,16 @@
-/** The ground: a plane with a grid on it that fades into the sky. */
+/** Draw the ground: a plane with a grid that fades into the sky. */
 import * as THREE from "three";
-import { floorPaint, type Haze } from "./paints";
+import { readColor } from "../theme";
+import { createFloorMaterial, type Fog } from "./materials";
 
 const REACH = 40; // cells to each side
 
-export interface RoomColors {
-  sky: string;
-  ground: string;
-  grid: string;
-}
-
 export class Floor {
-  /** The sky, and from where to where things fade into it. */
-  readonly haze: Haze = { sky: { value: new THREE.Color() }, fade: { value: new THREE.Vector2() } };
+  /** Sky colour and the distances between which objects fade into it. */
+  readonly fog: Fog = { sky: { value: new THREE.Color() }, fade: { value: new THREE.Vector2() } };
   readonly mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.Material>;
-  private readonly look = {
-    ...this.haze,
+  private readonly uniforms = {
+    ...this.fog,
     ground: { value: new THREE.Color() },
     grid: { value: new THREE.Color() },
     cell: { value: 1 },
@@ -23,30 +18,29 @@ export class Floor {
 
   constructor() {
     const plane = new THREE.PlaneGeometry(1, 1).rotateX(-Math.PI / 2);
-    this.mesh = new THREE.Mesh(plane, floorPaint(this.look));
-    this.mesh.renderOrder = -1; // below everything else, so it is drawn first
+    this.mesh = new THREE.Mesh(plane, createFloorMaterial(this.uniforms));
+    this.mesh.renderOrder = -1; // drawn first, below everything else
     this.mesh.frustumCulled = false;
   }
 
-  paint(colors: RoomColors): void {
-    this.look.ground.value.set(colors.ground);
-    this.look.grid.value.set(colors.grid);
-    this.look.sky.value.set(colors.sky);
+  setColors(): void {
+    for (const name of ["ground", "grid", "sky"] as const)
+      this.uniforms[name].value.set(readColor(name));
   }
 
-  /** A grid of cells that suit a body's size, at a height. */
+  /** Set the grid's height and choose a cell size for a body's size. */
   fit(size: number, height: number): void {
-    this.look.cell.value = 10 ** Math.round(Math.log10(size / 1.7));
-    this.mesh.scale.setScalar(2 * REACH * this.look.cell.value);
+    this.uniforms.cell.value = 10 ** Math.round(Math.log10(size / 1.7));
+    this.mesh.scale.setScalar(2 * REACH * this.uniforms.cell.value);
     this.mesh.position.y = height;
   }
 
-  /** Lies around a point that is so far from the camera. */
-  lieAround(target: THREE.Vector3, away: number): void {
+  /** Centre the floor below a point `away` metres from the camera. */
+  centerOn(target: THREE.Vector3, away: number): void {
     this.mesh.position.x = target.x;
     this.mesh.position.z = target.z;
-    const far = Math.min(away * 6, away + 0.8 * REACH * this.look.cell.value);
-    this.look.fade.value.set(away * 1.1, far);
+    const far = Math.min(away * 6, away + 0.8 * REACH * this.uniforms.cell.value);
+    this.uniforms.fade.value.set(away * 1.1, far);
   }
 
   dispose(): void {

@@ -1,14 +1,14 @@
-/** A repetition laid over the one that plays: it begins where that begins, and keeps step with it. */
+/** Draw a repetition over the current one, with the same start and in step with it. */
 import type * as THREE from "three";
 import type { Segment } from "../messages";
-import { headingAt, poseAt, rootOf, type Motion } from "../motion";
-import { cssColor } from "../theme";
-import { anatomyOfCached } from "./anatomy";
+import { getHeading, computePose, findRoot, type Motion } from "../motion";
+import { readColor } from "../theme";
+import { getAnatomy } from "./anatomy";
 import { Figure } from "./figure";
-import type { Haze } from "./paints";
-import { putInPlace, timeOf, type Place } from "./placement";
+import type { Fog } from "./materials";
+import { movePose, getFigureTime, type Placement } from "./placement";
 
-const CLEARNESS = 0.5;
+const OPACITY = 0.5;
 
 export class Ghost {
   private figure: Figure | null = null;
@@ -17,23 +17,23 @@ export class Ghost {
 
   constructor(
     private readonly scene: THREE.Scene,
-    private readonly haze: Haze,
+    private readonly haze: Fog,
   ) {}
 
-  /** Shows a segment of a motion over another one, at a time of that; null: nothing. */
+  /** Show a segment over another one at a time (seconds); null hides it. */
   show(motion: Motion, segment: Segment | null, over: Segment | undefined, seconds: number): void {
     if (!segment || !over || over.start_frame === segment.start_frame) {
       if (this.figure) this.figure.group.visible = false;
       return;
     }
-    const figure = this.figureOf(motion);
-    const place = placeOver(motion, segment, over);
-    const time = timeOf({ motion, name: "", place, segment }, seconds, over);
-    poseAt(motion, time, this.pose);
-    putInPlace(this.pose, place, rootOf(motion.head));
-    figure.pose(this.pose);
-    const color = cssColor("accent");
-    figure.paint({ body: color, joint: color, shadow: color });
+    const figure = this.getFigure(motion);
+    const placement = computeGhostPlacement(motion, segment, over);
+    const time = getFigureTime({ motion, name: "", placement, segment }, seconds, over);
+    computePose(motion, time, this.pose);
+    movePose(this.pose, placement, findRoot(motion.head));
+    figure.setPose(this.pose);
+    const color = readColor("accent");
+    figure.setColors({ body: color, joint: color, shadow: color });
     figure.group.visible = true;
   }
 
@@ -43,11 +43,11 @@ export class Ghost {
     this.figure = this.motion = null;
   }
 
-  private figureOf(motion: Motion): Figure {
+  private getFigure(motion: Motion): Figure {
     if (this.figure && this.motion === motion) return this.figure;
     this.clear();
-    const figure = new Figure(this.haze, motion.head, anatomyOfCached(motion));
-    figure.fade(CLEARNESS);
+    const figure = new Figure(this.haze, motion.head, getAnatomy(motion));
+    figure.setOpacity(OPACITY);
     this.scene.add(figure.group);
     this.pose = new Float32Array(motion.head.joints.length * 3);
     [this.figure, this.motion] = [figure, motion];
@@ -55,14 +55,14 @@ export class Ghost {
   }
 }
 
-/** Where a repetition goes, so that it begins where another one does, and faces the same way. */
-export function placeOver(motion: Motion, segment: Segment, over: Segment): Place {
+/** Return the placement that gives a repetition the start and heading of another. */
+export function computeGhostPlacement(motion: Motion, segment: Segment, over: Segment): Placement {
   const pose = new Float32Array(motion.head.joints.length * 3);
-  const root = 3 * rootOf(motion.head);
+  const root = 3 * findRoot(motion.head);
   const at = (seconds: number): [number, number] => {
-    poseAt(motion, seconds, pose);
+    computePose(motion, seconds, pose);
     return [pose[root] || 0, pose[root + 2] || 0];
   };
-  const turn = headingAt(motion, over.start_s) - headingAt(motion, segment.start_s);
-  return { slot: at(over.start_s), from: at(segment.start_s), turn, still: false };
+  const turn = getHeading(motion, over.start_s) - getHeading(motion, segment.start_s);
+  return { slot: at(over.start_s), from: at(segment.start_s), turn, isFixed: false };
 }

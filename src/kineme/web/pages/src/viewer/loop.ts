@@ -1,37 +1,37 @@
-/** A loop played round after round, each carried on from the one before. Pure functions. */
+/** Compute poses of a repeated loop; each round continues from the one before. Pure functions. */
 import type { PlayedLoop } from "../messages";
-import { poseAt, unpackMotion, type Motion } from "../motion";
-import { bytesOf } from "../recordingData";
-import { putInPlace, type Place } from "./placement";
+import { computePose, unpackMotion, type Motion } from "../motion";
+import { decodeBase64 } from "../recordingData";
+import { movePose, type Placement } from "./placement";
 
-/** One round, its first pose again at the end, and what brings it to where the next begins. */
+/** One round, ending with its first pose, and the displacement to the next round. */
 export interface Loop {
   motion: Motion;
-  carry: Pick<PlayedLoop, "turn" | "x" | "z">;
+  step: Pick<PlayedLoop, "turn" | "x" | "z">;
 }
 
-export async function unpackLoop({ motion, numbers, ...carry }: PlayedLoop): Promise<Loop> {
-  return { motion: await unpackMotion(motion, bytesOf(numbers).buffer), carry };
+export async function unpackLoop({ motion, numbers, ...step }: PlayedLoop): Promise<Loop> {
+  return { motion: await unpackMotion(motion, decodeBase64(numbers).buffer), step };
 }
 
-/** How long a round is, seconds. */
-export function secondsOfRound({ motion: { head } }: Loop): number {
+/** Return the duration of a round in seconds. */
+export function getRoundDuration({ motion: { head } }: Loop): number {
   return Math.max(head.n_samples - 1, 1) / head.sample_fps;
 }
 
-/** The pose so many seconds after the first round began goes into `out`, as `poseAt` has it. */
-export function loopPoseAt(loop: Loop, seconds: number, out: Float32Array): void {
-  const lasts = secondsOfRound(loop);
+/** Write the pose at a time (seconds since the first round began) to `out`, like `computePose`. */
+export function computeLoopPose(loop: Loop, seconds: number, out: Float32Array): void {
+  const lasts = getRoundDuration(loop);
   const round = Math.floor(seconds / lasts);
-  poseAt(loop.motion, seconds - round * lasts, out);
-  putInPlace(out, placeOf(loop, round), 0);
+  computePose(loop.motion, seconds - round * lasts, out);
+  movePose(out, computePlacement(loop, round), 0);
 }
 
-/** Where a round is, the first being where it was recorded. */
-function placeOf({ carry }: Loop, round: number): Place {
-  const [cos, sin] = [Math.cos(carry.turn), Math.sin(carry.turn)];
+/** Return a round's placement; the first is where it was recorded. */
+function computePlacement({ step }: Loop, round: number): Placement {
+  const [cos, sin] = [Math.cos(step.turn), Math.sin(step.turn)];
   let [x, z] = [0, 0];
   for (let each = 0; each < round; each++)
-    [x, z] = [x * cos + z * sin + carry.x, z * cos - x * sin + carry.z];
-  return { slot: [x, z], from: [0, 0], turn: round * carry.turn, still: false };
+    [x, z] = [x * cos + z * sin + step.x, z * cos - x * sin + step.z];
+  return { slot: [x, z], from: [0, 0], turn: round * step.turn, isFixed: false };
 }

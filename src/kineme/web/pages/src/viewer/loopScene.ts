@@ -1,10 +1,10 @@
-/** A loop on a stage of its own: one figure, which the camera goes along with. */
+/** Draw a loop on its own stage; the camera follows the figure. */
 import * as THREE from "three";
-import { headingAt, rootOf } from "../motion";
-import { cssColor } from "../theme";
-import { anatomyOfCached } from "./anatomy";
+import { getHeading, findRoot } from "../motion";
+import { readColor } from "../theme";
+import { getAnatomy } from "./anatomy";
 import { Figure } from "./figure";
-import { loopPoseAt, type Loop } from "./loop";
+import { computeLoopPose, type Loop } from "./loop";
 import { Stage } from "./stage";
 
 export class LoopScene {
@@ -18,35 +18,39 @@ export class LoopScene {
     this.stage.controls.addEventListener("change", redraw);
   }
 
-  /** Another loop, seen from its side. */
+  /** Show another loop, seen from its side. */
   show(loop: Loop): void {
     this.clear();
     const { head } = loop.motion;
-    const anatomy = anatomyOfCached(loop.motion);
+    const anatomy = getAnatomy(loop.motion);
     this.loop = loop;
-    this.figure = new Figure(this.stage.haze, head, anatomy);
+    this.figure = new Figure(this.stage.fog, head, anatomy);
     this.pose = new Float32Array(3 * head.joints.length);
     this.stage.scene.add(this.figure.group);
     this.stage.fit(anatomy.size, anatomy.ground);
-    loopPoseAt(loop, 0, this.pose);
-    const [x, z] = this.rootPlace();
+    computeLoopPose(loop, 0, this.pose);
+    const [x, z] = this.getRootPosition();
     const target = new THREE.Vector3(x, anatomy.ground + 0.5 * anatomy.size, z);
-    const side = headingAt(loop.motion, 0) + 0.9;
-    this.stage.look(target, side, 1.25 * anatomy.size, 1.3 * anatomy.size);
+    const side = getHeading(loop.motion, 0) + 0.9;
+    this.stage.lookAt(target, side, 1.25 * anatomy.size, 1.3 * anatomy.size);
   }
 
-  /** The picture so many seconds after the loop began. */
+  /** Draw the loop at a time in seconds. */
   draw(
     seconds: number,
     color: string,
     { moving, since }: { moving: boolean; since: number },
   ): void {
     if (!this.loop || !this.figure) return;
-    this.stage.paint({ sky: cssColor("sky"), ground: cssColor("ground"), grid: cssColor("grid") });
-    this.figure.paint({ body: cssColor("body"), joint: color, shadow: cssColor("shadow") });
-    loopPoseAt(this.loop, seconds, this.pose);
-    this.figure.pose(this.pose);
-    this.stage.moveTo(...this.rootPlace());
+    this.stage.setColors();
+    this.figure.setColors({
+      body: readColor("body"),
+      joint: color,
+      shadow: readColor("shadow"),
+    });
+    computeLoopPose(this.loop, seconds, this.pose);
+    this.figure.setPose(this.pose);
+    this.stage.moveTo(...this.getRootPosition());
     this.stage.draw(moving, since);
   }
 
@@ -59,8 +63,8 @@ export class LoopScene {
     this.stage.dispose();
   }
 
-  private rootPlace(): [number, number] {
-    const root = 3 * rootOf(this.loop!.motion.head);
+  private getRootPosition(): [number, number] {
+    const root = 3 * findRoot(this.loop!.motion.head);
     return [this.pose[root] || 0, this.pose[root + 2] || 0];
   }
 

@@ -1,12 +1,12 @@
-/** Who is who of several people in the picture: their names, over their heads. */
+/** Show the names of several people above their heads. */
 
-/** A name, and the middle of its lower edge: shares of the picture's width and height. */
+/** A name and its position (bottom centre), as shares of the canvas. */
 export interface Tag {
   name: string;
   x: number;
   y: number;
-  /** Whether edits go to this person. */
-  front: boolean;
+  /** Whether edits apply to this person. */
+  isActive: boolean;
 }
 
 export class NameTags {
@@ -14,7 +14,7 @@ export class NameTags {
 
   constructor(over: HTMLElement) {
     this.place.className = "name-tags";
-    this.place.ariaHidden = "true"; // the caption has them, too
+    this.place.ariaHidden = "true"; // the caption also has them
     over.append(this.place);
   }
 
@@ -22,10 +22,10 @@ export class NameTags {
     const { place } = this;
     while (place.children.length > tags.length) place.lastChild!.remove();
     while (place.children.length < tags.length) place.append(document.createElement("span"));
-    tags.forEach(({ name, x, y, front }, i) => {
+    tags.forEach(({ name, x, y, isActive }, i) => {
       const tag = place.children[i] as HTMLElement;
       if (tag.textContent !== name) tag.textContent = name;
-      tag.classList.toggle("front", front);
+      tag.classList.toggle("front", isActive);
       tag.style.left = `${100 * x}%`;
       tag.style.top = `${100 * y}%`;
     });

@@ -1,14 +1,21 @@
-/** Brings the state of the page into the picture: which figure where, in which pose and colour. */
+/** Update the 3-D scene from the page's state. */
 import * as THREE from "three";
-import { NO_COLOR, onPage } from "../colors";
+import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
-import { headingAt, poseAt, rootOf, type Motion } from "../motion";
-import { personCalled } from "../opened";
-import { primitiveAt } from "../segments";
+import { getHeading, computePose, findRoot, type Motion } from "../motion";
+import { formatPerson } from "../openRecording";
+import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
-import { cssColor, theme } from "../theme";
-import { anatomyOfCached } from "./anatomy";
-import { inStep, isFree, timeOf, putInPlace, sideBySide, type PlacedFigure } from "./placement";
+import { readColor, theme } from "../theme";
+import { getAnatomy } from "./anatomy";
+import {
+  placeInStep,
+  isFree,
+  getFigureTime,
+  movePose,
+  placeSideBySide,
+  type PlacedFigure,
+} from "./placement";
 import { Figure } from "./figure";
 import { Ghost } from "./ghost";
 import type { Tag } from "./nameTags";
@@ -16,7 +23,7 @@ import { Stage } from "./stage";
 import { Trails } from "./trails";
 
 const TRAIL_LENGTH = 1.2; // seconds
-const CATCH_UP = 3; // per second: how fast the camera follows while playing
+const CATCH_UP = 3; // rate per second at which the camera follows during playback
 
 export class FigureScene {
   readonly stage: Stage;
@@ -24,7 +31,7 @@ export class FigureScene {
   private figures: Figure[] = [];
   private trails: Trails | null = null;
   private poses: Float32Array[] = [];
-  private scene = "";
+  private contentKey = "";
   private size = 1;
   private readonly ghost: Ghost;
 
@@ -33,50 +40,57 @@ export class FigureScene {
     canvas: HTMLCanvasElement,
   ) {
     this.stage = new Stage(canvas);
-    this.ghost = new Ghost(this.stage.scene, this.stage.haze);
+    this.ghost = new Ghost(this.stage.scene, this.stage.fog);
   }
 
-  /** New figures when the recordings, the cluster or its members changed. */
+  /** Create the figures; needed when recordings, cluster or members change. */
   populate(): void {
     this.clear();
-    this.placed = this.choosePlaced();
+    this.placed = this.placeFigures();
     this.figures = this.placed.map(
-      ({ motion }) => new Figure(this.stage.haze, motion.head, anatomyOfCached(motion)),
+      ({ motion }) => new Figure(this.stage.fog, motion.head, getAnatomy(motion)),
     );
     this.poses = this.placed.map(({ motion }) => new Float32Array(motion.head.joints.length * 3));
     for (const figure of this.figures) this.stage.scene.add(figure.group);
     const lead = this.placed[0];
     if (!lead) return;
-    const paths = this.placed.reduce((sum, each) => sum + handsAndFeet(each.motion).length, 0);
+    const paths = this.placed.reduce((sum, each) => sum + listEndJoints(each.motion).length, 0);
     if (!lead.segment && paths > 0) {
-      this.trails = new Trails(this.stage.haze, paths, 0.022 * this.size);
+      this.trails = new Trails(this.stage.fog, paths, 0.022 * this.size);
       this.stage.scene.add(this.trails.mesh);
     }
     const { id, file } = this.store.recording.value!;
     const of = this.store.people.value.length ? file : id;
     const scene = `${this.placed.length} ${lead.segment !== null} ${of}`;
-    if (scene !== this.scene) this.frame();
-    this.scene = scene;
+    if (scene !== this.contentKey) this.frameFigures();
+    this.contentKey = scene;
   }
 
-  paint(): void {
-    this.stage.paint({ sky: cssColor("sky"), ground: cssColor("ground"), grid: cssColor("grid") });
+  setColors(): void {
+    this.stage.setColors();
   }
 
-  /** Poses every figure for the playhead. */
-  pose(seconds: number): void {
+  /** Pose all figures for the playhead; `seconds` since the last frame. */
+  setPoses(seconds: number): void {
     const { store } = this;
-    const leader = this.leader();
-    const shadow = cssColor("shadow");
-    const [body, joint] = [cssColor("body"), cssColor("joint")];
+    const leader = this.findLeader();
+    const shadow = readColor("shadow");
+    const [body, joint] = [readColor("body"), readColor("joint")];
     this.placed.forEach((each, i) => {
       const pose = this.poses[i]!;
-      this.placedPose(each, timeOf(each, store.playhead.value, leader), pose);
-      this.figures[i]!.pose(pose);
-      const color = onPage(this.colorOf(this.presentOf(each, store.playhead.value)), theme.value);
+      this.placePose(each, getFigureTime(each, store.playhead.value, leader), pose);
+      this.figures[i]!.setPose(pose);
+      const color = adaptColor(
+        this.getColor(this.findPrimitive(each, store.playhead.value)),
+        theme.value,
+      );
       const leads = each.segment !== null && each.segment === leader;
       const joints = each.segment ? joint : color;
-      this.figures[i]!.paint({ body: leads ? color : body, joint: leads ? color : joints, shadow });
+      this.figures[i]!.setColors({
+        body: leads ? color : body,
+        joint: leads ? color : joints,
+        shadow,
+      });
     });
     const lead = this.placed[0];
     const free = this.placed.length === 1 && lead?.segment === null;
@@ -91,58 +105,62 @@ export class FigureScene {
     if (store.follow.value) this.followLead(seconds);
   }
 
-  /** Puts the camera where all figures are seen. */
-  frame(): void {
+  /** Move the camera so that all figures are visible. */
+  frameFigures(): void {
     const lead = this.placed[0];
     if (!lead) return;
     this.placed.forEach((each, i) => {
-      this.placedPose(each, timeOf(each, this.store.playhead.value, this.leader()), this.poses[i]!);
+      this.placePose(
+        each,
+        getFigureTime(each, this.store.playhead.value, this.findLeader()),
+        this.poses[i]!,
+      );
     });
-    const { ground } = anatomyOfCached(lead.motion);
+    const { ground } = getAnatomy(lead.motion);
     const alone = this.placed.length === 1;
     if (!alone && this.placed.every(isFree)) return this.frameTogether(ground);
-    const slots = this.placed.map((each) => each.place.slot);
+    const slots = this.placed.map((each) => each.placement.slot);
     const width = Math.max(...slots.map(([x]) => x)) - Math.min(...slots.map(([x]) => x));
     const depth = Math.max(...slots.map(([, z]) => z)) - Math.min(...slots.map(([, z]) => z));
-    const [x, z] = alone ? this.middle() : [0, 0];
-    const side = alone ? headingAt(lead.motion, this.store.playhead.value) + 0.6 : 0.12;
+    const [x, z] = alone ? this.getMiddle() : [0, 0];
+    const side = alone ? getHeading(lead.motion, this.store.playhead.value) + 0.6 : 0.12;
     const target = new THREE.Vector3(x, ground + 0.5 * this.size, z);
     const height = (1.3 + 0.5 * (depth / this.size)) * this.size;
-    this.stage.look(target, side, width + 1.25 * this.size, height, depth > 0 ? 0.5 : 0.22);
+    this.stage.lookAt(target, side, width + 1.25 * this.size, height, depth > 0 ? 0.5 : 0.22);
   }
 
-  /** People who share their space: all are seen, from the side where none hides another. */
+  /** Move the camera so that people do not hide each other. */
   private frameTogether(ground: number): void {
-    const roots = this.roots();
-    const [x, z] = this.middle();
-    const [axisX, axisZ] = longest(roots);
+    const roots = this.getRootPositions();
+    const [x, z] = this.getMiddle();
+    const [axisX, axisZ] = findLongestDistance(roots);
     const apart = Math.hypot(axisX, axisZ);
-    const usual = headingAt(this.placed[0]!.motion, this.store.playhead.value) + 0.6;
+    const usual = getHeading(this.placed[0]!.motion, this.store.playhead.value) + 0.6;
     const across = Math.atan2(-axisZ, axisX) + 0.15;
     const side = Math.cos(across - usual) < 0 ? across + Math.PI : across;
     const target = new THREE.Vector3(x, ground + 0.5 * this.size, z);
     const isApart = apart > 0.3 * this.size;
-    this.stage.look(target, isApart ? side : usual, apart + 1.25 * this.size, 1.4 * this.size);
+    this.stage.lookAt(target, isApart ? side : usual, apart + 1.25 * this.size, 1.4 * this.size);
   }
 
-  /** Over whose heads the names of several people stand. */
-  tags(): Tag[] {
+  /** Return the name tags of several people. */
+  getNameTags(): Tag[] {
     const { store } = this;
     if (!store.people.value.length || store.inStep.value) return [];
     return this.placed.flatMap((each, i) => {
-      const at = new THREE.Vector3().fromArray(this.poses[i]!, 3 * rootOf(each.motion.head));
-      at.y = highest(this.poses[i]!) + 0.06 * this.size;
+      const at = new THREE.Vector3().fromArray(this.poses[i]!, 3 * findRoot(each.motion.head));
+      at.y = findHighest(this.poses[i]!) + 0.06 * this.size;
       at.project(this.stage.camera);
       if (Number.isNaN(at.x) || Math.abs(at.z) > 1) return [];
-      const front = each.motion === store.active.value?.motion.value;
-      return [{ name: each.name, x: (1 + at.x) / 2, y: (1 - at.y) / 2, front }];
+      const isActive = each.motion === store.active.value?.motion.value;
+      return [{ name: each.name, x: (1 + at.x) / 2, y: (1 - at.y) / 2, isActive }];
     });
   }
 
-  /** The figure nearest to a point of the canvas (from -1 to 1, y up). */
+  /** Return the figure nearest to a point of the canvas (-1 to 1, y up). */
   pick(x: number, y: number): PlacedFigure | undefined {
     const near = this.placed.map((each, i) => {
-      const root = 3 * rootOf(each.motion.head);
+      const root = 3 * findRoot(each.motion.head);
       const at = new THREE.Vector3().fromArray(this.poses[i]!, root).project(this.stage.camera);
       return { each, far: Math.hypot((at.x - x) * this.stage.camera.aspect, at.y - y) };
     });
@@ -154,25 +172,25 @@ export class FigureScene {
     this.stage.dispose();
   }
 
-  private choosePlaced(): PlacedFigure[] {
+  private placeFigures(): PlacedFigure[] {
     const { store } = this;
     const motion = store.active.value?.motion.value;
     const members = store.shownCluster.value?.members ?? [];
     const shown = store.opened.value.flatMap((opened) => {
       const { name, file, person } = opened.recording.value;
       const { value: motion } = opened.motion;
-      return motion ? [{ motion, name: personCalled(person ?? name), file }] : [];
+      return motion ? [{ motion, name: formatPerson(person ?? name), file }] : [];
     });
-    this.size = Math.max(...shown.map((each) => anatomyOfCached(each.motion).size), 0) || 1;
-    const ground = Math.min(...shown.map((each) => anatomyOfCached(each.motion).ground));
+    this.size = Math.max(...shown.map((each) => getAnatomy(each.motion).size), 0) || 1;
+    const ground = Math.min(...shown.map((each) => getAnatomy(each.motion).ground));
     if (shown.length > 0) this.stage.fit(this.size, ground);
     if (store.inStep.value && motion && members.length > 0)
-      return inStep(motion, members, this.size);
-    return sideBySide(shown, this.size);
+      return placeInStep(motion, members, this.size);
+    return placeSideBySide(shown, this.size);
   }
 
-  /** The member under the playhead, else the selected one: it sets the pace. */
-  private leader(): Segment | undefined {
+  /** Return the member at the playhead, else the selected one; the others keep step with it. */
+  private findLeader(): Segment | undefined {
     const frame = this.store.frame.value;
     const members = this.placed.flatMap(({ segment }) => (segment ? [segment] : []));
     const selected = this.store.selected.value;
@@ -182,46 +200,46 @@ export class FigureScene {
     );
   }
 
-  private placedPose(placed: PlacedFigure, time: number, pose: Float32Array): void {
-    poseAt(placed.motion, time, pose);
-    putInPlace(pose, placed.place, rootOf(placed.motion.head));
+  private placePose(placed: PlacedFigure, time: number, pose: Float32Array): void {
+    computePose(placed.motion, time, pose);
+    movePose(pose, placed.placement, findRoot(placed.motion.head));
   }
 
-  /** Where those stand (x, z) who are in the picture. */
-  private roots(): [number, number][] {
+  /** Return the root positions (x, z) of all figures. */
+  private getRootPositions(): [number, number][] {
     return this.placed
       .map(({ motion }, i): [number, number] => {
-        const root = 3 * rootOf(motion.head);
+        const root = 3 * findRoot(motion.head);
         return [this.poses[i]![root]!, this.poses[i]![root + 2]!];
       })
       .filter(([x, z]) => !Number.isNaN(x + z));
   }
 
-  /** In the middle of them. */
-  private middle(): [number, number] {
-    const roots = this.roots();
-    const between = (values: number[]): number =>
+  /** Return the centre of the figures (x, z). */
+  private getMiddle(): [number, number] {
+    const roots = this.getRootPositions();
+    const computeMidpoint = (values: number[]): number =>
       values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0;
-    return [between(roots.map(([x]) => x)), between(roots.map(([, z]) => z))];
+    return [computeMidpoint(roots.map(([x]) => x)), computeMidpoint(roots.map(([, z]) => z))];
   }
 
   private followLead(seconds: number): void {
     if (!this.placed.length || !this.placed.every(isFree)) return;
-    const [x, z] = this.middle();
+    const [x, z] = this.getMiddle();
     const { target } = this.stage.controls;
     const share = this.store.playing.value ? 1 - Math.exp(-CATCH_UP * seconds) : 1;
     this.stage.moveTo(target.x + share * (x - target.x), target.z + share * (z - target.z));
   }
 
-  /** The primitive of a figure's own recording at a time. */
-  private presentOf({ motion }: PlacedFigure, time: number): Segment | undefined {
+  /** Return the primitive of a figure's recording at a time (seconds). */
+  private findPrimitive({ motion }: PlacedFigure, time: number): Segment | undefined {
     const { opened, active } = this.store;
     const shown = opened.value.find((each) => each.motion.value === motion) ?? active.value;
-    return shown && primitiveAt(shown.recording.value.segmentation, time);
+    return shown && findPrimitiveAt(shown.recording.value.segmentation, time);
   }
 
-  private colorOf(segment: Segment | undefined): string {
-    return (segment && this.store.colorOf(segment)) ?? NO_COLOR;
+  private getColor(segment: Segment | undefined): string {
+    return (segment && this.store.getColor(segment)) ?? NO_COLOR;
   }
 
   private drawTrails(): void {
@@ -229,23 +247,24 @@ export class FigureScene {
     const { playhead } = this.store;
     this.trails.mesh.visible = this.store.trails.value && playhead.value > 0;
     if (!this.trails.mesh.visible) return;
-    const times = Trails.times(playhead.value, TRAIL_LENGTH);
-    const paths = this.placed.map((each) => this.pathsOf(each, times));
+    const times = Trails.listTimes(playhead.value, TRAIL_LENGTH);
+    const paths = this.placed.map((each) => this.computePaths(each, times));
     const colors = this.placed.flatMap((each, i) => {
       const ofTimes = times.map(
-        (time) => new THREE.Color(onPage(this.colorOf(this.presentOf(each, time)), theme.value)),
+        (time) =>
+          new THREE.Color(adaptColor(this.getColor(this.findPrimitive(each, time)), theme.value)),
       );
       return paths[i]!.map(() => ofTimes);
     });
     this.trails.draw(paths.flat(), colors, this.stage.camera.position);
   }
 
-  private pathsOf(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
-    const joints = handsAndFeet(placed.motion);
+  private computePaths(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
+    const joints = listEndJoints(placed.motion);
     const paths = joints.map(() => new Float32Array(3 * times.length));
     const pose = new Float32Array(placed.motion.head.joints.length * 3);
     times.forEach((time, i) => {
-      this.placedPose(placed, time, pose);
+      this.placePose(placed, time, pose);
       joints.forEach((joint, k) => paths[k]!.set(pose.subarray(3 * joint, 3 * joint + 3), 3 * i));
     });
     return paths;
@@ -263,22 +282,22 @@ export class FigureScene {
   }
 }
 
-/** The height of a pose's highest joint. */
-function highest(pose: Float32Array): number {
+/** Return the height of the highest joint. */
+function findHighest(pose: Float32Array): number {
   let top = -Infinity;
   for (let i = 1; i < pose.length; i += 3) if (pose[i]! > top) top = pose[i]!;
   return top;
 }
 
-/** From one to the other of the two who stand farthest apart. */
-function longest(roots: readonly [number, number][]): [number, number] {
+/** Return the vector between the two figures that are farthest apart. */
+function findLongestDistance(roots: readonly [number, number][]): [number, number] {
   const pairs = roots.flatMap(([x, z], i) =>
     roots.slice(i + 1).map((other): [number, number] => [other[0] - x, other[1] - z]),
   );
   return pairs.sort((a, b) => Math.hypot(...b) - Math.hypot(...a))[0] ?? [0, 0];
 }
 
-function handsAndFeet(motion: Motion): number[] {
+function listEndJoints(motion: Motion): number[] {
   const { effectors } = motion.head;
   return Object.keys(effectors)
     .filter((part) => part !== "head")

@@ -1,41 +1,45 @@
-/** The room: ground, haze and camera, and one picture of it when asked. */
+/** Hold ground, fog, camera and renderer. */
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Floor, type RoomColors } from "./floor";
-import { bodyPaint, type Haze } from "./paints";
+import { readColor } from "../theme";
+import { Floor } from "./floor";
+import { createBodyMaterial, type Fog } from "./materials";
 import { Sharpness } from "./sharpness";
 
-const FIELD = 32; // degrees from the lower to the upper edge
+const FIELD_OF_VIEW = 32; // vertical, degrees
 
 export class Stage {
   readonly scene = new THREE.Scene();
-  readonly camera = new THREE.PerspectiveCamera(FIELD, 1, 0.01, 1000);
+  readonly camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 1000);
   readonly controls: OrbitControls;
   private readonly sharpness: Sharpness;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly floor = new Floor();
-  private readonly prepared: THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material>;
+  private readonly warmUpMesh: THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material>;
 
   constructor(canvas: HTMLCanvasElement) {
-    const { context, software } = contextOf(canvas);
+    const { context, software } = createContext(canvas);
     this.sharpness = new Sharpness(software);
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
-    this.renderer.debug.checkShaderErrors = false; // to ask is to wait
+    this.renderer.debug.checkShaderErrors = false; // querying errors blocks
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = false; // the picture stands still as soon as the hand does
+    this.controls.enableDamping = false; // the view stops with the pointer
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.scene.add(this.floor.mesh);
-    // What the first picture needs is made ready while the recording is on its way, and stays so.
-    this.prepared = new THREE.InstancedMesh(new THREE.BufferGeometry(), bodyPaint(this.haze, 1), 1);
-    for (const each of [this.floor.mesh, this.prepared]) this.renderer.compile(each, this.camera);
+    // Compile shaders while the recording loads.
+    this.warmUpMesh = new THREE.InstancedMesh(
+      new THREE.BufferGeometry(),
+      createBodyMaterial(this.fog, 1),
+      1,
+    );
+    for (const each of [this.floor.mesh, this.warmUpMesh]) this.renderer.compile(each, this.camera);
   }
 
-  /** What things on the stage fade into. */
-  get haze(): Haze {
-    return this.floor.haze;
+  get fog(): Fog {
+    return this.floor.fog;
   }
 
-  /** Scales ground and limits of the camera to a body's size. */
+  /** Scale ground and camera limits to a body's size (metres). */
   fit(size: number, ground: number): void {
     this.floor.fit(size, ground);
     this.controls.minDistance = 0.5 * size;
@@ -45,14 +49,15 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  paint(colors: RoomColors): void {
-    this.scene.background = new THREE.Color(colors.sky);
-    this.floor.paint(colors);
+  /** Apply the colours of the theme. */
+  setColors(): void {
+    this.scene.background = new THREE.Color(readColor("sky"));
+    this.floor.setColors();
   }
 
-  /** Looks at a point from a side (radians about y), so that a box of some size fills the view. */
-  look(target: THREE.Vector3, side: number, width: number, height: number, lift = 0.22): void {
-    const half = Math.tan((FIELD * Math.PI) / 360);
+  /** Look at a point from a side (radians about y) so that a box fills the view. */
+  lookAt(target: THREE.Vector3, side: number, width: number, height: number, lift = 0.22): void {
+    const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     const away = Math.max(height / 2 / half, width / 2 / (half * this.camera.aspect)) * 1.12;
     this.controls.target.copy(target);
     this.camera.position.set(
@@ -63,7 +68,7 @@ export class Stage {
     this.controls.update();
   }
 
-  /** Moves the camera and what it looks at to another point on the ground. */
+  /** Move camera and target to another point on the ground. */
   moveTo(x: number, z: number): void {
     const dx = x - this.controls.target.x;
     const dz = z - this.controls.target.z;
@@ -74,8 +79,8 @@ export class Stage {
     this.controls.update();
   }
 
-  /** Goes round what the camera looks at, and up or down (radians). */
-  turn(round: number, down: number): void {
+  /** Turn the camera around its target (radians). */
+  orbit(round: number, down: number): void {
     const { target, minPolarAngle, maxPolarAngle } = this.controls;
     const arm = new THREE.Spherical().setFromVector3(this.camera.position.clone().sub(target));
     arm.theta += round;
@@ -90,34 +95,31 @@ export class Stage {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Draws; a moving picture with as many pixels as there is time for. */
+  /** Draw a frame; during motion the resolution adapts to the drawing time. */
   draw(moving: boolean, seconds: number): void {
-    if (moving) this.sharpness.learn(seconds);
-    const ratio = this.sharpness.ratio(devicePixelRatio, moving);
+    if (moving) this.sharpness.recordDuration(seconds);
+    const ratio = this.sharpness.getRatio(devicePixelRatio, moving);
     if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
     const { target } = this.controls;
-    this.floor.lieAround(target, this.camera.position.distanceTo(target));
+    this.floor.centerOn(target, this.camera.position.distanceTo(target));
     this.renderer.render(this.scene, this.camera);
   }
 
   dispose(): void {
     this.controls.dispose();
     this.floor.dispose();
-    this.prepared.material.dispose();
+    this.warmUpMesh.material.dispose();
     this.renderer.dispose();
   }
 }
 
-/**
- * Something to draw with, and whether that is the processor, for want of a graphics card.
- *
- * Edges are smooth because pictures are drawn larger than they are shown.
- */
-function contextOf(canvas: HTMLCanvasElement): {
+/** Return a WebGL context, and whether it renders in software. */
+function createContext(canvas: HTMLCanvasElement): {
   context: WebGL2RenderingContext;
   software: boolean;
 } {
-  [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight]; // to grow later costs
+  // Resizing later is slow.
+  [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight];
   const wishes = { alpha: false, antialias: false, powerPreference: "low-power" };
   const context = canvas.getContext("webgl2", wishes) as WebGL2RenderingContext | null;
   if (!context) throw new Error("This browser draws no pictures in 3-D (it has no WebGL 2).");

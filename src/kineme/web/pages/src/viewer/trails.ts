@@ -1,8 +1,8 @@
-/** Where hands and feet have been: ribbons in the colours of their clusters, fading. */
+/** Draw the recent paths of hands and feet as fading ribbons in cluster colours. */
 import * as THREE from "three";
-import { type Haze, trailPaint } from "./paints";
+import { type Fog, createTrailMaterial } from "./materials";
 
-/** Times a trail is drawn at. */
+/** Points per trail. */
 const POINTS = 32;
 
 export class Trails {
@@ -11,7 +11,7 @@ export class Trails {
   private readonly colors: THREE.BufferAttribute;
 
   constructor(
-    haze: Haze,
+    haze: Fog,
     private readonly n_trails: number,
     private readonly width: number,
   ) {
@@ -21,17 +21,17 @@ export class Trails {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", this.positions);
     geometry.setAttribute("color", this.colors);
-    geometry.setIndex(ribbons(n_trails));
-    this.mesh = new THREE.Mesh(geometry, trailPaint(haze));
+    geometry.setIndex(createIndex(n_trails));
+    this.mesh = new THREE.Mesh(geometry, createTrailMaterial(haze));
     this.mesh.frustumCulled = false;
   }
 
-  /** The times a trail is drawn at, oldest first: the last `length` seconds. */
-  static times(now: number, length: number): number[] {
+  /** Return the times of a trail's points, oldest first, over the last `length` seconds. */
+  static listTimes(now: number, length: number): number[] {
     return Array.from({ length: POINTS }, (_, i) => now - length * (1 - i / (POINTS - 1)));
   }
 
-  /** `paths[trail]` holds x, y, z at each time, `colors[trail]` the colour. */
+  /** Draw trails; `paths[trail]` holds x, y, z at each time, `colors[trail]` the colours. */
   draw(
     paths: readonly Float32Array[],
     colors: readonly (readonly THREE.Color[])[],
@@ -40,7 +40,7 @@ export class Trails {
     for (let trail = 0; trail < this.n_trails; trail++) {
       const path = paths[trail]!;
       for (let i = 0; i < POINTS; i++) {
-        const side = this.sideAt(path, i, camera);
+        const side = this.computeSide(path, i, camera);
         const vertex = 2 * (trail * POINTS + i);
         here.fromArray(path, 3 * i);
         const missing = Number.isNaN(here.x);
@@ -68,8 +68,8 @@ export class Trails {
     this.mesh.material.dispose();
   }
 
-  /** Across the path and the line of sight, so that the ribbon shows its broad side. */
-  private sideAt(path: Float32Array, i: number, camera: THREE.Vector3): THREE.Vector3 {
+  /** Return half of the ribbon's width as a vector, so that it faces the camera. */
+  private computeSide(path: Float32Array, i: number, camera: THREE.Vector3): THREE.Vector3 {
     const before = Math.max(i - 1, 0);
     const after = Math.min(i + 1, POINTS - 1);
     direction.fromArray(path, 3 * after).sub(other.fromArray(path, 3 * before));
@@ -87,7 +87,7 @@ const other = new THREE.Vector3();
 const sight = new THREE.Vector3();
 const across = new THREE.Vector3();
 
-function ribbons(n_trails: number): number[] {
+function createIndex(n_trails: number): number[] {
   const index: number[] = [];
   for (let trail = 0; trail < n_trails; trail++) {
     for (let i = 0; i < POINTS - 1; i++) {

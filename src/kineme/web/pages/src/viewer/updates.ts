@@ -1,18 +1,19 @@
-/** Draws anew when something changed, and turns what the user does into changes. */
+/** Redraw the viewer when signals change and handle its input. */
 import { effect } from "@preact/signals";
-import { CLICK } from "../canvas/pointers";
+import { CLICK_TOLERANCE } from "../canvas/pointers";
+import { listen } from "../layout/browser";
 import type { Store } from "../store";
-import { onPaper, theme } from "../theme";
+import { isPrinting, theme } from "../theme";
 import { ticker } from "../ticker";
 import { NameTags } from "./nameTags";
 import type { FigureScene } from "./scene";
 import type { Stage } from "./stage";
 
-const TURN = Math.PI / 24; // of one key press
-const REST = 400; // milliseconds
+const TURN_STEP = Math.PI / 24; // radians per key press
+const SETTLE_TIME = 400; // milliseconds
 
-/** Keeps the picture up to date; call the result to stop. */
-export function keepUpToDate(
+/** Keep the picture up to date; return a function that stops. */
+export function startUpdates(
   store: Store,
   scene: FigureScene,
   canvas: HTMLCanvasElement,
@@ -20,50 +21,51 @@ export function keepUpToDate(
   const tags = new NameTags(canvas.parentElement!);
   const stale = { figures: true, paint: true, picture: true, edges: false };
   let resting: ReturnType<typeof setTimeout> | undefined;
-  const expire = (...what: (keyof typeof stale)[]): void => {
+  const invalidate = (...what: (keyof typeof stale)[]): void => {
     for (const each of what) stale[each] = true;
     ticker.request();
   };
-  // What has stood still for a while is drawn once more, with all pixels.
+  // Redraw a static picture once in full resolution.
   const sharpenSoon = (): void => {
     clearTimeout(resting);
-    resting = setTimeout(() => expire("edges"), REST);
+    resting = setTimeout(() => invalidate("edges"), SETTLE_TIME);
   };
-  const onTurn = (): void => expire("picture");
+  const onTurn = (): void => invalidate("picture");
   const resize = new ResizeObserver(() => {
     const { clientWidth, clientHeight } = canvas.parentElement!;
     scene.stage.resize(clientWidth, clientHeight);
-    expire("picture");
+    invalidate("picture");
   });
   resize.observe(canvas.parentElement!);
   scene.stage.controls.addEventListener("change", onTurn);
   const stops = [
     effect(() => {
-      watchFigures(store);
-      expire("figures", "picture");
+      readFigureSignals(store);
+      invalidate("figures", "picture");
     }),
     effect(() => {
       void theme.value;
-      expire("paint", "picture");
+      invalidate("paint", "picture");
     }),
-    // What was drawn into is empty once it has been shown: whoever reads it has it drawn before.
+    // The drawing buffer is cleared after display, so printing needs a new draw.
     effect(() => {
-      void onPaper.value;
-      expire("edges");
+      void isPrinting.value;
+      invalidate("edges");
     }),
     effect(() => {
-      watchPose(store);
-      expire("picture");
+      readPoseSignals(store);
+      invalidate("picture");
     }),
     ticker.add((seconds) => {
       if (stale.figures) scene.populate();
-      if (stale.paint) scene.paint();
+      if (stale.paint) scene.setColors();
       if (!store.active.value || (!stale.picture && !stale.edges)) return;
       const moving = stale.picture;
-      if (moving) scene.pose(seconds);
-      stale.figures = stale.paint = stale.picture = stale.edges = false; // pose() turned the camera
-      scene.stage.draw(moving && !onPaper.peek(), seconds);
-      tags.show(scene.tags());
+      if (moving) scene.setPoses(seconds);
+      // SetPoses() moves the camera, which sets `picture` again.
+      stale.figures = stale.paint = stale.picture = stale.edges = false;
+      scene.stage.draw(moving && !isPrinting.peek(), seconds);
+      tags.show(scene.getNameTags());
       if (moving) sharpenSoon();
     }),
     pickOnClick(store, scene, canvas),
@@ -76,34 +78,34 @@ export function keepUpToDate(
   };
 }
 
-/** Alt and an arrow key turn the camera as a drag would. */
+/** Turn the camera with Alt and an arrow key. */
 export function turnByKey(event: KeyboardEvent, scene: { stage: Stage } | null): void {
   const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const turn = by[event.key as keyof typeof by];
   if (!event.altKey || !turn || !scene) return;
   event.preventDefault();
   event.stopPropagation();
-  scene.stage.turn(TURN * turn[0]!, TURN * turn[1]!);
+  scene.stage.orbit(TURN_STEP * turn[0]!, TURN_STEP * turn[1]!);
 }
 
-function watchFigures(store: Store): void {
+function readFigureSignals(store: Store): void {
   for (const opened of store.opened.value) void opened.motion.value;
   void store.current.value;
   if (store.inStep.value) void store.shownCluster.value;
 }
 
-function watchPose(store: Store): void {
+function readPoseSignals(store: Store): void {
   void [store.playhead.value, store.primitives.value, store.selected.value];
-  for (const { recording } of store.opened.value) void recording.value; // whose colours are seen
+  for (const { recording } of store.opened.value) void recording.value; // their colours are visible
   void [store.trails.value, store.follow.value, store.ghost.value];
 }
 
-/** A click on a member of a cluster selects it; on one of several recordings, shows it. */
+/** Select the clicked member of a cluster, or activate the clicked recording. */
 function pickOnClick(store: Store, scene: FigureScene, canvas: HTMLCanvasElement): () => void {
   let from = { x: 0, y: 0 };
   const onDown = (event: PointerEvent): void => void (from = { x: event.x, y: event.y });
   const onClick = (event: MouseEvent): void => {
-    if (Math.hypot(event.x - from.x, event.y - from.y) > CLICK) return;
+    if (Math.hypot(event.x - from.x, event.y - from.y) > CLICK_TOLERANCE) return;
     const box = canvas.getBoundingClientRect();
     const x = (2 * (event.x - box.left)) / box.width - 1;
     const y = 1 - (2 * (event.y - box.top)) / box.height;
@@ -114,10 +116,5 @@ function pickOnClick(store: Store, scene: FigureScene, canvas: HTMLCanvasElement
       if (index >= 0 && index !== store.current.value) store.show(index);
     }
   };
-  canvas.addEventListener("pointerdown", onDown);
-  canvas.addEventListener("click", onClick);
-  return () => {
-    canvas.removeEventListener("pointerdown", onDown);
-    canvas.removeEventListener("click", onClick);
-  };
+  return listen(canvas, { pointerdown: onDown, click: onClick });
 }

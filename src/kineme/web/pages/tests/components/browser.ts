@@ -1,21 +1,21 @@
-/** What a browser has and happy-dom has not: sizes, and canvases that tell what is written on them. */
+/** Provide what happy-dom lacks: element sizes and canvases that record their texts. */
 import { vi } from "vitest";
 import { ticker } from "../../src/ticker";
 
-/** Of every element, CSS pixels. */
+/** Size of every element, CSS pixels. */
 export const WIDTH = 478;
 export const HEIGHT = 180;
 
 const written = new WeakMap<object, string[]>();
 
-/** Texts on a canvas as it is now. */
-export function textsOn(canvas: Element): string[] {
+/** Redraw and return the texts on a canvas. */
+export function readTexts(canvas: Element): string[] {
   ticker.drawNow();
   return written.get(canvas) ?? [];
 }
 
-/** Draws nothing, but keeps what it writes since the canvas was last empty. */
-function penOf(canvas: object): object {
+/** Return a context that only records the texts written since the last clear. */
+function createPen(canvas: object): object {
   const commands: Record<string, (...given: unknown[]) => unknown> = {
     clearRect: () => void written.set(canvas, []),
     fillText: (text) => void written.get(canvas)?.push(String(text)),
@@ -30,7 +30,7 @@ function penOf(canvas: object): object {
 const pens = new WeakMap<object, object>();
 
 function getContext(this: object): object {
-  if (!pens.has(this)) pens.set(this, penOf(this));
+  if (!pens.has(this)) pens.set(this, createPen(this));
   return pens.get(this)!;
 }
 

@@ -6,18 +6,20 @@ import { Store } from "../../src/store";
 import type { Api } from "../../src/studio/server/api";
 import { Refused } from "../../src/studio/server/answers";
 import { Session } from "../../src/studio/session";
-import { briefOf, listing } from "../studio/briefs";
+import { createBrief, listing } from "../studio/briefs";
 import { recording } from "../studio/tables";
 import "./browser";
 
-/** A session with a recording whose file, or whose segments, are still on their way. */
-async function opened(being_read: boolean): Promise<{ session: Session; cancelled: string[] }> {
+/** Open a session whose recording is still being read or segmented. */
+async function openSession(
+  being_read: boolean,
+): Promise<{ session: Session; cancelled: string[] }> {
   const cancelled: string[] = [];
   const now = { ...recording(), finding: true, being_read };
-  const listed = listing("take", briefOf(now.segmentation));
+  const listed = listing("take", createBrief(now.segmentation));
   const api = {
-    state: () => Promise.resolve({ folder: "", recordings: [listed] } as unknown as State),
-    recording: () => Promise.resolve(now),
+    loadState: () => Promise.resolve({ folder: "", recordings: [listed] } as unknown as State),
+    loadRecording: () => Promise.resolve(now),
     cancel: (id: string) => Promise.resolve(void cancelled.push(id)),
   };
   const session = new Session(api as unknown as Api, new Store());
@@ -27,7 +29,7 @@ async function opened(being_read: boolean): Promise<{ session: Session; cancelle
 }
 
 it("closes what is still being read, and says so to the server", async () => {
-  const { session, cancelled } = await opened(true);
+  const { session, cancelled } = await openSession(true);
   session.cancel();
   expect(cancelled).toEqual(["take"]);
   expect(session.store.recording.value).toBeUndefined();
@@ -35,20 +37,20 @@ it("closes what is still being read, and says so to the server", async () => {
 });
 
 it("leaves open what only has no segments yet", async () => {
-  const { session, cancelled } = await opened(false);
+  const { session, cancelled } = await openSession(false);
   session.cancel();
   expect(cancelled).toEqual(["take"]);
   expect(session.store.recording.value?.id).toBe("take");
 });
 
 it("says nothing of a file that nobody waits for any more", async () => {
-  const { session } = await opened(false);
-  session.api.recording = () =>
+  const { session } = await openSession(false);
+  session.api.loadRecording = () =>
     Promise.reject(new Refused(400, "It is broken.", { reading: true }));
   const opening = session.open("other");
   session.stopOpening();
   await opening;
-  expect(session.bulletin.problems.value).toEqual([]);
+  expect(session.notifications.problems.value).toEqual([]);
   expect(session.unread.value).toBeNull();
   expect(session.store.recording.value?.id).toBe("take");
 });

@@ -3,68 +3,68 @@ import "./offscreen";
 import { expect, it } from "vitest";
 import type { BriefTable, FolderTables, State } from "../../src/messages";
 import { Store } from "../../src/store";
-import { tableOf } from "../../src/studio/folder/briefTables";
+import { unpackTable } from "../../src/studio/folder/briefTables";
 import { Folder } from "../../src/studio/folder/folder";
 import { FolderQueue } from "../../src/studio/folder/folderQueue";
 import type { Api } from "../../src/studio/server/api";
 import { Session } from "../../src/studio/session";
-import { brief, briefOf, listing } from "../studio/briefs";
+import { brief, createBrief, listing } from "../studio/briefs";
 import { Server } from "../studio/server";
 import { recording } from "../studio/tables";
 import "./browser";
 
-/** A server of several recordings, each of which takes edits. */
-function folderOf(tables: Record<string, BriefTable>): { session: Session; folder: Folder } {
+/** Create a server of several recordings that accept edits. */
+function createFolder(tables: Record<string, BriefTable>): { session: Session; folder: Folder } {
   const servers = new Map(
     Object.entries(tables).map(([id, table]) => {
-      const now = { ...recording(tableOf(table)), id, name: `${id}.bvh` };
+      const now = { ...recording(unpackTable(table)), id, name: `${id}.bvh` };
       return [id, new Server(now)];
     }),
   );
   const briefs = (): [string, BriefTable][] =>
-    [...servers].map(([id, { now }]) => [id, briefOf(now.segmentation)]);
+    [...servers].map(([id, { now }]) => [id, createBrief(now.segmentation)]);
   const api = {
-    state: () =>
+    loadState: () =>
       Promise.resolve({
         folder: "",
         recordings: briefs().map(([id, table]) => listing(id, table)),
       } as unknown as State),
-    tables: (): Promise<FolderTables> =>
+    loadTables: (): Promise<FolderTables> =>
       Promise.resolve({ recordings: briefs().map(([id, table]) => ({ id, table })) }),
-    recording: (id: string) => servers.get(id)!.recording(),
-    edit: (id: string, request: Parameters<Server["edit"]>[1]) =>
-      servers.get(id)!.edit(id, request),
+    loadRecording: (id: string) => servers.get(id)!.loadRecording(),
+    sendEdit: (id: string, request: Parameters<Server["sendEdit"]>[1]) =>
+      servers.get(id)!.sendEdit(id, request),
   };
   const session = new Session(api as unknown as Api, new Store());
   return { session, folder: new Folder(session) };
 }
 
 it("goes through all recordings, the least sure place first, whatever is edited", async () => {
-  const { session, folder } = folderOf({ a: brief(0.6), b: brief(0.2), c: brief(0.4) });
+  const { session, folder } = createFolder({ a: brief(0.6), b: brief(0.2), c: brief(0.4) });
   await session.refresh();
   const queue = new FolderQueue(folder);
-  await queue.next();
+  await queue.goToNext();
   expect([session.store.recording.value?.id, session.store.frame.value]).toEqual(["b", 40]);
-  const why = queue.looking.value?.doubt.why;
+  const why = queue.current.value?.doubt.confidence.why;
   const edited = session.edited.value!;
   await edited.edit({ kind: "name_segment", level: "activity", frame: 40, label: "jump" });
-  expect(queue.looking.value?.doubt.why).toBe(why);
+  expect(queue.current.value?.doubt.confidence.why).toBe(why);
   await edited.edit({ kind: "check", level: "activity", frames: [40], checked: true });
   expect(folder.tally.value).toEqual({ all: 6, checked: 1, doubtful: 1 });
-  await queue.next();
+  await queue.goToNext();
   expect(session.store.recording.value?.id).toBe("c");
-  expect(folder.tally.value.checked).toBe(1); // of one that is not open any more
-  await queue.next();
+  expect(folder.tally.value.checked).toBe(1); // the recording is closed
+  await queue.goToNext();
   expect(session.store.recording.value?.id).toBe("a");
 });
 
 it("passes over what was moved, too", async () => {
-  const { session, folder } = folderOf({ a: brief(0.2), b: brief(0.3) });
+  const { session, folder } = createFolder({ a: brief(0.2), b: brief(0.3) });
   await session.refresh();
   const queue = new FolderQueue(folder);
-  await queue.next();
+  await queue.goToNext();
   await session.edited.value!.edit({ kind: "move_border", level: "activity", frame: 40, to: 45 });
   session.store.seek(4.5);
-  await queue.next();
+  await queue.goToNext();
   expect(session.store.recording.value?.id).toBe("b");
 });

@@ -1,4 +1,4 @@
-/** A canvas that is never shown, which happy-dom has not; imported before all else. */
+/** Provide OffscreenCanvas, which happy-dom lacks; import this file first. */
 class OffscreenCanvas {
   getContext = (): object => ({ fillStyle: "#000000" });
 }

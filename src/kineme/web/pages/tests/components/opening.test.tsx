@@ -3,7 +3,7 @@ import "./offscreen";
 import { act, cleanup, fireEvent } from "@testing-library/preact";
 import { afterEach, expect, test, vi } from "vitest";
 import type { State } from "../../src/messages";
-import { Opening } from "../../src/studio/panels/Opening";
+import { OpeningProgress } from "../../src/studio/panels/OpeningProgress";
 import { listing } from "../studio/briefs";
 import { table } from "../studio/tables";
 import "./browser";
@@ -15,8 +15,8 @@ afterEach(() => {
 });
 
 test("a recording that takes long can be left while another one is shown", async () => {
-  const page = await show(<Opening />, table());
-  const { session } = page.parts;
+  const page = await show(<OpeningProgress />, table());
+  const { session } = page.services;
   vi.useFakeTimers();
   const long = { ...listing("long", null), bytes: 156_700_000 };
   await act(() => {

@@ -1,10 +1,10 @@
-/** Components of the studio on a page, with a recording open and a server that edits it. */
+/** Render studio components with an open recording and a server that edits it. */
 import { render, type RenderResult } from "@testing-library/preact";
 import type { JSX } from "preact";
 import { StoreProvider } from "../../src/context";
 import type { Segments, State } from "../../src/messages";
 import { Store } from "../../src/store";
-import { Front, StudioProvider, type StudioParts } from "../../src/studio/context";
+import { StudioView, StudioProvider, type StudioServices } from "../../src/studio/context";
 import { Editor } from "../../src/studio/editing/editor";
 import { Poses } from "../../src/studio/poses/poses";
 import { Review } from "../../src/studio/review/review";
@@ -16,26 +16,26 @@ import { recording } from "../studio/tables";
 
 export interface Page extends RenderResult {
   store: Store;
-  parts: StudioParts;
+  services: StudioServices;
   server: Server;
 }
 
 export async function show(component: JSX.Element, table: Segments): Promise<Page> {
   const server = new Server(recording(table));
-  const state = () => Promise.resolve({ recordings: [], labels: [] } as unknown as State);
-  const api = Object.assign(server, { state }) as unknown as Api;
+  const loadState = () => Promise.resolve({ recordings: [], labels: [] } as unknown as State);
+  const api = Object.assign(server, { loadState }) as unknown as Api;
   const store = new Store();
   const session = new Session(api, store);
   const editor = new Editor(session);
   const review = new Review(session, editor);
   const [uploads, poses] = [new Uploads(session), new Poses(session)];
-  const parts = { session, editor, review, uploads, poses, front: new Front() };
+  const services = { session, editor, review, uploads, poses, view: new StudioView() };
   store.edit.value = (edit) => editor.edit(edit);
   await session.open("take");
   const page = render(
     <StoreProvider value={store}>
-      <StudioProvider value={parts}>{component}</StudioProvider>
+      <StudioProvider value={services}>{component}</StudioProvider>
     </StoreProvider>,
   );
-  return { ...page, store, parts, server };
+  return { ...page, store, services, server };
 }

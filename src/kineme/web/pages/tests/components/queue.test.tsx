@@ -19,12 +19,12 @@ const rows = [
 const open = (component = <ReviewPanel />): Promise<Page> =>
   show(component, { ...table(), segments: rows });
 
-const listed = (page: Page): string[] =>
+const listItems = (page: Page): string[] =>
   page.queryAllByRole("listitem").map((each) => each.textContent);
 
 test("what has the lowest confidence is the first to be looked at", async () => {
   const page = await open();
-  expect(listed(page)).toEqual([
+  expect(listItems(page)).toEqual([
     expect.stringContaining("squat"),
     expect.stringContaining("arms"),
     expect.stringContaining("hop"),
@@ -38,7 +38,7 @@ test("what was checked leaves the queue, and the next one comes", async () => {
   const page = await open();
   fireEvent.click(page.getByText("Next"));
   fireEvent.click(page.getByText("Checked, next"));
-  await waitFor(() => expect(listed(page)).toHaveLength(2));
+  await waitFor(() => expect(listItems(page)).toHaveLength(2));
   await waitFor(() => expect(page.store.selected.value?.label).toBe("arms"));
   expect(page.getByText("1 of 3")).toBeTruthy();
   expect(page.server.got).toMatchObject([{ kind: "check", frames: [30], checked: true }]);
@@ -47,7 +47,7 @@ test("what was checked leaves the queue, and the next one comes", async () => {
 test("once all is checked it says so", async () => {
   const page = await open();
   for (let left = 3; left > 0; left--) {
-    await waitFor(() => expect(listed(page)).toHaveLength(left));
+    await waitFor(() => expect(listItems(page)).toHaveLength(left));
     fireEvent.click(page.getByText("Next"));
     fireEvent.click(page.getByText("Checked, next"));
   }
@@ -57,13 +57,14 @@ test("once all is checked it says so", async () => {
 test("edits that nobody answers are named until they are sent", async () => {
   const page = await open(<Notices />);
   page.server.up = false;
-  page.parts.session.lost = () => void (page.parts.session.trouble.value = "Nobody answers.");
-  page.parts.editor.name(page.store.primitives.value[0]!, "jump");
+  page.services.session.handleLostConnection = () =>
+    void (page.services.session.trouble.value = "Nobody answers.");
+  page.services.editor.nameSegment(page.store.primitives.value[0]!, "jump");
   const notice = await page.findByRole("alert");
   await waitFor(() => expect(notice.textContent).toMatch(/Nobody answers.*Not saved yet:.*jump/));
   page.server.up = true;
-  page.parts.session.trouble.value = null;
-  await page.parts.session.edited.value!.resume();
+  page.services.session.trouble.value = null;
+  await page.services.session.edited.value!.resume();
   await waitFor(() => expect(notice.textContent).toBe(""));
   expect(page.server.got).toHaveLength(1);
 });
@@ -71,7 +72,7 @@ test("edits that nobody answers are named until they are sent", async () => {
 test("an edit that is refused is named until that was read", async () => {
   const page = await open(<Notices />);
   page.server.refuses = () => true;
-  page.parts.editor.name(page.store.primitives.value[0]!, "jump");
+  page.services.editor.nameSegment(page.store.primitives.value[0]!, "jump");
   await waitFor(() => expect(page.getByRole("alert").textContent).toMatch(/Not made: .*jump/));
   fireEvent.click(page.getByLabelText("Dismiss"));
   await waitFor(() => expect(page.getByRole("alert").textContent).toBe(""));

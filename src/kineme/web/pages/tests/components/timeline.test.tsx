@@ -3,9 +3,9 @@ import "./offscreen";
 import { cleanup, fireEvent, waitFor } from "@testing-library/preact";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { Timeline } from "../../src/timeline/Timeline";
-import { GUTTER, layOut } from "../../src/timeline/lanes";
+import { GUTTER_WIDTH, layOutLanes } from "../../src/timeline/lanes";
 import { row, table } from "../studio/tables";
-import { HEIGHT, textsOn, WIDTH } from "./browser";
+import { HEIGHT, readTexts, WIDTH } from "./browser";
 import { show, type Page } from "./page";
 
 const FRAMES = 100;
@@ -22,19 +22,19 @@ let canvas: HTMLElement;
 beforeEach(async () => {
   page = await show(<Timeline />, { ...table(), segments: rows });
   canvas = page.getByRole("img", { name: /Segments over time/ });
-  textsOn(canvas); // only what was drawn can be pressed
+  readTexts(canvas); // lanes exist only after drawing
 });
 
 afterEach(cleanup);
 
-/** Where the primitives are at a frame. */
+/** Return the pointer position of a frame on the primitives' lane. */
 function at(frame: number): PointerEventInit {
   const { activities, primitives } = page.store;
   const shown = { activities: activities.value, primitives: primitives.value };
-  const lane = layOut({ ...shown, labels: [], others: [] }, HEIGHT).find(
+  const lane = layOutLanes({ ...shown, labels: [], others: [] }, HEIGHT).find(
     ({ id }) => id === "primitive",
   )!;
-  const clientX = GUTTER + ((WIDTH - GUTTER) * frame) / FRAMES;
+  const clientX = GUTTER_WIDTH + ((WIDTH - GUTTER_WIDTH) * frame) / FRAMES;
   return { clientX, clientY: lane.top + lane.height / 2, button: 0, pointerId: 1 };
 }
 
@@ -44,7 +44,7 @@ function drag(from: number, to: number): void {
 }
 
 test("shows the lanes, and the names of segments in them", () => {
-  const texts = textsOn(canvas);
+  const texts = readTexts(canvas);
   expect(texts).toEqual(expect.arrayContaining(["Activities", "Primitives", "Labels"]));
   expect(texts.filter((text) => text === "hop").length).toBeGreaterThanOrEqual(2);
   expect(texts).toContain("gymnastics");
@@ -80,7 +80,7 @@ test("Escape gives a dragged border up", () => {
 });
 
 test("a name that is given is drawn", async () => {
-  page.parts.editor.name(page.store.primitives.value[1]!, "lunge");
-  await waitFor(() => expect(textsOn(canvas)).toContain("lunge"));
-  expect(textsOn(canvas)).not.toContain("squat");
+  page.services.editor.nameSegment(page.store.primitives.value[1]!, "lunge");
+  await waitFor(() => expect(readTexts(canvas)).toContain("lunge"));
+  expect(readTexts(canvas)).not.toContain("squat");
 });

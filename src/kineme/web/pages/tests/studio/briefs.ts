@@ -1,7 +1,7 @@
-/** Tables of a folder in brief, for tests. */
+/** Create brief tables of a folder. */
 import type { BriefTable, Listing, Segments } from "../../src/messages";
 
-/** Two activities; the second starts where it does with this confidence. */
+/** Create two activities; the second border has this confidence. */
 export function brief(border: number, checked: number[] = []): BriefTable {
   return {
     n_frames: 100,
@@ -37,8 +37,8 @@ export function listing(id: string, table: BriefTable | null): Listing {
   };
 }
 
-/** A table as a server would tell it. */
-export function briefOf({ n_frames, fps, segments }: Segments): BriefTable {
+/** Return a table as the server sends it. */
+export function createBrief({ n_frames, fps, segments }: Segments): BriefTable {
   return {
     n_frames,
     fps,

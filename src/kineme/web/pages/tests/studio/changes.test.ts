@@ -1,14 +1,14 @@
 import { describe, expect, it } from "vitest";
 import type { Edit, Segment, Segments } from "../../src/messages";
 import { applyChange } from "../../src/studio/editing/changes";
-import { follow } from "../../src/studio/editing/follow";
+import { retargetEdit } from "../../src/studio/editing/retargetEdit";
 import { row, table } from "./tables";
 
 const starts = ({ segments }: Segments): [string, number, number][] =>
   segments.map((each) => [each.level, each.start_frame, each.activity]);
 
-/** The table with other primitives. */
-function withPrimitives(...primitives: Segment[]): Segments {
+/** Return the table with other primitives. */
+function replacePrimitives(...primitives: Segment[]): Segments {
   return { ...table(), segments: [table().segments[0]!, ...primitives] };
 }
 
@@ -42,35 +42,35 @@ describe("a change of the table", () => {
 
 describe("an edit that waits", () => {
   const named: Edit = { kind: "name_segment", level: "primitive", frame: 30, label: "hop" };
-  const moved = withPrimitives(
+  const moved = replacePrimitives(
     row("primitive", 0, 40),
     row("primitive", 40, 60),
     row("primitive", 60, 100),
   );
-  const joined = withPrimitives(row("primitive", 0, 60), row("primitive", 60, 100));
+  const joined = replacePrimitives(row("primitive", 0, 60), row("primitive", 60, 100));
 
   it("follows its segment to where it starts by then, and back", () => {
-    expect(follow(named, table(), moved)).toEqual({ ...named, frame: 40 });
-    expect(follow({ ...named, frame: 40 }, moved, table())).toEqual(named);
+    expect(retargetEdit(named, table(), moved)).toEqual({ ...named, frame: 40 });
+    expect(retargetEdit({ ...named, frame: 40 }, moved, table())).toEqual(named);
   });
 
   it("is none where its segment has become part of another", () => {
-    expect(follow(named, table(), joined)).toBeNull();
+    expect(retargetEdit(named, table(), joined)).toBeNull();
     const both: Edit = { kind: "check", level: "primitive", frames: [0, 30], checked: true };
-    expect(follow(both, table(), joined)).toBeNull();
-    expect(follow({ ...both, frames: [0, 60] }, table(), joined)).not.toBeNull();
+    expect(retargetEdit(both, table(), joined)).toBeNull();
+    expect(retargetEdit({ ...both, frames: [0, 60] }, table(), joined)).not.toBeNull();
   });
 
   it("joins up to a border that was moved, and to the end of the recording", () => {
     const merge = { kind: "merge", level: "primitive", start_frame: 0, stop_frame: 30 } as const;
-    expect(follow(merge, table(), moved)).toEqual({ ...merge, stop_frame: 40 });
-    expect(follow({ ...merge, stop_frame: 100 }, table(), moved)).toMatchObject({
+    expect(retargetEdit(merge, table(), moved)).toEqual({ ...merge, stop_frame: 40 });
+    expect(retargetEdit({ ...merge, stop_frame: 100 }, table(), moved)).toMatchObject({
       stop_frame: 100,
     });
   });
 
   it("makes a new border at its frame, whatever segment that lies in", () => {
     const split: Edit = { kind: "split", level: "primitive", frame: 30 };
-    expect(follow(split, table(), joined)).toEqual(split);
+    expect(retargetEdit(split, table(), joined)).toEqual(split);
   });
 });

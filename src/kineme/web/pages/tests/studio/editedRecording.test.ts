@@ -34,22 +34,22 @@ function open(): Promise<InstanceType<typeof EditedRecording>> {
   return EditedRecording.open("take", {
     api: server as unknown as Api,
     folder: "/folder",
-    isAway: () => away,
-    lost: () => void (away = true),
+    isOffline: () => away,
+    onConnectionLost: () => void (away = true),
     tell: (text) => void told.push(text),
     warn: (text) => void warned.push(text),
   });
 }
 
-/** The answer to an edit that named the second primitive, as of a table of that revision. */
-function renamedAt(of: number, label: string): Edited {
+/** Return the answer to an edit of revision `of` that named the second primitive. */
+function createAnswer(of: number, label: string): Edited {
   const rows = [{ ...recording().segmentation.segments[2]!, label }];
   const change = { of, removed: [], rows, cluster_names: {} };
   const rest = { can_undo: true, can_redo: false, saved: "take.segments.json", notes: [] };
   return { revision: of + 1, change, segmentation: null, ...rest };
 }
 
-const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
+const waitForAnswer = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 beforeEach(() => {
   stored.clear();
@@ -58,7 +58,7 @@ beforeEach(() => {
   away = false;
 });
 
-function back(edited: InstanceType<typeof EditedRecording>): Promise<void> {
+function waitUntilBack(edited: InstanceType<typeof EditedRecording>): Promise<void> {
   server.up = true;
   away = false;
   return edited.resume();
@@ -70,10 +70,10 @@ describe("while the server answers", () => {
     let seen: number[] = [];
     const done = edited.edit(SPLIT, () => (seen = starts(edited.confirmed.value.segmentation)));
     expect(starts(edited.confirmed.value.segmentation)).not.toContain(45);
-    expect(edited.unsent()).toHaveLength(1);
+    expect(edited.describeUnsent()).toHaveLength(1);
     await done;
     expect(seen).toContain(45);
-    expect(edited.unsent()).toEqual([]);
+    expect(edited.describeUnsent()).toEqual([]);
     expect(edited.confirmed.value.saved).toBe("take.segments.json");
   });
 
@@ -81,14 +81,14 @@ describe("while the server answers", () => {
     const edited = await open();
     edited.edit(MOVE);
     edited.edit(SPLIT);
-    await settled();
+    await waitForAnswer();
     expect(server.got).toEqual([MOVE, SPLIT]);
     expect(edited.confirmed.value.revision).toBe(2);
   });
 
   it("the table is made of what the answer tells of it", async () => {
     const edited = await open();
-    vi.spyOn(server, "edit").mockResolvedValueOnce(renamedAt(0, "hop"));
+    vi.spyOn(server, "sendEdit").mockResolvedValueOnce(createAnswer(0, "hop"));
     await edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
     const { revision, segmentation } = edited.confirmed.value;
     expect(revision).toBe(1);
@@ -106,7 +106,7 @@ describe("while the server answers", () => {
 
   it("what an answer tells of a table that is not ours is not taken over", async () => {
     const edited = await open();
-    vi.spyOn(server, "edit").mockResolvedValueOnce(renamedAt(7, "hop"));
+    vi.spyOn(server, "sendEdit").mockResolvedValueOnce(createAnswer(7, "hop"));
     server.now = { ...server.now, revision: 9 };
     await edited.edit(MOVE);
     expect(edited.confirmed.value).toEqual(server.now);
@@ -118,14 +118,14 @@ describe("while the server answers", () => {
     const seen: number[][] = [];
     const look = () => void seen.push(starts(edited.confirmed.value.segmentation));
     edited.edit(MOVE);
-    edited.whenShown(() => {
+    edited.runWhenShown(() => {
       look();
       edited.edit(SPLIT);
     });
     edited.edit({ ...SPLIT, frame: 80 });
-    edited.whenShown(look);
-    expect(edited.unsent()).toHaveLength(4);
-    await edited.settled();
+    edited.runWhenShown(look);
+    expect(edited.describeUnsent()).toHaveLength(4);
+    await edited.waitUntilSent();
     expect(seen).toEqual([
       [0, 40, 60],
       [0, 40, 45, 60, 80],
@@ -141,7 +141,7 @@ it("each edit is one of the segments that it was made on, however late the answe
   edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
   edited.edit({ kind: "check", level: "primitive", frames: [30], checked: true });
   edited.edit({ kind: "merge", level: "primitive", start_frame: 0, stop_frame: 30 });
-  await edited.settled();
+  await edited.waitUntilSent();
   const { segmentation } = edited.confirmed.value;
   expect(starts(segmentation)).toEqual([0, 33, 60]);
   expect(segmentation.segments.map((each) => each.label)).toEqual(["", "", "hop", ""]);
@@ -164,7 +164,7 @@ describe("what the server refuses", () => {
     const edited = await open();
     edited.edit(GONE);
     edited.edit(SPLIT);
-    await settled();
+    await waitForAnswer();
     expect(server.got).toEqual([SPLIT]);
     expect(warned).toEqual(["Not made: primitive border at 3.00 s deleted (It cannot be made.)."]);
     expect(stored.size).toBe(0);
@@ -176,7 +176,7 @@ describe("what the server refuses", () => {
     server.latency = 2;
     edited.edit(GONE);
     edited.undo();
-    await edited.settled();
+    await edited.waitUntilSent();
     expect(server.got).toEqual([MOVE]);
     expect([told, warned]).toEqual([["It cannot be made."], []]);
   });
@@ -185,7 +185,7 @@ describe("what the server refuses", () => {
     const edited = await open();
     edited.edit({ kind: "undo" });
     edited.edit(SPLIT);
-    await settled();
+    await waitForAnswer();
     expect([told, warned]).toEqual([["It cannot be made."], []]);
     expect(server.got).toEqual([SPLIT]);
   });
@@ -206,7 +206,7 @@ it("as many edits are undone as undo was asked for, however fast", async () => {
   edited.edit(SPLIT);
   edited.undo();
   edited.undo();
-  await edited.settled();
+  await edited.waitUntilSent();
   expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 30, 60]);
   expect(edited.confirmed.value.revision).toBe(4);
 });
@@ -217,22 +217,22 @@ describe("when the server is gone", () => {
     server.up = false;
     edited.edit(MOVE);
     edited.edit(SPLIT);
-    await settled();
+    await waitForAnswer();
     expect(away).toBe(true);
-    expect(edited.unsent()).toHaveLength(2);
-    await back(edited);
+    expect(edited.describeUnsent()).toHaveLength(2);
+    await waitUntilBack(edited);
     expect(server.got).toEqual([MOVE, SPLIT]);
-    expect(edited.unsent()).toEqual([]);
+    expect(edited.describeUnsent()).toEqual([]);
   });
 
   it("nothing more is taken, and that is said", async () => {
     const edited = await open();
     away = true;
     await edited.edit(MOVE);
-    edited.whenShown(() => void edited.edit(SPLIT));
-    expect(edited.unsent()).toEqual([]);
+    edited.runWhenShown(() => void edited.edit(SPLIT));
+    expect(edited.describeUnsent()).toEqual([]);
     expect(told).toEqual(Array(2).fill("Not done: the studio’s server does not answer."));
-    await back(edited);
+    await waitUntilBack(edited);
     expect(server.got).toEqual([]);
   });
 
@@ -240,11 +240,11 @@ describe("when the server is gone", () => {
     const edited = await open();
     server.dieAfterSaving = true;
     edited.edit(MOVE);
-    await settled();
-    expect(edited.unsent()).toHaveLength(1);
+    await waitForAnswer();
+    expect(edited.describeUnsent()).toHaveLength(1);
     server.dieAfterSaving = false;
-    await back(edited);
-    expect(edited.unsent()).toEqual([]);
+    await waitUntilBack(edited);
+    expect(edited.describeUnsent()).toEqual([]);
     expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([MOVE]);
   });
@@ -254,12 +254,12 @@ describe("when the server is gone", () => {
     server.dieAfterSaving = true;
     edited.edit({ kind: "delete_border", level: "primitive", frame: 30 });
     edited.edit({ kind: "name_segment", level: "primitive", frame: 0, label: "whole" });
-    await settled();
+    await waitForAnswer();
     edited.close();
     server.dieAfterSaving = false;
     [server.up, away] = [true, false];
     const next = await open();
-    await settled();
+    await waitForAnswer();
     expect(warned).toEqual([]);
     expect(server.got).toHaveLength(2);
     expect(next.confirmed.value.segmentation.segments[1]!.label).toBe("whole");
@@ -269,15 +269,15 @@ describe("when the server is gone", () => {
     const edited = await open();
     server.up = false;
     edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
-    await settled();
+    await waitForAnswer();
     edited.close();
     [server.up, away] = [true, false];
     const bare = [row("activity", 0, 100), row("primitive", 0, 100)];
     const segmentation = { ...server.now.segmentation, segments: bare };
     const finding = { ...server.now, segmentation, finding: true, revision: -1 };
-    vi.spyOn(server, "recording").mockResolvedValueOnce(finding);
+    vi.spyOn(server, "loadRecording").mockResolvedValueOnce(finding);
     const next = await open();
-    await settled();
+    await waitForAnswer();
     expect(warned).toEqual([]);
     expect(server.got).toMatchObject([{ frame: 30, label: "hop" }]);
     expect(next.confirmed.value.finding).toBe(false); // else it could never be edited again
@@ -287,11 +287,11 @@ describe("when the server is gone", () => {
     const edited = await open();
     server.up = false;
     edited.edit(MOVE);
-    await settled();
+    await waitForAnswer();
     edited.close();
     [server.up, away] = [true, false];
     const next = await open();
-    await settled();
+    await waitForAnswer();
     expect(starts(next.confirmed.value.segmentation)).toContain(40);
     expect(stored.size).toBe(0);
   });
@@ -300,25 +300,25 @@ describe("when the server is gone", () => {
 describe("when somebody else changes the table", () => {
   it("an edit of the old table is kept and made only when asked for", async () => {
     const edited = await open();
-    await server.edit("take", { revision: 0, edit: MOVE });
+    await server.sendEdit("take", { revision: 0, edit: MOVE });
     edited.edit(SPLIT);
-    await settled();
+    await waitForAnswer();
     expect(edited.blocked.value).toBe("The table has changed.");
-    expect(edited.unsent()).toHaveLength(1);
+    expect(edited.describeUnsent()).toHaveLength(1);
     expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 40, 60]);
     edited.retry();
-    await settled();
+    await waitForAnswer();
     expect(starts(server.now.segmentation)).toEqual([0, 40, 45, 60]);
     expect(edited.blocked.value).toBeNull();
   });
 
   it("it is made on what it was made on, wherever somebody has put that", async () => {
     const edited = await open();
-    await server.edit("take", { revision: 0, edit: MOVE });
+    await server.sendEdit("take", { revision: 0, edit: MOVE });
     edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
-    await settled();
+    await waitForAnswer();
     edited.retry();
-    await settled();
+    await waitForAnswer();
     const named = { kind: "name_segment", level: "primitive", frame: 40, label: "hop" };
     expect(server.got.at(-1)).toEqual(named);
   });
@@ -326,40 +326,40 @@ describe("when somebody else changes the table", () => {
   it("what it was made on may be gone: then it is refused, and made on nothing else", async () => {
     const edited = await open();
     const gone: Edit = { kind: "delete_border", level: "primitive", frame: 30 };
-    await server.edit("take", { revision: 0, edit: gone });
+    await server.sendEdit("take", { revision: 0, edit: gone });
     edited.edit({ kind: "name_segment", level: "primitive", frame: 30, label: "hop" });
-    await settled();
+    await waitForAnswer();
     edited.retry();
-    await settled();
+    await waitForAnswer();
     expect(server.got).toHaveLength(1);
     expect(warned[0]).toContain("not there any more");
   });
 
   it("nothing more is edited until somebody decides", async () => {
     const edited = await open();
-    await server.edit("take", { revision: 0, edit: MOVE });
+    await server.sendEdit("take", { revision: 0, edit: MOVE });
     edited.edit({ kind: "delete_border", level: "primitive", frame: 60 });
-    await settled();
+    await waitForAnswer();
     await edited.edit(SPLIT);
     expect(told).toEqual(["Not done: first choose what becomes of the edits above."]);
-    expect(edited.unsent()).toHaveLength(1);
+    expect(edited.describeUnsent()).toHaveLength(1);
   });
 
   it("it can be dropped, too", async () => {
     const edited = await open();
-    await server.edit("take", { revision: 0, edit: MOVE });
+    await server.sendEdit("take", { revision: 0, edit: MOVE });
     edited.edit(SPLIT);
-    await settled();
-    edited.drop();
-    await settled();
+    await waitForAnswer();
+    edited.discardEdits();
+    await waitForAnswer();
     expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 40, 60]);
     expect(server.got).toEqual([MOVE]);
   });
 
   it("the table is loaded anew when the server tells", async () => {
     const edited = await open();
-    await server.edit("take", { revision: 0, edit: MOVE });
-    await edited.changed(1);
+    await server.sendEdit("take", { revision: 0, edit: MOVE });
+    await edited.handleChange(1);
     expect(starts(edited.confirmed.value.segmentation)).toEqual([0, 40, 60]);
     expect(told).toHaveLength(1);
   });
@@ -368,7 +368,7 @@ describe("when somebody else changes the table", () => {
     const edited = await open();
     const old = server.now;
     let answer: (recording: Recording) => void = () => undefined;
-    vi.spyOn(server, "recording").mockReturnValueOnce(new Promise((done) => (answer = done)));
+    vi.spyOn(server, "loadRecording").mockReturnValueOnce(new Promise((done) => (answer = done)));
     const asked = edited.resume();
     await edited.edit(SPLIT);
     answer(old);
@@ -381,7 +381,7 @@ describe("when somebody else changes the table", () => {
     const edited = await open();
     server.now = { ...server.now, revision: 7 };
     edited.edit(SPLIT);
-    await settled();
+    await waitForAnswer();
     expect(edited.blocked.value).toBeNull();
     expect(server.got).toEqual([SPLIT]);
   });

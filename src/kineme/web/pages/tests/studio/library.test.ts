@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import type { LibraryCluster, LibraryHit } from "../../src/messages";
-import { sideOf } from "../../src/studio/library/flat";
-import { asCsv, asJson, ordered, sharesOf } from "../../src/studio/library/hits";
+import { findWidestDirection } from "../../src/studio/library/flattenMotion";
+import { toCsv, toJson, sortClusters, countByCluster } from "../../src/studio/library/hits";
 
 const hit = (some: Partial<LibraryHit>): LibraryHit => ({
   recording: "a.bvh",
@@ -16,7 +16,7 @@ const hit = (some: Partial<LibraryHit>): LibraryHit => ({
 
 test("the clusters of what was confirmed are told, most first, none last of as many", () => {
   const clusters = [3, -1, 5, 5, 3, 5].map((cluster) => hit({ cluster }));
-  expect(sharesOf(clusters)).toEqual([
+  expect(countByCluster(clusters)).toEqual([
     [5, 3],
     [3, 2],
     [-1, 1],
@@ -26,13 +26,13 @@ test("the clusters of what was confirmed are told, most first, none last of as m
 test("hits are taken along with what was said of them", () => {
   const hits = [hit({}), hit({ recording: 'b, "c".bvh', label: "walk" })];
   const said = (each: LibraryHit): boolean | undefined => (each.label ? true : undefined);
-  expect(asCsv(hits, said).split("\n")).toEqual([
+  expect(toCsv(hits, said).split("\n")).toEqual([
     "recording,start_s,stop_s,distance,cluster,label,name,confirmed",
     "a.bvh,1,2,0.5,3,,,",
     '"b, ""c"".bvh",1,2,0.5,3,walk,,true',
     "",
   ]);
-  const lines = asJson(hits, said).trim().split("\n");
+  const lines = toJson(hits, said).trim().split("\n");
   expect(lines.map((line) => (JSON.parse(line) as { confirmed: unknown }).confirmed)).toEqual([
     null,
     true,
@@ -41,12 +41,12 @@ test("hits are taken along with what was said of them", () => {
 
 test("clusters are ordered by name, those without one last", () => {
   const clusters = ["", "walk", "jump", ""].map((label, cluster) => ({ cluster, label }));
-  const found = ordered(clusters as LibraryCluster[], "name");
+  const found = sortClusters(clusters as LibraryCluster[], "name");
   expect(found.map(({ cluster }) => cluster)).toEqual([2, 1, 0, 3]);
 });
 
 test("a body is seen from the side from which it moves most", () => {
   const bodies = [-1, 0, 1].map((z) => Float32Array.from([5, 1, 2, 0.1 * z, 1, z]));
-  expect(Math.abs(Math.tan(sideOf(bodies)))).toBeGreaterThan(5);
-  expect(sideOf([])).toBe(0);
+  expect(Math.abs(Math.tan(findWidestDirection(bodies)))).toBeGreaterThan(5);
+  expect(findWidestDirection([])).toBe(0);
 });

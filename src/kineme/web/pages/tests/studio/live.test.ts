@@ -1,6 +1,12 @@
 import { expect, test } from "vitest";
 import type { LiveEvent, LiveUpdate } from "../../src/messages";
-import { partsToDraw, statusOf, tempoOf, updated, type Live } from "../../src/studio/live/live";
+import {
+  listPartsToDraw,
+  describeStatus,
+  computeTempo,
+  applyUpdate,
+  type Live,
+} from "../../src/studio/live/live";
 
 const HEAD = { channels: ["x"], sample_fps: 25, bones: [] };
 const BLANK = { stop_s: 0, cluster: 0, label: "", number: 0, repetitions: 0, text: "" };
@@ -21,7 +27,7 @@ function repetition(number: number, state: LiveEvent["state"] = "provisional"): 
 const started = event("ActivityStarted", { label: "squat" });
 
 function shown(...events: LiveEvent[]): Live {
-  return updated(null, update(6, events, { head: HEAD }))!;
+  return applyUpdate(null, update(6, events, { head: HEAD }))!;
 }
 
 test("the count, its tempo, and what is sure of it", () => {
@@ -33,14 +39,14 @@ test("the count, its tempo, and what is sure of it", () => {
     repetition(1, "final"),
   );
   expect(live.current).toMatchObject({ name: "squat", count: 3 });
-  expect(tempoOf(live.current!.stops)).toBe(30);
-  const drawn = partsToDraw(live, "repetitions");
+  expect(computeTempo(live.current!.stops)).toBe(30);
+  const drawn = listPartsToDraw(live, "repetitions");
   expect(drawn.map(({ start_s, isFinal }) => [start_s, isFinal])).toEqual([
     [0, true],
     [2, false],
     [4, false],
   ]);
-  expect(partsToDraw(live, "activities").map(({ stop_s }) => stop_s)).toEqual([2, 6]);
+  expect(listPartsToDraw(live, "activities").map(({ stop_s }) => stop_s)).toEqual([2, 6]);
 });
 
 test("an hour leaves no more than what is shown", () => {
@@ -49,7 +55,7 @@ test("an hour leaves no more than what is shown", () => {
     const whole = event("ActivityEnded", { state: "final", start_s: 2 * n - 2, stop_s: 2 * n });
     const events = [started, repetition(n), repetition(n, "final"), whole];
     const samples = Array.from({ length: 50 }, () => [1]);
-    live = updated(live, update(2 * n, events, { first_s: 2 * n - 2, samples }));
+    live = applyUpdate(live, update(2 * n, events, { first_s: 2 * n - 2, samples }));
   }
   expect(live!.final.repetitions.length).toBeLessThan(70);
   expect(live!.provisional.repetitions.length).toBeLessThan(70);
@@ -58,11 +64,17 @@ test("an hour leaves no more than what is shown", () => {
 });
 
 test("what is wrong with the source is said", () => {
-  expect(statusOf(null, true)).toContain("Waiting");
+  expect(describeStatus(null, true)).toContain("Waiting");
   const gap = event("Gap", { start_s: 5 });
-  expect(statusOf(shown(gap), true)).toContain("Gap");
-  expect(statusOf(shown(gap, { ...gap, state: "final", stop_s: 6 }), true)).toBe("Recording.");
-  expect(statusOf(updated(shown(), update(6, [], { silent_s: 3 })), true)).toContain("stopped");
-  expect(statusOf(shown(), false)).toContain("does not answer");
-  expect(statusOf(updated(shown(), update(6, [], { has_ended: true })), false)).toContain("ended");
+  expect(describeStatus(shown(gap), true)).toContain("Gap");
+  expect(describeStatus(shown(gap, { ...gap, state: "final", stop_s: 6 }), true)).toBe(
+    "Recording.",
+  );
+  expect(describeStatus(applyUpdate(shown(), update(6, [], { silent_s: 3 })), true)).toContain(
+    "stopped",
+  );
+  expect(describeStatus(shown(), false)).toContain("does not answer");
+  expect(describeStatus(applyUpdate(shown(), update(6, [], { has_ended: true })), false)).toContain(
+    "ended",
+  );
 });

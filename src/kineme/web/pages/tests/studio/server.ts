@@ -1,17 +1,17 @@
-/** The server of the studio, as far as tests need one. */
+/** Simulate the studio's server. */
 import type { Edit, Edited, EditRequest, Level, Recording } from "../../src/messages";
 import { Refused, Unreachable } from "../../src/studio/server/answers";
 import { recording, row } from "./tables";
 
 type Table = Pick<Recording, "segmentation">;
 
-/** A server that edits one table, knows edits by name, can be switched off, or die once it saved. */
+/** A server that edits one table, recognises repeated edits, and can be offline or fail after saving. */
 export class Server {
   up = true;
-  /** What it cannot make, for reasons of its own. */
+  /** Edits that it refuses. */
   refuses: (edit: Edit) => boolean = () => false;
   dieAfterSaving = false;
-  /** Milliseconds until it answers. */
+  /** Delay of answers, milliseconds. */
   latency = 0;
   readonly got: Edit[] = [];
   private readonly known = new Set<string>();
@@ -19,17 +19,17 @@ export class Server {
 
   constructor(public now: Recording = recording()) {}
 
-  async recording(): Promise<Recording> {
+  async loadRecording(): Promise<Recording> {
     if (!this.up) throw new Unreachable();
     return this.now;
   }
 
-  async edit(_id: string, { revision, edit, name = "" }: EditRequest): Promise<Edited> {
+  async sendEdit(_id: string, { revision, edit, name = "" }: EditRequest): Promise<Edited> {
     if (this.latency) await new Promise((resolve) => setTimeout(resolve, this.latency));
     if (!this.up) throw new Unreachable();
     if (this.known.has(name)) return this.answer();
     if (revision !== this.now.revision) throw new Refused(409, "The table has changed.", {});
-    const after = edit.kind === "undo" ? this.past.pop() : edited(this.now, edit);
+    const after = edit.kind === "undo" ? this.past.pop() : applyEdit(this.now, edit);
     if (!after || this.refuses(edit)) throw new Refused(400, "It cannot be made.", {});
     if (edit.kind !== "undo") this.past.push(this.now);
     this.got.push(edit);
@@ -49,14 +49,14 @@ export class Server {
   }
 }
 
-/** The table after an edit, of the few kinds that tests make. */
-function edited(table: Table, edit: Edit): Table | undefined {
+/** Apply an edit of the kinds that the tests use. */
+function applyEdit(table: Table, edit: Edit): Table | undefined {
   const { segmentation } = table;
   const rows = segmentation.segments.map((each) => ({ ...each }));
   const startingAt = (level: Level, frame: number): number =>
     rows.findIndex((each) => each.level === level && each.start_frame === frame);
   if (edit.kind === "together")
-    return edit.edits.reduce<Table | undefined>((now, one) => now && edited(now, one), table);
+    return edit.edits.reduce<Table | undefined>((now, one) => now && applyEdit(now, one), table);
   if (edit.kind === "check") {
     for (const frame of edit.frames) rows[startingAt(edit.level, frame)]!.checked = edit.checked;
   } else if (edit.kind === "split") {

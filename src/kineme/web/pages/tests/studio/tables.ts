@@ -1,4 +1,4 @@
-/** Small segment tables and recordings for the tests of the studio. */
+/** Create small segment tables and recordings for tests of the studio. */
 import {
   bareSegment,
   type Level,
@@ -9,7 +9,7 @@ import {
 
 export const FPS = 10;
 
-/** A row of a level from its first frame, last frame, cluster and label. */
+/** Create a row. */
 export function row(level: Level, start: number, stop: number, cluster = 0, label = ""): Segment {
   return {
     ...bareSegment,
@@ -24,7 +24,7 @@ export function row(level: Level, start: number, stop: number, cluster = 0, labe
   };
 }
 
-/** One activity of 100 frames, and primitives of 30, 30 and 40. */
+/** Create one activity of 100 frames and primitives of 30, 30 and 40. */
 export function table(): Segments {
   return {
     schema: "kineme.segments/2",
@@ -62,7 +62,7 @@ export function recording(segmentation = table(), revision = 0): Recording {
   };
 }
 
-/** First frames of the primitives. */
+/** Return the start frames of the primitives. */
 export function starts(segmentation: Segments): number[] {
   return segmentation.segments
     .filter((segment) => segment.level === "primitive")

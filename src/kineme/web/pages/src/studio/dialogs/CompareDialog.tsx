@@ -1,25 +1,21 @@
-/** Another result beside the shown one: a preset's, or a label file's of the folder. */
+/** Choose another result to compare with: a preset's or a label file's. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { CompareRequest } from "../../messages";
 import { PeopleChoice } from "../people/PeopleChoice";
-import { Dialog } from "./Dialog";
+import { Dialog, type DialogProps } from "./Dialog";
 import { Button } from "../../layout/controls";
 
-interface Props {
-  close: () => void;
-}
-
-export function CompareDialog({ close }: Props): JSX.Element {
+export function CompareDialog({ close }: DialogProps): JSX.Element {
   const { session } = useStudio();
   const busy = useSignal("");
-  useEffect(() => void session.refresh(), [session]); // there may be new files
+  useEffect(() => void session.refresh(), [session]); // files may have been added
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = async (name: string, request: CompareRequest): Promise<void> => {
     busy.value = name;
-    if (await session.beside.compare(request)) close();
+    if (await session.comparisons.compare(request)) close();
     busy.value = "";
   };
   return (

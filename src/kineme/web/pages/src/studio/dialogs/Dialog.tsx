@@ -1,11 +1,14 @@
-/** A window over the page; Escape and the backdrop close it, the keyboard stays inside. */
+/** Show a modal dialog; Escape and a click outside close it. */
 import type { ComponentChildren, JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { CloseButton } from "../../layout/controls";
 
-interface Props {
-  title: string;
+export interface DialogProps {
   close: () => void;
+}
+
+interface Props extends DialogProps {
+  title: string;
   children: ComponentChildren;
 }
 

@@ -1,16 +1,12 @@
-/** The segments as a file, in every format the package writes. */
+/** Export the segments in any format that the package writes. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Level } from "../../messages";
-import { save } from "../server/save";
-import { Dialog } from "./Dialog";
+import { saveFile } from "../server/saveFile";
+import { Dialog, type DialogProps } from "./Dialog";
 import { Button } from "../../layout/controls";
-
-interface Props {
-  close: () => void;
-}
 
 const CHOICES: readonly (readonly [Level | "", string])[] = [
   ["", "activities and primitives, if it holds both"],
@@ -18,7 +14,7 @@ const CHOICES: readonly (readonly [Level | "", string])[] = [
   ["primitive", "primitives alone"],
 ];
 
-export function ExportDialog({ close }: Props): JSX.Element {
+export function ExportDialog({ close }: DialogProps): JSX.Element {
   const { session } = useStudio();
   const level = useSignal<Level | "">("");
   const all = useSignal(false);
@@ -30,12 +26,12 @@ export function ExportDialog({ close }: Props): JSX.Element {
     const edited = session.edited.value;
     if (!edited) return;
     busy.value = format;
-    await session.bulletin.attempt("export", async () => {
+    await session.notifications.attempt("export", async () => {
       const { api } = session;
       const asked = all.value
-        ? api.exportedTogether(format, level.value)
-        : api.exported(edited.id, format, level.value);
-      save(await asked);
+        ? api.exportAll(format, level.value)
+        : api.exportSegments(edited.id, format, level.value);
+      saveFile(await asked);
     });
     busy.value = "";
   };

@@ -1,11 +1,11 @@
-/** The keys, and what the mouse does. */
+/** Show the keys and what the mouse does. */
 import type { JSX } from "preact";
 import { Keys } from "../../about/Keys";
 import { PAGE_KEYS } from "../../keys";
-import { Dialog } from "./Dialog";
+import { Dialog, type DialogProps } from "./Dialog";
 import { STUDIO_KEYS } from "../keys";
 
-export function HelpDialog({ close }: { close: () => void }): JSX.Element {
+export function HelpDialog({ close }: DialogProps): JSX.Element {
   return (
     <Dialog title="Keys" close={close}>
       <Keys keys={[...PAGE_KEYS, ...STUDIO_KEYS]} />

@@ -1,12 +1,12 @@
-/** A loop as it will be written, round after round. */
+/** Play a loop as it will be exported, round after round. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { onPage } from "../../colors";
+import { adaptColor } from "../../colors";
 import { theme } from "../../theme";
-import { painter, ticker } from "../../ticker";
+import { drawOnChange, ticker } from "../../ticker";
 import { IconButton } from "../../transport/icons";
-import { secondsOfRound, type Loop } from "../../viewer/loop";
+import { getRoundDuration, type Loop } from "../../viewer/loop";
 import { LoopScene } from "../../viewer/loopScene";
 import { turnByKey } from "../../viewer/updates";
 
@@ -44,17 +44,17 @@ export function LoopPlayer({ loop, name, color }: Props): JSX.Element {
     stage.show(loop);
     playhead.current = 0;
     playing.value = true;
-    const lasts = secondsOfRound(loop);
+    const lasts = getRoundDuration(loop);
     const advance = ticker.add((seconds) => {
       if (!playing.peek()) return;
       playhead.current += seconds;
       turned.value += 1;
     });
-    const stop = painter(
+    const stop = drawOnChange(
       () => void [turned.value, playing.value, theme.value],
       (since) => {
         const moving = playing.peek();
-        stage.draw(playhead.current, onPage(color, theme.peek()), { moving, since });
+        stage.draw(playhead.current, adaptColor(color, theme.peek()), { moving, since });
         bar.style.width = `${100 * ((playhead.current / lasts) % 1)}%`;
       },
     );
@@ -81,7 +81,7 @@ export function LoopPlayer({ loop, name, color }: Props): JSX.Element {
           onClick={() => (playing.value = !playing.value)}
         />
         {name}
-        <span class="quiet number">{secondsOfRound(loop).toFixed(2)} s a round</span>
+        <span class="quiet number">{getRoundDuration(loop).toFixed(2)} s a round</span>
       </p>
     </div>
   );

@@ -1,26 +1,22 @@
-/** The repetitions as loops, the best of each cluster first: played, and written as files. */
+/** List repetitions as loops, the best of each cluster first, to play and export. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { LoopRow, Segment } from "../../messages";
 import { NO_COLOR } from "../../colors";
-import { nameOf } from "../../segments";
-import { clock } from "../../view";
+import { getSegmentName } from "../../segments";
+import { formatTime } from "../../view";
 import { unpackLoop, type Loop } from "../../viewer/loop";
-import { explain } from "../server/api";
-import { save } from "../server/save";
-import { Dialog } from "./Dialog";
+import { explainError } from "../server/api";
+import { saveFile } from "../server/saveFile";
+import { Dialog, type DialogProps } from "./Dialog";
 import { LoopPlayer } from "./LoopPlayer";
-import { Button, Checkbox, toggled } from "../../layout/controls";
+import { Button, Checkbox, toggleMember, Swatch, TableHead } from "../../layout/controls";
 
-interface Props {
-  close: () => void;
-}
-
-export function LoopsDialog({ close }: Props): JSX.Element {
+export function LoopsDialog({ close }: DialogProps): JSX.Element {
   const { session } = useStudio();
-  const { edited, api, bulletin, store } = session;
+  const { edited, api, notifications, store } = session;
   const found = useSignal<LoopRow[] | null>(null);
   const problem = useSignal("");
   const chosen = useSignal<ReadonlySet<number>>(new Set());
@@ -31,29 +27,29 @@ export function LoopsDialog({ close }: Props): JSX.Element {
   useEffect(() => {
     if (!opened) return;
     opened
-      .settled() // its rows are those that are shown then
-      .then(() => api.loops(opened.id))
+      .waitUntilSent() // then its rows match those shown
+      .then(() => api.loadLoops(opened.id))
       .then((loops) => {
         found.value = loops;
         chosen.value = new Set(loops.filter(({ rank }) => rank === 1).map((each) => each.number));
       })
-      .catch((error: unknown) => (problem.value = explain(error)));
+      .catch((error: unknown) => (problem.value = explainError(error)));
   }, [opened, api, found, chosen, problem]);
   const write = async (): Promise<void> => {
     busy.value = true;
-    await bulletin.attempt("clips", async () => {
+    await notifications.attempt("clips", async () => {
       const rows = [...chosen.value].sort((a, b) => a - b);
-      save(await api.clips(opened!.id, { rows, loops: true }));
+      saveFile(await api.exportClips(opened!.id, { rows, loops: true }));
     });
     busy.value = false;
   };
   const play = async (number: number): Promise<void> => {
     playing.value = number;
     try {
-      const found = await unpackLoop(await api.loop(opened!.id, number));
-      if (playing.peek() === number) loop.value = found; // not another one since
+      const found = await unpackLoop(await api.loadLoop(opened!.id, number));
+      if (playing.peek() === number) loop.value = found; // another one may have been chosen
     } catch (error) {
-      problem.value = explain(error);
+      problem.value = explainError(error);
     }
   };
   const segments = store.table.value?.segments ?? [];
@@ -67,8 +63,8 @@ export function LoopsDialog({ close }: Props): JSX.Element {
       {loop.value && shown && (
         <LoopPlayer
           loop={loop.value}
-          name={titleOf(shown)}
-          color={store.colorOf(shown) ?? NO_COLOR}
+          name={getTitle(shown)}
+          color={store.getColor(shown) ?? NO_COLOR}
         />
       )}
       {problem.value && <p role="alert">{problem.value}</p>}
@@ -82,40 +78,30 @@ export function LoopsDialog({ close }: Props): JSX.Element {
             </Button>
           </p>
           <table class="formats loops number">
-            <thead>
-              <tr>
-                <th scope="col">Loop</th>
-                <th scope="col">Rank</th>
-                <th scope="col" title="How far the ends are from each other before blending">
-                  Seam
-                </th>
-                <th scope="col" title="How fast planted feet move in the loop">
-                  Slide
-                </th>
-                <th scope="col" title="In a round">
-                  Turn
-                </th>
-                <th scope="col">Speed</th>
-                <th />
-              </tr>
-            </thead>
+            <TableHead
+              columns={[
+                "Loop",
+                "Rank",
+                ["Seam", "How far the ends are from each other before blending"],
+                ["Slide", "How fast planted feet move in the loop"],
+                ["Turn", "In a round"],
+                "Speed",
+                "",
+              ]}
+            />
             <tbody>
               {found.value?.map((each) => {
                 const segment = segments[each.number];
                 if (!segment) return null;
-                const name = titleOf(segment);
+                const name = getTitle(segment);
                 return (
                   <tr key={each.number}>
                     <td>
                       <Checkbox
                         checked={chosen.value.has(each.number)}
-                        onCheck={() => (chosen.value = toggled(chosen.value, each.number))}
+                        onCheck={() => (chosen.value = toggleMember(chosen.value, each.number))}
                       >
-                        <span
-                          class="swatch"
-                          style={{ background: store.colorOf(segment) ?? NO_COLOR }}
-                        />{" "}
-                        {name}
+                        <Swatch color={store.getColor(segment) ?? NO_COLOR} /> {name}
                       </Checkbox>
                     </td>
                     <td>{each.rank}</td>
@@ -154,6 +140,6 @@ export function LoopsDialog({ close }: Props): JSX.Element {
   );
 }
 
-function titleOf(segment: Segment): string {
-  return `${nameOf(segment)} at ${clock(segment.start_s, 2)}`;
+function getTitle(segment: Segment): string {
+  return `${getSegmentName(segment)} at ${formatTime(segment.start_s, 2)}`;
 }

@@ -1,23 +1,19 @@
-/** Labels from a knowledge base of the folder. */
+/** Transfer labels from a knowledge base of the folder. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import { Dialog } from "./Dialog";
+import { Dialog, type DialogProps } from "./Dialog";
 import { NewKnowledge } from "./NewKnowledge";
-import { Checkbox, Select } from "../../layout/controls";
+import { Checkbox, Select, TextInput } from "../../layout/controls";
 
-interface Props {
-  close: () => void;
-}
-
-export function TransferDialog({ close }: Props): JSX.Element {
+export function TransferDialog({ close }: DialogProps): JSX.Element {
   const { session } = useStudio();
   const bases = session.state.value?.knowledge_bases ?? [];
   const chosen = useSignal("");
   const base = chosen.value || (bases[0]?.id ?? "");
   const threshold = useSignal("");
-  useEffect(() => void session.refresh(), [session]); // there may be new files
+  useEffect(() => void session.refresh(), [session]); // files may have been added
   const spread = useSignal(true);
   const transfer = (event: Event): void => {
     event.preventDefault();
@@ -53,14 +49,13 @@ export function TransferDialog({ close }: Props): JSX.Element {
           </label>
           <label class="field">
             <span>Largest distance at which two movements are the same</span>
-            <input
+            <TextInput
               type="number"
               min="0.01"
               max="1"
               step="0.01"
               placeholder="as usual"
-              value={threshold.value}
-              onInput={(event) => (threshold.value = event.currentTarget.value)}
+              value={threshold}
             />
           </label>
           <Checkbox checked={spread.value} onCheck={(checked) => (spread.value = checked)}>

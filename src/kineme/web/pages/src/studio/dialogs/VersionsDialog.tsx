@@ -1,33 +1,29 @@
-/** The tables of the recording that were replaced: looked at below the present one, brought back. */
+/** List replaced tables of the recording, to compare or restore. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Version } from "../../messages";
-import { counted } from "../../counted";
-import { inWords } from "../editing/words";
-import { Dialog } from "./Dialog";
+import { formatCount } from "../../formatCount";
+import { describeEdit } from "../editing/describeEdit";
+import { Dialog, type DialogProps } from "./Dialog";
 import { Button } from "../../layout/controls";
 
-interface Props {
-  close: () => void;
-}
-
-export function VersionsDialog({ close }: Props): JSX.Element {
+export function VersionsDialog({ close }: DialogProps): JSX.Element {
   const { session } = useStudio();
   const versions = useSignal<Version[] | null>(null);
   const edited = session.edited.value;
   useEffect(() => {
     if (!edited) return;
-    void session.bulletin.attempt("versions", async () => {
-      versions.value = await session.api.versions(edited.id);
+    void session.notifications.attempt("versions", async () => {
+      versions.value = await session.api.loadVersions(edited.id);
     });
   }, [edited, session, versions]);
   const fps = edited?.confirmed.value.fps ?? 1;
   const look = (version: Version): Promise<boolean> =>
-    session.bulletin.attempt("versions", async () => {
-      const found = await session.api.version(edited!.id, version.number);
-      session.beside.lay({ ...found, name: `Version ${version.number}` }, true);
+    session.notifications.attempt("versions", async () => {
+      const found = await session.api.loadVersion(edited!.id, version.number);
+      session.comparisons.showBelow({ ...found, name: `Version ${version.number}` }, true);
       close();
     });
   return (
@@ -43,11 +39,11 @@ export function VersionsDialog({ close }: Props): JSX.Element {
             <tr key={version.number}>
               <td class="quiet">{new Date(version.at).toLocaleString()}</td>
               <td>
-                {version.edit ? `last: ${inWords(version.edit, fps)}` : "as it was found"}
+                {version.edit ? `last: ${describeEdit(version.edit, fps)}` : "as it was found"}
                 <br />
                 <span class="quiet">
-                  {counted(version.segments, "segment")}, {counted(version.names, "name")},{" "}
-                  {counted(version.corrections, "correction")}
+                  {formatCount(version.segments, "segment")}, {formatCount(version.names, "name")},{" "}
+                  {formatCount(version.corrections, "correction")}
                 </span>
               </td>
               <td>

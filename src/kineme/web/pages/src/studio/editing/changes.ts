@@ -1,16 +1,22 @@
-/** The table after an edit, from the rows that the server says it changed; see `web/tables.py`. */
+/** Apply the rows that the server changed to a table; see `web/tables.py`. */
+import { getSegmentKey } from "../../segments";
 import type { Segment, Segments, TableChange } from "../../messages";
 
 export function applyChange(table: Segments, change: TableChange): Segments {
-  const rows = new Map(table.segments.map((row) => [keyOf(row.level, row.start_frame), row]));
-  for (const [level, start] of change.removed) rows.delete(keyOf(level, start));
-  for (const row of change.rows) rows.set(keyOf(row.level, row.start_frame), row);
+  const rows = new Map(table.segments.map((row) => [getSegmentKey(row), row]));
+  for (const [level, start_frame] of change.removed)
+    rows.delete(getSegmentKey({ level, start_frame }));
+  for (const row of change.rows) rows.set(getSegmentKey(row), row);
   const { cluster_names } = change;
-  return { ...table, cluster_names, segments: numbered([...rows.values()].sort(inOrder)) };
+  return {
+    ...table,
+    cluster_names,
+    segments: numberActivities([...rows.values()].sort(compareRows)),
+  };
 }
 
-/** The rows with the number of the activity that each lies in. */
-function numbered(rows: readonly Segment[]): Segment[] {
+/** Return the rows with the index of the activity that contains each. */
+function numberActivities(rows: readonly Segment[]): Segment[] {
   const starts = rows.filter(({ level }) => level === "activity").map((row) => row.start_frame);
   let activity = -1;
   let level = "";
@@ -21,11 +27,7 @@ function numbered(rows: readonly Segment[]): Segment[] {
   });
 }
 
-/** Activities come before primitives. */
-function inOrder(a: Segment, b: Segment): number {
+/** Order activities before primitives, then by time. */
+function compareRows(a: Segment, b: Segment): number {
   return a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
-}
-
-function keyOf(level: string, start: number): string {
-  return `${level} ${start}`;
 }

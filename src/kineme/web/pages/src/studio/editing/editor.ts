@@ -1,9 +1,8 @@
 /**
- * Edits as people make them. There is one target: the segment at the playhead,
- * on the level one works in, and the border nearest to the playhead. The
- * timeline shows both. What an edit would reach outside of the view is brought
- * into the view first. A key that is pressed while edits are on their way is for
- * where the playhead was then, in the table that these edits leave.
+ * Turn the user's commands into edits. They apply to the segment at the playhead on the edited
+ * level, and to the border nearest to it; the timeline shows both. If the affected frame is not
+ * visible, the first key press only scrolls to it. A key pressed while edits are being sent applies
+ * to the playhead's position at that time, in the table that these edits produce.
  */
 import { batch, computed, signal } from "@preact/signals";
 import type { ByHand, Edit, Level, MoveBorder, Recording, Segment, Segments } from "../../messages";
@@ -11,41 +10,42 @@ import type { Store } from "../../store";
 import * as commands from "./commands";
 import type { EditedRecording } from "./editedRecording";
 import type { Session } from "../session";
-import { findRow, laneOf, nearestBorder, segmentAt } from "../../segments";
-import { counted } from "../../counted";
+import { findRow, getLane, findNearestBorder, findSegmentAt } from "../../segments";
+import { formatCount } from "../../formatCount";
 
-/** Where the playhead is for some keys: those that move a border take it along for those after them. */
-interface Place {
+/** Playhead position of queued keys; a key that moves a border updates it for later keys. */
+interface PlayheadPosition {
   readonly level: Level;
   frame: number;
 }
 
 export class Editor {
-  /** Asks for the field of a name to take the keyboard: of a segment or its cluster. */
+  /** Which name field should get the focus. */
   readonly naming = signal<"segment" | "cluster" | null>(null);
   readonly segment = computed<Segment | undefined>(() => this.store.target.value);
   private readonly store: Store;
-  /** The border that a key holds: from where, and how far it is by now. */
-  private held: { where: commands.Where; by: number; place: Place } | null = null;
-  /** Where the playhead was for the last key. */
-  private place: Place = { level: "primitive", frame: 0 };
-  /** The recording of the command whose turn it is. */
-  private turnOf: EditedRecording | undefined;
-  /** The key that moves a border, which may be released before its turn has come. */
-  private pressed: { isDown: boolean } | null = null;
+  /** The border that a pressed key moves, and by how many frames so far. */
+  private heldBorder: { where: commands.EditContext; by: number; place: PlayheadPosition } | null =
+    null;
+  /** Playhead position at the last key. */
+  private place: PlayheadPosition = { level: "primitive", frame: 0 };
+  /** Recording of the running command. */
+  private turnRecording: EditedRecording | undefined;
+  /** The pressed key; it may be released before its command runs. */
+  private pressedKey: { isDown: boolean } | null = null;
 
   constructor(private readonly session: Session) {
     this.store = session.store;
   }
 
-  /** Makes an edit that needs no playhead, of segments of `table` where edits came since. */
+  /** Send an edit that is independent of the playhead, based on `table`. */
   edit(edit: ByHand, table?: Segments): void {
     if (edit.kind === "move_border") this.moveBorder(edit);
-    else if (edit.kind === "exclude") this.exclude(edit.frames, edit.excluded);
+    else if (edit.kind === "exclude") this.setExcluded(edit.frames, edit.excluded);
     else void this.send(edit, undefined, table);
   }
 
-  /** The border stays where it was dragged to until the table shows it there. */
+  /** Move a border and show it dragged until the table has it there. */
   private moveBorder(edit: MoveBorder): void {
     const drag = this.store.drag.peek();
     const end = (): void => {
@@ -55,76 +55,73 @@ export class Editor {
   }
 
   split(): void {
-    this.make(
-      commands.split,
+    this.runCommand(
+      commands.createSplit,
       ({ frame }) => frame,
       "There is a border at the playhead already: move the playhead first.",
     );
   }
 
   mergeWithNext(): void {
-    this.make(
-      commands.mergeWithNext,
-      ({ lane, frame }) => segmentAt(lane, frame)?.stop_frame,
+    this.runCommand(
+      commands.createMerge,
+      ({ lane, frame }) => findSegmentAt(lane, frame)?.stop_frame,
       "This is the last segment: choose one with a neighbour after it.",
     );
   }
 
   deleteBorder(): void {
-    this.make(
-      commands.deleteBorder,
-      ({ lane, frame }) => nearestBorder(lane, frame)?.start_frame,
+    this.runCommand(
+      commands.createDeletion,
+      ({ lane, frame }) => findNearestBorder(lane, frame)?.start_frame,
       "There is no border to delete.",
     );
   }
 
-  /** The segment at the playhead starts, or stops, at the playhead. */
-  borderHere(side: "start" | "stop"): void {
-    this.make(
-      (where) => commands.borderHere(where, side),
+  /** Move the current segment's start or stop to the playhead. */
+  moveBorderHere(side: "start" | "stop"): void {
+    this.runCommand(
+      (where) => commands.createBorderMove(where, side),
       ({ frame }) => frame,
       "There is a border at the playhead already, or none on that side to bring here.",
     );
   }
 
-  /**
-   * Moves the border nearest to the playhead, which goes with it. It is made when the key is
-   * released: as long as it is held it is one edit.
-   */
+  /** Move the nearest border and the playhead; a held key makes one edit when released. */
   nudge(frames: number): void {
-    if (this.held) return this.carry(frames);
-    const pressed = (this.pressed ??= { isDown: true });
-    this.make(
-      (where) => commands.nudgeBorder(where, frames),
-      ({ lane, frame }) => nearestBorder(lane, frame)?.start_frame,
+    if (this.heldBorder) return this.extendNudge(frames);
+    const pressed = (this.pressedKey ??= { isDown: true });
+    this.runCommand(
+      (where) => commands.createNudge(where, frames),
+      ({ lane, frame }) => findNearestBorder(lane, frame)?.start_frame,
       "There is no border to move, or no room for it.",
       (_, where, place) => {
-        this.held ??= { where, by: 0, place };
-        this.carry(frames);
+        this.heldBorder ??= { where, by: 0, place };
+        this.extendNudge(frames);
         if (!pressed.isDown) this.release();
       },
     );
   }
 
-  /** Makes the border that a key holds. */
+  /** Send the edit of the moved border. */
   release(): void {
-    if (this.pressed) this.pressed.isDown = false;
-    this.pressed = null;
-    if (!this.held) return;
-    const edit = commands.nudgeBorder(this.held.where, this.held.by);
-    this.held = null;
+    if (this.pressedKey) this.pressedKey.isDown = false;
+    this.pressedKey = null;
+    if (!this.heldBorder) return;
+    const edit = commands.createNudge(this.heldBorder.where, this.heldBorder.by);
+    this.heldBorder = null;
     if (edit) this.moveBorder(edit);
     else this.store.drag.value = null;
   }
 
-  /** Takes the border that a key holds on, as far as there is room. */
-  private carry(frames: number): void {
-    const { where, by, place } = this.held!;
-    const edit = commands.nudgeBorder(where, by + frames);
-    const frame = nearestBorder(where.lane, where.frame)!.start_frame;
+  /** Move the held border further, as far as possible. */
+  private extendNudge(frames: number): void {
+    const { where, by, place } = this.heldBorder!;
+    const edit = commands.createNudge(where, by + frames);
+    const frame = findNearestBorder(where.lane, where.frame)!.start_frame;
     const to = edit?.to ?? frame;
-    const isThere = this.store.frame.peek() === place.frame; // it may have been moved since
-    this.held = { where, by: to - frame, place };
+    const isThere = this.store.frame.peek() === place.frame; // the user may have moved it
+    this.heldBorder = { where, by: to - frame, place };
     place.frame = to;
     batch(() => {
       this.store.drag.value = { lane: place.level, frame, to };
@@ -132,125 +129,130 @@ export class Editor {
     });
   }
 
-  /** The field of a name takes the keyboard, where there is one. */
+  /** Focus the name field of the segment or its cluster. */
   startNaming(target: "segment" | "cluster"): void {
     const segment = this.segment.value;
     if (segment && target === "cluster" && segment.cluster < 0)
-      this.session.bulletin.refuse("This segment is in no cluster: there is no cluster to name.");
+      this.session.notifications.refuse(
+        "This segment is in no cluster: there is no cluster to name.",
+      );
     else if (segment) this.naming.value = target;
   }
 
-  name(segment: Segment, label: string, table?: Segments): void {
-    this.edit({ kind: "name_segment", ...commands.placeOf(segment), label }, table);
+  nameSegment(segment: Segment, label: string, table?: Segments): void {
+    this.edit({ kind: "name_segment", ...commands.getTarget(segment), label }, table);
   }
 
-  /** Gives the segment one works on a name of its own. */
+  /** Name the segment at the playhead. */
   nameTarget(label: string): void {
-    this.atPlayhead((segment) => this.name(segment, label));
+    this.runAtPlayhead((segment) => this.nameSegment(segment, label));
   }
 
-  /** Marks segments as checked, or takes the mark away. */
-  check(segments: readonly Segment[], checked: boolean): void {
+  /** Mark segments as checked or unchecked. */
+  setChecked(segments: readonly Segment[], checked: boolean): void {
     const edits: ByHand[] = (["activity", "primitive"] as const).flatMap((level) => {
       const frames = segments
         .filter((each) => each.level === level)
         .map((each) => each.start_frame);
       return frames.length ? [{ kind: "check" as const, level, frames, checked }] : [];
     });
-    this.together(edits, "");
+    this.sendTogether(edits, "");
   }
 
-  /** The primitives that start at these frames count in no mean, or do so again. */
-  private exclude(frames: number[], excluded: boolean): void {
+  /** Exclude the primitives at these frames from means, or include them again. */
+  private setExcluded(frames: number[], excluded: boolean): void {
     const what = excluded ? "left out of means" : "in means again";
     void this.send({ kind: "exclude", frames, excluded }, () => {
-      this.session.bulletin.tell(`${counted(frames.length, "repetition")} ${what}.`);
+      this.session.notifications.tell(`${formatCount(frames.length, "repetition")} ${what}.`);
     });
   }
 
-  /** Leaves the selected repetition out of means, or brings it back. */
+  /** Exclude the selected repetition from means, or include it again. */
   toggleExcluded(): void {
     const row = this.store.selected.value;
     if (row?.kind === "primitive")
-      this.inTurn((_, { segmentation }) =>
-        this.exclude([row.start_frame], !findRow(segmentation, row)?.excluded),
+      this.runInTurn((_, { segmentation }) =>
+        this.setExcluded([row.start_frame], !findRow(segmentation, row)?.excluded),
       );
-    else this.session.bulletin.refuse("Select the repetition to leave out of means first.");
+    else this.session.notifications.refuse("Select the repetition to leave out of means first.");
   }
 
-  /** Several edits as one step, which says how many segments it reached. */
-  together(edits: ByHand[], what: string): void {
+  /** Send several edits as one step and report how many segments changed. */
+  sendTogether(edits: ByHand[], what: string): void {
     if (!edits.length) return;
     void this.send(edits.length === 1 ? edits[0]! : { kind: "together", edits }, () => {
-      if (what) this.session.bulletin.tell(`${counted(edits.length, "segment")} ${what}.`);
+      if (what) this.session.notifications.tell(`${formatCount(edits.length, "segment")} ${what}.`);
     });
   }
 
   undo(): void {
-    if (this.isOpenTo("can_undo")) this.session.edited.value?.undo();
-    else this.session.bulletin.refuse("There is nothing to undo.");
+    if (this.canStep("can_undo")) this.session.edited.value?.undo();
+    else this.session.notifications.refuse("There is nothing to undo.");
   }
 
   redo(): void {
-    if (this.isOpenTo("can_redo")) void this.send({ kind: "redo" });
-    else this.session.bulletin.refuse("There is nothing to redo.");
+    if (this.canStep("can_redo")) void this.send({ kind: "redo" });
+    else this.session.notifications.refuse("There is nothing to redo.");
   }
 
-  /** Does something with the segment at the playhead, as it is once the edits before are shown. */
-  atPlayhead(act: (segment: Segment) => void): void {
-    this.inTurn(({ lane, frame }) => {
-      const segment = segmentAt(lane, frame);
+  /** Run a function on the segment at the playhead once earlier edits are shown. */
+  runAtPlayhead(act: (segment: Segment) => void): void {
+    this.runInTurn(({ lane, frame }) => {
+      const segment = findSegmentAt(lane, frame);
       if (segment) act(segment);
     });
   }
 
-  /** Edits on their way may be what there is to undo or redo. */
-  private isOpenTo(what: "can_undo" | "can_redo"): boolean {
+  /** Return whether undo or redo is possible; pending edits count as well. */
+  private canStep(what: "can_undo" | "can_redo"): boolean {
     const edited = this.session.edited.value;
-    return edited !== undefined && (edited.confirmed.value[what] || edited.isOwing());
+    return edited !== undefined && (edited.confirmed.value[what] || edited.hasPending());
   }
 
-  /** An edit of what is at the playhead, if it can be seen. */
-  private make(
-    command: (where: commands.Where) => Edit | null,
-    affects: (where: commands.Where) => number | undefined,
+  /** Create an edit at the playhead and act on it if the affected frame is visible. */
+  private runCommand(
+    command: (where: commands.EditContext) => Edit | null,
+    affects: (where: commands.EditContext) => number | undefined,
     otherwise: string,
-    act: (edit: Edit, where: commands.Where, place: Place) => void = (edit) => void this.send(edit),
+    act: (edit: Edit, where: commands.EditContext, place: PlayheadPosition) => void = (edit) =>
+      void this.send(edit),
   ): void {
-    this.inTurn((where, _, place) => {
+    this.runInTurn((where, _, place) => {
       const edit = command(where);
       const frame = affects(where);
-      if (!edit || frame === undefined) this.session.bulletin.refuse(otherwise);
-      else if (this.turnOf !== this.session.edited.peek()) void this.send(edit);
+      if (!edit || frame === undefined) this.session.notifications.refuse(otherwise);
+      else if (this.turnRecording !== this.session.edited.peek()) void this.send(edit);
       else if (this.store.reveal(frame / this.store.fps.value))
-        this.session.bulletin.tell("This is where it would be: press once more to do it.");
+        this.session.notifications.tell("This is where it would be: press once more to do it.");
       else act(edit, where, place);
     });
   }
 
-  /** Does something at the playhead as it is now, once the edits before are shown. */
-  private inTurn(act: (where: commands.Where, recording: Recording, place: Place) => void): void {
+  /** Run a function for the current playhead once earlier edits are shown. */
+  private runInTurn(
+    act: (where: commands.EditContext, recording: Recording, place: PlayheadPosition) => void,
+  ): void {
     const edited = this.session.edited.peek();
-    const [level, frame] = [this.store.worked.peek(), this.store.frame.peek()];
+    const [level, frame] = [this.store.workLevel.peek(), this.store.frame.peek()];
     if (this.place.level !== level || this.place.frame !== frame) this.place = { level, frame };
     const { place } = this;
-    edited?.whenShown(() => {
+    edited?.runWhenShown(() => {
       const { value: recording } = edited.confirmed;
-      const lane = laneOf(recording.segmentation, level);
-      this.turnOf = edited; // another one may be in front by now
+      const lane = getLane(recording.segmentation, level);
+      this.turnRecording = edited; // another recording may be active by now
       act({ lane, frame: place.frame }, recording, place);
-      this.turnOf = undefined;
+      this.turnRecording = undefined;
     });
   }
 
-  /** The selection follows the border that it starts at. */
+  /** Send an edit; the selection follows a moved start. */
   private send(edit: Edit, made?: () => void, table?: Segments): Promise<void> {
-    const edited = this.turnOf ?? this.session.edited.peek();
+    const edited = this.turnRecording ?? this.session.edited.peek();
     const show = (): void => {
       made?.();
       if (edited !== this.session.edited.peek()) return;
       const at = this.store.selection.peek();
-      const start = at && commands.followed(edit, at.level, at.start_frame);
+      const start = at && commands.getMovedStart(edit, at.level, at.start_frame);
       if (at && start !== null) this.store.selection.value = { ...at, start_frame: start };
     };
     return edited?.edit(edit, show, table) ?? Promise.resolve();

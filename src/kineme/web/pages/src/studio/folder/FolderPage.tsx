@@ -1,12 +1,10 @@
-/**
- * All recordings of the folder, a row each. Only the rows that are seen are there, so that five
- * hundred scroll like ten.
- */
-import { counted } from "../../counted";
+/** List all recordings of the folder; only visible rows are rendered. */
+import { formatCount } from "../../formatCount";
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
-import { isForPlayer } from "../../focus";
+import { listen } from "../../layout/browser";
+import { isPlayerKey } from "../../focus";
 import { AddFiles } from "../panels/AddFiles";
 
 import { useStudio } from "../context";
@@ -14,76 +12,72 @@ import { PosesOffer } from "../poses/PosesOffer";
 import { STATUSES } from "../recordingList";
 import { FolderProgress } from "./FolderProgress";
 import { FolderRow } from "./FolderRow";
-import { COLUMNS, fitting, gridOf, ordered, rowOf, type Column } from "./rows";
+import { COLUMNS, fitColumns, getGrid, sortRows, createRow, type Column } from "./rows";
 import { shownColumns, showColumn } from "./shownColumns";
-import { Button, Checkbox, Select } from "../../layout/controls";
+import { Button, Checkbox, Select, TextInput } from "../../layout/controls";
 
-const BELOW = ".layout > :not(.place-header)";
-const [HEIGHT, LOW] = [30, 26]; // pixels of a row: as usual, in a low window
+const COVERED = ".layout > :not(.place-header)";
+const [ROW_HEIGHT, LOW_ROW_HEIGHT] = [30, 26]; // pixels; the lower one is for low windows
 const LOW_WINDOW = 480; // pixels, as in folder.css
-const HEAD = 40; // where the bar on top ends, if it is one line and nothing lies above
-const MORE = 6; // rows drawn above and below what is seen
+const HEADER_BOTTOM = 40; // pixels, if the header has one line and no notices above
+const OVERSCAN = 6; // rows rendered above and below the visible ones
 
 export function FolderPage(): JSX.Element | null {
-  const { session, front } = useStudio();
+  const { session, view } = useStudio();
   const files = new Set(session.state.value?.recordings.map((each) => each.file));
   const several = files.size > 1;
-  const asks = session.question.value !== "" || session.needing.value; // on the stage
+  // The viewer asks a question.
+  const asks = session.question.value !== "" || session.videoWithoutPoses.value;
   const none = !session.store.opened.value.length && !session.opening.value && !asks;
-  if (!(front.folder.value ?? (several && none))) return null;
+  if (!(view.folder.value ?? (several && none))) return null;
   return <Page />;
 }
 
 function Page(): JSX.Element {
-  const { session, review, front } = useStudio();
+  const { session, review, view } = useStudio();
   const { folder } = review;
   const { list } = session;
   const order = useSignal<[Column, boolean]>(["name", false]);
   const top = useSignal(0);
   const height = useSignal(600);
   const width = useSignal(Infinity);
-  const head = useSignal(HEAD);
+  const head = useSignal(HEADER_BOTTOM);
   const place = useRef<HTMLDivElement>(null);
   const rows = useMemo(
     () =>
       computed(() => {
-        const text = list.search.value.trim().toLowerCase();
-        const all = folder.members.value.map((each) => rowOf(each, list.statusOf(each.listing)));
-        const found = all.filter(
-          ({ listing, status }) =>
-            listing.name.toLowerCase().includes(text) &&
-            (!list.status.value || status === list.status.value),
-        );
-        return ordered(found, ...order.value);
+        const found = folder.members.value.filter(({ listing }) => list.matches(listing));
+        const all = found.map((each) => createRow(each, list.getStatus(each.listing)));
+        return sortRows(all, ...order.value);
       }),
     [folder, list, order],
   );
   useEffect(() => {
     void folder.refresh();
     const bar = document.querySelector(".place-header");
-    scrollTo(0, 0); // on a small screen, where the bar is a part of what scrolls
+    scrollTo(0, 0); // on small screens the header scrolls as well
     const sized = new ResizeObserver(() => {
       height.value = place.current?.clientHeight ?? 600;
       width.value = place.current?.clientWidth ?? Infinity;
-      head.value = bar?.getBoundingClientRect().bottom ?? HEAD;
+      head.value = bar?.getBoundingClientRect().bottom ?? HEADER_BOTTOM;
     });
     for (const each of [place.current, bar, document.querySelector(".notices")])
       if (each) sized.observe(each);
     return () => sized.disconnect();
   }, [folder, height, width, head]);
-  useOver();
+  useOverlay();
   const chosen = COLUMNS.filter(({ id }) => shownColumns.value.includes(id));
-  const columns = fitting(chosen, width.value);
-  const [widths, least] = gridOf(columns);
-  const rowHeight = innerHeight > LOW_WINDOW ? HEIGHT : LOW;
+  const columns = fitColumns(chosen, width.value);
+  const [widths, least] = getGrid(columns);
+  const rowHeight = innerHeight > LOW_WINDOW ? ROW_HEIGHT : LOW_ROW_HEIGHT;
   const grid = {
     "--columns": widths,
     "--least": `${least}px`,
     "--row": `${rowHeight}px`,
     "--head": `${head.value}px`,
   };
-  const from = Math.max(Math.floor(top.value / rowHeight) - MORE, 0);
-  const to = Math.ceil((top.value + height.value) / rowHeight) + MORE;
+  const from = Math.max(Math.floor(top.value / rowHeight) - OVERSCAN, 0);
+  const to = Math.ceil((top.value + height.value) / rowHeight) + OVERSCAN;
   const isOpen = session.store.opened.value.length > 0;
   return (
     <section class="folder-page" aria-label="Folder" style={grid}>
@@ -92,26 +86,25 @@ function Page(): JSX.Element {
         <FolderProgress tally={folder.tally.value} />
         <span class="spacer" />
         <AddFiles />
-        <Find />
+        <SegmentAllButton />
         <Button
           class="primary"
           title="Through all recordings, what has the lowest confidence first (J)"
-          onClick={() => void review.goEverywhere(true)}
+          onClick={() => void review.setEverywhere(true)}
         >
           Review all recordings
         </Button>
         {isOpen && (
-          <Button onClick={() => (front.folder.value = null)}>Back to the recording</Button>
+          <Button onClick={() => (view.folder.value = null)}>Back to the recording</Button>
         )}
       </div>
       <PosesOffer all />
       <div class="folder-tools">
-        <input
+        <TextInput
           type="search"
           placeholder="Filter by name"
           aria-label="Filter the recordings by name"
-          value={list.search.value}
-          onInput={(event) => (list.search.value = event.currentTarget.value)}
+          value={list.search}
         />
         <Select
           label="Recordings that are"
@@ -189,52 +182,52 @@ function Page(): JSX.Element {
   );
 }
 
-/** What lies below takes no keys: nothing is edited that is not seen. It goes where one goes. */
-function useOver(): void {
-  const { session, review, front } = useStudio();
+/** Disable the covered page, and close the overlay when another recording opens. */
+function useOverlay(): void {
+  const { session, review, view } = useStudio();
   const { store } = session;
   const first = useRef(true);
   useSignalEffect(() => {
-    void [store.recording.value?.id, review.queue.looking.value];
-    if (!first.current) front.folder.value = null;
+    void [store.recording.value?.id, review.queue.current.value];
+    if (!first.current) view.folder.value = null;
     first.current = false;
   });
   useLayoutEffect(() => {
-    const below = [...document.querySelectorAll<HTMLElement>(BELOW)];
+    const below = [...document.querySelectorAll<HTMLElement>(COVERED)];
     for (const each of below) each.inert = true;
     const onKey = (event: KeyboardEvent): void => {
       if (!store.recording.peek() || document.querySelector("dialog[open]")) return;
       event.stopPropagation();
-      if (event.key === "Escape") front.folder.value = null;
-      if (event.key === "j" && isForPlayer(event)) void review.goEverywhere(true);
+      if (event.key === "Escape") view.folder.value = null;
+      if (event.key === "j" && isPlayerKey(event)) void review.setEverywhere(true);
     };
-    addEventListener("keydown", onKey, { capture: true });
+    const stopListening = listen(window, { keydown: onKey }, { capture: true });
     return () => {
       for (const each of below) each.inert = false;
-      removeEventListener("keydown", onKey, { capture: true });
+      stopListening();
     };
-  }, [store, review, front]);
+  }, [store, review, view]);
 }
 
-/** Segments for the recordings that have none, and how far that is. */
-function Find(): JSX.Element | null {
+/** Segment all recordings without segments and show the progress. */
+function SegmentAllButton(): JSX.Element | null {
   const { review } = useStudio();
   const { folder } = review;
-  const { value: finding } = folder.finding;
-  const { length: n } = folder.without.value;
+  const { value: finding } = folder.segmenting;
+  const { length: n } = folder.unsegmented.value;
   if (finding)
     return (
       <span class="quiet number" role="status">
         <span class="busy" /> segmenting {finding.done + 1} of {finding.all}…
       </span>
     );
-  if (!n || !folder.ready.value) return null;
+  if (!n || !folder.isReady.value) return null;
   return (
     <Button
       title="Find the segments of the recordings that have none yet; they are saved once you edit them"
-      onClick={() => void folder.find()}
+      onClick={() => void folder.segmentAll()}
     >
-      Segment {counted(n, "recording")}
+      Segment {formatCount(n, "recording")}
     </Button>
   );
 }

@@ -1,4 +1,4 @@
-/** How far the folder is: "312 of 1,396 checked; 40 of the others below 50 %". */
+/** Show progress such as "312 of 1,396 checked; 40 of the others below 50 %". */
 import type { JSX } from "preact";
 import type { Tally } from "./briefTables";
 
@@ -12,12 +12,13 @@ export function FolderProgress({ tally }: { tally: Tally }): JSX.Element | null 
         class="number"
         title="Segments that nobody checked and that are more probably wrong than right"
       >
-        {grouped(checked)} of {grouped(all)} checked; {grouped(doubtful)} of the others below 50 %
+        {formatInteger(checked)} of {formatInteger(all)} checked; {formatInteger(doubtful)} of the
+        others below 50 %
       </span>
     </p>
   );
 }
 
-function grouped(n: number): string {
+function formatInteger(n: number): string {
   return n.toLocaleString("en");
 }

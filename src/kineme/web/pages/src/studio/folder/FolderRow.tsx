@@ -1,18 +1,18 @@
-/** A recording of the folder: its strip, numbers, and the places of least confidence, to open. */
+/** Render a recording's row in the folder table. */
 import type { JSX } from "preact";
 import { useStudio } from "../context";
-import { nameOf } from "../../segments";
-import { clock } from "../../view";
-import { MiddleShortened } from "../panels/MiddleShortened";
-import { queueOf, stripOf } from "./briefTables";
-import { secondsOf, type Column, type Row } from "./rows";
+import { getSegmentKey, getSegmentName } from "../../segments";
+import { formatTime } from "../../view";
+import { TruncatedName } from "../panels/TruncatedName";
+import { getDoubts, getStrip } from "./briefTables";
+import { getLength, type Column, type Row } from "./rows";
 import { Button } from "../../layout/controls";
 
-const PLACES = 2; // of the least sure ones
+const MAX_PLACES = 2;
 const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
   name: (row) => <Name row={row} />,
   strip: (row) => <Strip row={row} />,
-  length: ({ table }) => (table ? clock(secondsOf(table), 0) : ""),
+  length: ({ table }) => (table ? formatTime(getLength(table), 0) : ""),
   rate: ({ table }) => (table ? `${Number(table.fps.toFixed(2))} Hz` : ""),
   activities: ({ activities }) => String(activities ?? ""),
   primitives: ({ primitives }) => String(primitives ?? ""),
@@ -25,7 +25,7 @@ const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
     ) : (
       ""
     ),
-  least: (row) => <Least row={row} />,
+  least: (row) => <LowestConfidence row={row} />,
   notes: ({ comments }) => (comments ? String(comments) : ""),
   status: ({ status }) => status,
 };
@@ -57,7 +57,7 @@ export function FolderRow({ row, at, top, columns }: Props): JSX.Element {
 }
 
 function Name({ row: { listing } }: { row: Row }): JSX.Element {
-  const { session, front } = useStudio();
+  const { session, view } = useStudio();
   const opening = session.opening.value === listing.id;
   return (
     <Button
@@ -65,40 +65,41 @@ function Name({ row: { listing } }: { row: Row }): JSX.Element {
       aria-label={`Open ${listing.name}`}
       title={`Open ${listing.name}`}
       aria-busy={opening}
-      onClick={() => void session.open(listing.id).then(() => (front.folder.value = null))}
+      onClick={() => void session.open(listing.id).then(() => (view.folder.value = null))}
       busy={opening}
     >
-      <MiddleShortened name={listing.name} />
+      <TruncatedName name={listing.name} />
     </Button>
   );
 }
 
 function Strip({ row: { table } }: { row: Row }): JSX.Element {
   const { review } = useStudio();
-  if (table) return <span class="gradient" style={{ background: stripOf(table) }} />;
-  return <span class="quiet">{review.folder.ready.value ? "not segmented yet" : ""}</span>;
+  if (table) return <span class="gradient" style={{ background: getStrip(table) }} />;
+  return <span class="quiet">{review.folder.isReady.value ? "not segmented yet" : ""}</span>;
 }
 
-function Least({ row: { listing, table } }: { row: Row }): JSX.Element {
-  const { review, front } = useStudio();
+function LowestConfidence({ row: { listing, table } }: { row: Row }): JSX.Element {
+  const { review, view } = useStudio();
   const { id, name } = listing;
-  const places = table ? queueOf(table).slice(0, PLACES) : [];
+  const places = table ? getDoubts(table).slice(0, MAX_PLACES) : [];
   return (
     <>
       {places
-        .filter(({ value }) => value !== null)
+        .filter(({ confidence }) => confidence.value !== null)
         .map((doubt) => (
           <Button
-            key={`${doubt.segment.level} ${doubt.segment.start_frame}`}
+            key={getSegmentKey(doubt.segment)}
             class="plain"
-            title={`${nameOf(doubt.segment)}. ${doubt.why}`}
+            title={`${getSegmentName(doubt.segment)}. ${doubt.confidence.why}`}
             onClick={() => {
               void review.queue
-                .go({ id, recording: name, doubt })
-                .then(() => (front.folder.value = null));
+                .goTo({ id, recording: name, doubt })
+                .then(() => (view.folder.value = null));
             }}
           >
-            {doubt.short} <span class="quiet">at {clock(doubt.segment.start_s, 1)}</span>
+            {doubt.confidence.short}{" "}
+            <span class="quiet">at {formatTime(doubt.segment.start_s, 1)}</span>
           </Button>
         ))}
     </>

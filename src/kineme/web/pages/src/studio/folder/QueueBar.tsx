@@ -1,17 +1,17 @@
-/** Under the figure: what of the folder is looked at, why, and how far one is. */
+/** Show the current place of the folder's review queue below the figure. */
 import type { JSX } from "preact";
 import { ReviewButtons } from "../review/ReviewButtons";
 import { useStudio } from "../context";
-import { nameOf } from "../../segments";
-import { clock } from "../../view";
+import { getSegmentName } from "../../segments";
+import { formatTime } from "../../view";
 import { FolderProgress } from "./FolderProgress";
 import { CloseButton } from "../../layout/controls";
 
 export function QueueBar(): JSX.Element | null {
   const { session, review } = useStudio();
-  const { looking } = review.queue;
+  const { current } = review.queue;
   if (!review.everywhere.value) return null;
-  const place = looking.value;
+  const place = current.value;
   const here = place?.id === session.store.recording.value?.id;
   return (
     <section class="queue-bar" aria-label="Review of all recordings">
@@ -19,10 +19,10 @@ export function QueueBar(): JSX.Element | null {
         {place ? (
           <>
             <strong>
-              {place.recording}, {clock(place.doubt.segment.start_s, 2)}:{" "}
-              {nameOf(place.doubt.segment)}.
+              {place.recording}, {formatTime(place.doubt.segment.start_s, 2)}:{" "}
+              {getSegmentName(place.doubt.segment)}.
             </strong>{" "}
-            {here ? place.doubt.why : "Opening…"}
+            {here ? place.doubt.confidence.why : "Opening…"}
           </>
         ) : (
           "Every segment of every recording is checked."
@@ -33,7 +33,7 @@ export function QueueBar(): JSX.Element | null {
         <ReviewButtons />
         <CloseButton
           label="Leave the queue of the folder"
-          onClick={() => void review.goEverywhere(false)}
+          onClick={() => void review.setEverywhere(false)}
         />
       </span>
     </section>

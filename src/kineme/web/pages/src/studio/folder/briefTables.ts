@@ -1,14 +1,15 @@
-/** Tables of recordings that are not open, as the folder tells them. Pure functions. */
+/** Unpack and summarise tables of recordings that are not open. Pure functions. */
 import { bareSegment, type BriefTable, type Segment, type Segments } from "../../messages";
-import { clusterColor, labelColors, NO_COLOR } from "../../colors";
-import { checkedIn, laneOf } from "../../segments";
-import { doubtsOf, type Doubt } from "../review/doubts";
+import { getClusterColor, assignLabelColors, NO_COLOR } from "../../colors";
+import { memoize } from "../../memoize";
+import { countChecked, getLane } from "../../segments";
+import { listDoubts } from "../review/doubts";
 
-/** Half a doubt: what is of less confidence is counted. */
-export const HALF = 0.5;
+/** Segments with a lower confidence count as doubtful. */
+export const DOUBT_LIMIT = 0.5;
 
-/** A table as every page has it, from its columns. */
-export function tableOf(brief: BriefTable): Segments {
+/** Build a segment table from its columns. */
+export function unpackTable(brief: BriefTable): Segments {
   const { fps, n_frames } = brief;
   const checked = new Set(brief.checked);
   const segments = brief.level.map((level, row): Segment => ({
@@ -29,49 +30,38 @@ export function tableOf(brief: BriefTable): Segments {
   return { schema: "", n_frames, fps, provenance: {}, timings: {}, segments, cluster_names: {} };
 }
 
-/** How far a table is: its rows, those checked, and those left of less confidence than half. */
+/** Numbers of rows: all, checked, and unchecked with low confidence. */
 export interface Tally {
   all: number;
   checked: number;
   doubtful: number;
 }
 
-/** The queue of a table, as `doubtsOf`, once for each. */
-export function queueOf(table: Segments): readonly Doubt[] {
-  return kept(queues, table, () => doubtsOf(table));
+/** Return the cached doubts of a table. */
+export const getDoubts = memoize(listDoubts);
+
+export function computeTally(table: Segments): Tally {
+  const doubtful = getDoubts(table).filter(
+    ({ confidence: { value } }) => value !== null && value < DOUBT_LIMIT,
+  ).length;
+  return { all: table.segments.length, checked: countChecked(table), doubtful };
 }
 
-export function tallyOf(table: Segments): Tally {
-  const doubtful = queueOf(table).filter(({ value }) => value !== null && value < HALF).length;
-  return { all: table.segments.length, checked: checkedIn(table), doubtful };
+/** Return the lowest confidence of the unchecked segments; null if there is none. */
+export function getLowestConfidence(table: Segments): number | null {
+  return getDoubts(table)[0]?.confidence.value ?? null;
 }
 
-/** The least confidence of what is not checked; null where there is none. */
-export function leastOf(table: Segments): number | null {
-  return queueOf(table)[0]?.value ?? null;
-}
-
-/** The activities, or primitives where activities are in no cluster, as colours of a gradient. */
-export function stripOf(table: Segments): string {
-  return kept(strips, table, () => {
-    const activities = laneOf(table, "activity");
-    const hasColors = activities.some(({ cluster, label }) => cluster >= 0 || label);
-    const lane = hasColors ? activities : laneOf(table, "primitive");
-    const colors = labelColors(lane);
-    const stops = lane.map(({ cluster, label, start_frame, stop_frame }) => {
-      const color = cluster >= 0 ? clusterColor(cluster) : (colors.get(label) ?? NO_COLOR);
-      const share = (frame: number): string => `${((100 * frame) / table.n_frames).toFixed(2)}%`;
-      return `${color} ${share(start_frame)} ${share(stop_frame)}`;
-    });
-    return stops.length ? `linear-gradient(to right, ${stops.join(", ")})` : "none";
+/** Return a CSS gradient of the activities' colours; of the primitives' if activities have none. */
+export const getStrip = memoize((table: Segments): string => {
+  const activities = getLane(table, "activity");
+  const hasColors = activities.some(({ cluster, label }) => cluster >= 0 || label);
+  const lane = hasColors ? activities : getLane(table, "primitive");
+  const colors = assignLabelColors(lane);
+  const stops = lane.map(({ cluster, label, start_frame, stop_frame }) => {
+    const color = cluster >= 0 ? getClusterColor(cluster) : (colors.get(label) ?? NO_COLOR);
+    const share = (frame: number): string => `${((100 * frame) / table.n_frames).toFixed(2)}%`;
+    return `${color} ${share(start_frame)} ${share(stop_frame)}`;
   });
-}
-
-const queues = new WeakMap<Segments, readonly Doubt[]>();
-const strips = new WeakMap<Segments, string>();
-
-function kept<Value>(cache: WeakMap<Segments, Value>, of: Segments, make: () => Value): Value {
-  const found = cache.get(of) ?? make();
-  cache.set(of, found);
-  return found;
-}
+  return stops.length ? `linear-gradient(to right, ${stops.join(", ")})` : "none";
+});

@@ -1,135 +1,132 @@
-/**
- * The tables of all recordings of the folder: those open here as they are shown, the others as the
- * server told last.
- */
+/** Combine tables of all recordings of the folder: those of this page, else the server's. */
 import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import type { Listing, Segments } from "../../messages";
-import { checkedIn } from "../../segments";
-import { later } from "../later";
-import { explain, type Refused, Unreachable } from "../server/api";
+import { countChecked } from "../../segments";
+import { delay } from "../delay";
+import { explainError, type Refused, Unreachable } from "../server/api";
 import type { Session } from "../session";
-import { tableOf, tallyOf, type Tally } from "./briefTables";
+import { unpackTable, computeTally, type Tally } from "./briefTables";
 
-const POLL = 500; // milliseconds between two looks for segments
+const POLL_INTERVAL = 500; // milliseconds
 
-/** A recording of the folder with its table, if it has one. */
-export interface Member {
+/** A recording of the folder with its table, if any. */
+export interface FolderMember {
   listing: Listing;
   table: Segments | null;
   comments: number;
 }
 
 export class Folder {
-  /** Whether the tables have been read. */
-  readonly ready = signal(false);
-  /** How many recordings have been segmented of those that were to be; null while none is. */
-  readonly finding = signal<{ done: number; all: number } | null>(null);
-  readonly members = computed<Member[]>(() =>
+  /** Whether the tables are loaded. */
+  readonly isReady = signal(false);
+  /** Progress of `segmentAll`; null if it is not running. */
+  readonly segmenting = signal<{ done: number; all: number } | null>(null);
+  readonly members = computed<FolderMember[]>(() =>
     (this.session.state.value?.recordings ?? []).map((listing) => {
-      const ofServer = this.ofServer.value.get(listing.id);
-      const ofPage = this.ofPage.value.get(listing.id);
-      const comments =
-        ofPage?.segments.filter((row) => row.comment).length ?? ofServer?.comments ?? 0;
-      return { listing, table: ofPage ?? ofServer?.table ?? null, comments };
+      const served = this.serverTables.value.get(listing.id);
+      const shown = this.pageTables.value.get(listing.id);
+      const comments = shown?.segments.filter((row) => row.comment).length ?? served?.comments ?? 0;
+      return { listing, table: shown ?? served?.table ?? null, comments };
     }),
   );
   readonly tally = computed<Tally>(() => {
     const sum = { all: 0, checked: 0, doubtful: 0 };
     for (const { table } of this.members.value) {
       if (!table) continue;
-      const { all, checked, doubtful } = tallyOf(table);
+      const { all, checked, doubtful } = computeTally(table);
       sum.all += all;
       sum.checked += checked;
       sum.doubtful += doubtful;
     }
     return sum;
   });
-  /** Those that can be segmented, and are not. */
-  readonly without = computed(() =>
+  /** Recordings that can be segmented and are not. */
+  readonly unsegmented = computed(() =>
     this.members.value.filter(({ table, listing }) => !table && !listing.needs_poses),
   );
 
-  private readonly ofServer = signal<ReadonlyMap<string, { table: Segments; comments: number }>>(
-    new Map(),
-  );
-  /** Tables of recordings that are open here, or were since the server told of the others. */
-  private readonly ofPage = signal<ReadonlyMap<string, Segments>>(new Map());
-  private asked: Promise<void> | null = null;
-  /** Whether nobody answered the last time. */
-  private missed = false;
+  private readonly serverTables = signal<
+    ReadonlyMap<string, { table: Segments; comments: number }>
+  >(new Map());
+  /** Tables of recordings that are or were open here since the last load. */
+  private readonly pageTables = signal<ReadonlyMap<string, Segments>>(new Map());
+  private pendingRequest: Promise<void> | null = null;
+  /** Whether the last request got no answer. */
+  private isUnanswered = false;
 
   constructor(readonly session: Session) {
     effect(() => {
       const open = session.recordings.value
         .filter((edited) => !edited.confirmed.value.finding)
         .map((edited) => [edited.id, edited.confirmed.value.segmentation] as const);
-      const ofPage = untracked(() => this.ofPage.value);
-      if (open.some(([id, table]) => ofPage.get(id) !== table))
-        this.ofPage.value = new Map([...ofPage, ...open]);
+      const pageTables = untracked(() => this.pageTables.value);
+      if (open.some(([id, table]) => pageTables.get(id) !== table))
+        this.pageTables.value = new Map([...pageTables, ...open]);
     });
     effect(() => {
       const { value: state } = session.state;
-      const behind = untracked(() => (this.ready.value ? this.isBehind() : this.missed));
+      const behind = untracked(() => (this.isReady.value ? this.isOutdated() : this.isUnanswered));
       if (state && behind) untracked(() => void this.refresh());
     });
   }
 
-  /** The tables as they are now; asked for once at a time. */
+  /** Load all tables; concurrent calls share one request. */
   refresh(): Promise<void> {
-    this.asked ??= this.ask().finally(() => (this.asked = null));
-    return this.asked;
+    this.pendingRequest ??= this.loadTables().finally(() => (this.pendingRequest = null));
+    return this.pendingRequest;
   }
 
-  /** Finds the segments of the recordings that have none, one after the other. */
-  async find(): Promise<void> {
-    if (this.finding.value) return;
-    const { api, bulletin } = this.session;
-    const left = this.without.value.map(({ listing }) => listing);
+  /** Segment all recordings without segments, one after the other. */
+  async segmentAll(): Promise<void> {
+    if (this.segmenting.value) return;
+    const { api, notifications } = this.session;
+    const left = this.unsegmented.value.map(({ listing }) => listing);
     const failed: string[] = [];
     for (const [done, { id, name }] of left.entries()) {
-      this.finding.value = { done, all: left.length };
+      this.segmenting.value = { done, all: left.length };
       try {
-        while ((await api.recording(id)).finding) await later(POLL);
+        while ((await api.loadRecording(id)).finding) await delay(POLL_INTERVAL);
       } catch (error) {
-        failed.push(`${name}: ${explain(error)}`);
+        failed.push(`${name}: ${explainError(error)}`);
       }
       if (done % 5 === 4) await this.refresh();
     }
     await this.refresh();
-    this.finding.value = null;
-    bulletin.solved("find");
+    this.segmenting.value = null;
+    notifications.clearProblem("find");
     const more = failed.length > 1 ? ` (and ${failed.length - 1} more)` : "";
-    if (failed.length) bulletin.problem(`Not segmented: ${failed[0]}${more}`, "find");
+    if (failed.length) notifications.reportProblem(`Not segmented: ${failed[0]}${more}`, "find");
   }
 
-  /** Whether the list of the folder tells of other tables than these. */
-  private isBehind(): boolean {
+  /** Return whether the folder listing refers to newer tables. */
+  private isOutdated(): boolean {
     return this.members.value.some(({ listing, table }) => {
       if (!table || !listing.corrected) return listing.corrected;
       const named = table.segments.filter(({ label }) => label).length;
-      const counts = [table.segments.length, checkedIn(table), named];
+      const counts = [table.segments.length, countChecked(table), named];
       return counts.join() !== [listing.segments, listing.checked, listing.named].join();
     });
   }
 
-  private async ask(): Promise<void> {
+  private async loadTables(): Promise<void> {
     const { session } = this;
     try {
-      const { recordings } = await session.api.tables();
-      const ofServer = recordings.flatMap(({ id, table }) =>
-        table ? [[id, { table: tableOf(table), comments: table.comments }] as const] : [],
+      const { recordings } = await session.api.loadTables();
+      const serverTables = recordings.flatMap(({ id, table }) =>
+        table ? [[id, { table: unpackTable(table), comments: table.comments }] as const] : [],
       );
       const open = new Set(session.recordings.value.map(({ id }) => id));
       batch(() => {
-        this.ofPage.value = new Map([...this.ofPage.value].filter(([id]) => open.has(id)));
-        this.ofServer.value = new Map(ofServer);
-        this.ready.value = true;
+        this.pageTables.value = new Map([...this.pageTables.value].filter(([id]) => open.has(id)));
+        this.serverTables.value = new Map(serverTables);
+        this.isReady.value = true;
       });
-      this.missed = false;
-      session.bulletin.solved("tables");
+      this.isUnanswered = false;
+      session.notifications.clearProblem("tables");
     } catch (error) {
-      this.missed = error instanceof Unreachable || (error as Refused).status === 403;
-      if (!this.missed) session.bulletin.problem(explain(error), "tables"); // else it is told
+      this.isUnanswered = error instanceof Unreachable || (error as Refused).status === 403;
+      // Else the session reports it.
+      if (!this.isUnanswered) session.notifications.reportProblem(explainError(error), "tables");
     }
   }
 }

@@ -1,14 +1,14 @@
-/** The way through the least sure places of all recordings of the folder. */
+/** Review the segments of all recordings, lowest confidence first. */
 import { computed, signal } from "@preact/signals";
 import type { Segment, Segments } from "../../messages";
-import { indexAt } from "../../segments";
+import { findIndexAt, getSegmentKey } from "../../segments";
 import type { Doubt } from "../review/doubts";
-import { queueOf } from "./briefTables";
+import { getDoubts } from "./briefTables";
 import type { Folder } from "./folder";
 
-const AHEAD = 2; // recordings that the server opens before they are gone to
+const PREFETCH_COUNT = 2; // recordings that the server opens in advance
 
-/** A place to look at, in a recording of the folder. */
+/** A segment to review, in a recording of the folder. */
 export interface Place {
   id: string;
   recording: string;
@@ -21,44 +21,45 @@ interface Key {
 }
 
 export class FolderQueue {
-  /** All places that are not checked, those of lowest confidence first. */
+  /** All unchecked places, lowest confidence first. */
   readonly places = computed<Place[]>(() =>
     this.folder.members.value
-      .flatMap(({ listing, table }) => (table ? placesOf(listing.id, listing.name, table) : []))
-      .sort((a, b) => (a.doubt.value ?? 2) - (b.doubt.value ?? 2)),
+      .flatMap(({ listing, table }) => (table ? listPlaces(listing.id, listing.name, table) : []))
+      .sort((a, b) => (a.doubt.confidence.value ?? 2) - (b.doubt.confidence.value ?? 2)),
   );
-  /** What is looked at, as it was when it was gone to: an edit does not change why. */
-  readonly looking = signal<Place | null>(null);
-  /** Those that were passed over without a mark come last. */
+  /** The current place, as it was before any edit. */
+  readonly current = signal<Place | null>(null);
+  /** Keys of places that were skipped; these come last. */
   private readonly passed = signal(new Set<string>());
-  private readonly readied = new Set<string>();
+  private readonly prepared = new Set<string>();
 
   constructor(private readonly folder: Folder) {}
 
-  /** Goes to the place of lowest confidence that has not been looked at. */
-  async next(): Promise<void> {
+  /** Go to the place of lowest confidence that was not skipped. */
+  async goToNext(): Promise<void> {
     const { folder } = this;
-    if (!folder.ready.value) await folder.refresh();
-    if (!this.places.value.length && folder.without.value.length) await folder.find();
+    if (!folder.isReady.value) await folder.refresh();
+    if (!this.places.value.length && folder.unsegmented.value.length) await folder.segmentAll();
     this.passPresent();
-    if (!this.upcoming().length) {
-      await folder.session.edited.value?.settled(); // what was just checked is none any more
+    if (!this.listUpcoming().length) {
+      // The segment just checked is no longer in doubt.
+      await folder.session.edited.value?.waitUntilSent();
       this.passed.value.clear();
     }
-    const [next, ...after] = this.upcoming();
+    const [next, ...after] = this.listUpcoming();
     if (next) {
-      await this.go(next);
-      this.ready(after);
+      await this.goTo(next);
+      this.prepare(after);
     } else {
-      this.looking.value = null;
-      folder.session.bulletin.tell("Every segment of every recording is checked.");
+      this.current.value = null;
+      folder.session.notifications.tell("Every segment of every recording is checked.");
     }
   }
 
-  /** Opens the recording of a place, and shows it. */
-  async go(place: Place): Promise<void> {
+  /** Open the recording of a place and show it. */
+  async goTo(place: Place): Promise<void> {
     const { session } = this.folder;
-    this.looking.value = place;
+    this.current.value = place;
     if (session.store.recording.value?.id === place.id) this.show(place);
     else await session.open(place.id, { shown: () => this.show(place) });
   }
@@ -66,53 +67,56 @@ export class FolderQueue {
   private show(place: Place): void {
     const { store } = this.folder.session;
     const table = store.recording.value;
-    if (table?.id !== place.id || this.looking.value !== place) return; // not the last one chosen
-    store.lookAt(presentOf(table.segmentation, place.doubt.segment));
+    // Another place was chosen meanwhile.
+    if (table?.id !== place.id || this.current.value !== place) return;
+    store.showSegment(findPresent(table.segmentation, place.doubt.segment));
   }
 
-  /** What is looked at comes last from now on, wherever an edit has moved its start. */
+  /** Skip the current place, also if an edit moved its start. */
   private passPresent(): void {
-    const { looking } = this;
+    const { current } = this;
     const { recording, target } = this.folder.session.store;
-    if (!looking.value) return;
-    this.passed.value.add(keyOf(looking.value));
-    if (target.value && recording.value?.id === looking.value.id)
-      this.passed.value.add(keyOf({ id: looking.value.id, doubt: { segment: target.value } }));
+    if (!current.value) return;
+    this.passed.value.add(getPlaceKey(current.value));
+    if (target.value && recording.value?.id === current.value.id)
+      this.passed.value.add(
+        getPlaceKey({ id: current.value.id, doubt: { segment: target.value } }),
+      );
   }
 
-  /** The next places that were not passed over. */
-  private upcoming(): Place[] {
+  /** Return the next places that were not skipped. */
+  private listUpcoming(): Place[] {
     const { value: passed } = this.passed;
-    return firstOf(this.places.value, (each) => !passed.has(keyOf(each)));
+    return takeFirst(this.places.value, (each) => !passed.has(getPlaceKey(each)));
   }
 
-  /** Has the server open the recordings that come next. */
-  private ready(places: readonly Place[]): void {
+  /** Let the server open the next recordings. */
+  private prepare(places: readonly Place[]): void {
     const { session } = this.folder;
     const present = session.recordings.value.map(({ id }) => id);
     const ids = [...new Set(places.map(({ id }) => id))].filter((id) => !present.includes(id));
-    for (const id of ids.slice(0, AHEAD)) {
-      if (this.readied.has(id)) continue;
-      this.readied.add(id);
-      if (this.readied.size > AHEAD * 3) this.readied.delete([...this.readied][0]!);
-      session.api.recording(id).catch(() => undefined); // opening it will say what is wrong
+    for (const id of ids.slice(0, PREFETCH_COUNT)) {
+      if (this.prepared.has(id)) continue;
+      this.prepared.add(id);
+      if (this.prepared.size > PREFETCH_COUNT * 3) this.prepared.delete([...this.prepared][0]!);
+      session.api.loadRecording(id).catch(() => undefined); // opening it will report the problem
     }
   }
 }
 
 const kept = new WeakMap<Segments, Place[]>();
 
-function placesOf(id: string, recording: string, table: Segments): Place[] {
+function listPlaces(id: string, recording: string, table: Segments): Place[] {
   let found = kept.get(table);
   if (!found) {
-    found = queueOf(table).map((doubt) => ({ id, recording, doubt }));
+    found = getDoubts(table).map((doubt) => ({ id, recording, doubt }));
     kept.set(table, found);
   }
   return found;
 }
 
-/** The first few that are so. */
-function firstOf(places: readonly Place[], holds: (place: Place) => boolean): Place[] {
+/** Return the first few places for which `holds` is true. */
+function takeFirst(places: readonly Place[], holds: (place: Place) => boolean): Place[] {
   const found: Place[] = [];
   for (const place of places) {
     if (holds(place)) found.push(place);
@@ -121,13 +125,13 @@ function firstOf(places: readonly Place[], holds: (place: Place) => boolean): Pl
   return found;
 }
 
-/** Where it starts; an edit of its end makes it no other. */
-function keyOf({ id, doubt: { segment } }: Key): string {
-  return `${id} ${segment.level} ${segment.start_frame}`;
+/** Return a key by level and start, which stays when the end changes. */
+function getPlaceKey({ id, doubt: { segment } }: Key): string {
+  return `${id} ${getSegmentKey(segment)}`;
 }
 
-/** The segment as the table has it now: that which starts there, else that which holds the frame. */
-function presentOf({ segments }: Segments, { level, start_frame }: Segment): Segment {
+/** Return the current segment that starts there, else the one that contains the frame. */
+function findPresent({ segments }: Segments, { level, start_frame }: Segment): Segment {
   const lane = segments.filter((each) => each.level === level);
-  return lane[Math.max(indexAt(lane, start_frame), 0)] ?? segments[0]!;
+  return lane[Math.max(findIndexAt(lane, start_frame), 0)] ?? segments[0]!;
 }

@@ -1,11 +1,11 @@
-/** The rows of the folder's page: what they show, their order, and which are shown. Pure. */
+/** Build, sort and lay out the rows of the folder page. Pure functions. */
 import type { Segments } from "../../messages";
-import { countOf } from "../../segments";
-import type { Status } from "../recordingList";
-import { leastOf, tallyOf, type Tally } from "./briefTables";
-import type { Member } from "./folder";
+import { countSegments } from "../../segments";
+import { STATUS_ORDER, type Status } from "../recordingList";
+import { getLowestConfidence, computeTally, type Tally } from "./briefTables";
+import type { FolderMember } from "./folder";
 
-/** What a column shows, and what the rows are ordered by. */
+/** Columns of the folder table. */
 export type Column =
   | "name"
   | "strip"
@@ -18,11 +18,11 @@ export type Column =
   | "notes"
   | "status";
 
-/** Titles, widths, and what stands in a tooltip. */
+/** Titles, widths and tooltips. */
 export const COLUMNS: readonly {
   id: Column;
   title: string;
-  /** Pixels, and its share of what is left. */
+  /** Minimum width in pixels; `share` is its fraction of the remaining width. */
   least: number;
   share?: number;
   help: string;
@@ -56,7 +56,7 @@ export const COLUMNS: readonly {
 ];
 
 const GAP = 10; // pixels between columns
-const YIELDING: readonly Column[] = [
+const OPTIONAL_COLUMNS: readonly Column[] = [
   "rate",
   "length",
   "notes",
@@ -65,28 +65,28 @@ const YIELDING: readonly Column[] = [
   "activities",
 ];
 
-/** Columns of these as a grid has them, and the pixels that they need. */
-export function gridOf(columns: readonly (typeof COLUMNS)[number][]): [string, number] {
+/** Return CSS grid columns and their minimum width in pixels. */
+export function getGrid(columns: readonly (typeof COLUMNS)[number][]): [string, number] {
   const widths = columns.map(({ least, share }) =>
     share ? `minmax(${least}px, ${share}fr)` : `${least}px`,
   );
   return [widths.join(" "), columns.reduce((sum, { least }) => sum + least + GAP, GAP)];
 }
 
-/** Those of the columns that a width has room for; what says least is left out first. */
-export function fitting(
+/** Return the columns that fit a width; the least important are dropped first. */
+export function fitColumns(
   columns: readonly (typeof COLUMNS)[number][],
   width: number,
 ): readonly (typeof COLUMNS)[number][] {
   let kept = columns;
-  for (const id of YIELDING) {
-    if (gridOf(kept)[1] <= width) break;
+  for (const id of OPTIONAL_COLUMNS) {
+    if (getGrid(kept)[1] <= width) break;
     kept = kept.filter((each) => each.id !== id);
   }
   return kept;
 }
 
-export interface Row extends Member {
+export interface Row extends FolderMember {
   status: Status;
   tally: Tally | null;
   activities: number | null;
@@ -94,22 +94,22 @@ export interface Row extends Member {
   least: number | null;
 }
 
-export function rowOf(member: Member, status: Status): Row {
+export function createRow(member: FolderMember, status: Status): Row {
   const { table } = member;
   return {
     ...member,
     status,
-    tally: table && tallyOf(table),
-    activities: table && countOf(table, "activity"),
-    primitives: table && countOf(table, "primitive"),
-    least: table && leastOf(table),
+    tally: table && computeTally(table),
+    activities: table && countSegments(table, "activity"),
+    primitives: table && countSegments(table, "primitive"),
+    least: table && getLowestConfidence(table),
   };
 }
 
-/** The rows in the order of a column; those of which nothing is known come last. */
-export function ordered(rows: readonly Row[], by: Column, reverse: boolean): Row[] {
+/** Sort rows by a column; unknown values come last. */
+export function sortRows(rows: readonly Row[], by: Column, reverse: boolean): Row[] {
   const sign = reverse ? -1 : 1;
-  const keys = new Map(rows.map((row) => [row, keyOf(row, by)]));
+  const keys = new Map(rows.map((row) => [row, getSortKey(row, by)]));
   return [...rows].sort((a, b) => {
     const [left, right] = [keys.get(a)!, keys.get(b)!];
     if (left === null || right === null) return Number(left === null) - Number(right === null);
@@ -118,20 +118,18 @@ export function ordered(rows: readonly Row[], by: Column, reverse: boolean): Row
   });
 }
 
-/** Seconds of a recording. */
-export function secondsOf({ n_frames, fps }: Segments): number {
+/** Return a recording's duration in seconds. */
+export function getLength({ n_frames, fps }: Segments): number {
   return n_frames / fps;
 }
 
-const STEPS: readonly Status[] = ["new", "corrected", "labelled", "checked"];
-
-function keyOf(row: Row, by: Column): string | number | null {
+function getSortKey(row: Row, by: Column): string | number | null {
   const { listing, table, tally } = row;
   switch (by) {
     case "name":
       return listing.name;
     case "status":
-      return STEPS.indexOf(row.status);
+      return STATUS_ORDER.indexOf(row.status);
     case "notes":
       return row.comments || null;
     case "least":
@@ -140,7 +138,7 @@ function keyOf(row: Row, by: Column): string | number | null {
       return row[by];
     case "length":
     case "strip":
-      return table && secondsOf(table);
+      return table && getLength(table);
     case "rate":
       return table && table.fps;
     case "checked":

@@ -1,29 +1,26 @@
-/** Which columns the folder's page shows: chosen, and remembered. */
+/** Store which columns the folder page shows. */
 import { signal } from "@preact/signals";
+import { readStored } from "../../layout/browser";
 import { COLUMNS, type Column } from "./rows";
 
-const KEY = "kineme.folder.columns";
+const STORAGE_KEY = "kineme.folder.columns";
 const ALL = COLUMNS.map(({ id }) => id);
 
-export const shownColumns = signal<readonly Column[]>(remembered());
+export const shownColumns = signal<readonly Column[]>(loadColumns());
 
-/** Shows a column, or hides it; the name is always there. */
+/** Show or hide a column; the name is always shown. */
 export function showColumn(column: Column, shown: boolean): void {
   const others = new Set(shownColumns.value.filter((id) => id !== column));
   shownColumns.value = ALL.filter((id) => (id === column ? shown : others.has(id)));
-  localStorage.setItem(KEY, JSON.stringify(shownColumns.value));
+  localStorage.setItem(STORAGE_KEY, JSON.stringify(shownColumns.value));
 }
 
-function remembered(): readonly Column[] {
-  try {
-    const found: unknown = JSON.parse(localStorage.getItem(KEY) ?? "null");
-    if (!Array.isArray(found)) return ALL;
-    const before: Partial<Record<Column, string>> = {
-      activities: "segments",
-      primitives: "segments",
-    };
-    return ALL.filter((id) => id === "name" || found.includes(id) || found.includes(before[id]));
-  } catch {
-    return ALL;
-  }
+function loadColumns(): readonly Column[] {
+  const found = readStored(STORAGE_KEY);
+  if (!Array.isArray(found)) return ALL;
+  const before: Partial<Record<Column, string>> = {
+    activities: "segments",
+    primitives: "segments",
+  };
+  return ALL.filter((id) => id === "name" || found.includes(id) || found.includes(before[id]));
 }

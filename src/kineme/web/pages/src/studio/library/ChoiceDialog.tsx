@@ -1,17 +1,17 @@
-/** Some of a list, for something that is done with them at once. */
+/** Choose some entries of a list for one action. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { Dialog } from "../dialogs/Dialog";
-import { Button, Checkbox, toggled } from "../../layout/controls";
+import { Button, Checkbox, toggleMember } from "../../layout/controls";
 
 interface Props<Value> {
   title: string;
   say: string;
   action: string;
   choices: { value: Value; text: string; picture?: JSX.Element }[];
-  /** So many may be chosen; all by default. */
+  /** Maximum number of choices; all by default. */
   most?: number;
-  /** Does it; whether it was done. */
+  /** Performs the action; returns whether it succeeded. */
   choose: (chosen: Value[]) => Promise<boolean>;
   close: () => void;
 }
@@ -29,7 +29,7 @@ export function ChoiceDialog<Value>(props: Props<Value>): JSX.Element {
           <li key={value}>
             <Checkbox
               checked={chosen.value.has(value)}
-              onCheck={() => (chosen.value = toggled(chosen.value, value))}
+              onCheck={() => (chosen.value = toggleMember(chosen.value, value))}
             >
               {text}
               {picture}

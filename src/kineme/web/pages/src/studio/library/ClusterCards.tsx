@@ -1,17 +1,17 @@
-/** The vocabulary of a library: a card for each cluster, with a name to type. */
-import { counted } from "../../counted";
+/** Show a card for each cluster of a library, with an editable name. */
+import { formatCount } from "../../formatCount";
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { clusterColor } from "../../colors";
+import { getClusterColor } from "../../colors";
 import { NameInput } from "../../layout/NameInput";
 import type { LibraryCluster } from "../../messages";
 import { ChoiceDialog } from "./ChoiceDialog";
 import { Figure } from "./Figure";
-import { ordered, seconds, type Order } from "./hits";
+import { sortClusters, formatSeconds, type Order } from "./hits";
 import type { LibraryPage } from "./libraryPage";
-import { Button, Select } from "../../layout/controls";
+import { Button, Select, Swatch } from "../../layout/controls";
 
-const AT_ONCE = 120;
+const PAGE_SIZE = 120;
 const ORDERS = [
   ["seconds", "by how long"],
   ["count", "by how many"],
@@ -21,8 +21,8 @@ const ORDERS = [
 
 export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
   const order = useSignal<Order>("seconds");
-  const shown = useSignal(AT_ONCE);
-  const clusters = ordered(page.state.value?.clusters ?? [], order.value);
+  const shown = useSignal(PAGE_SIZE);
+  const clusters = sortClusters(page.state.value?.clusters ?? [], order.value);
   return (
     <>
       <div class="tools">
@@ -35,7 +35,7 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
           />
         </label>
         <span class="quiet">A name is kept at once, and stays through every build.</span>
-        <Tables page={page} />
+        <TableTools page={page} />
       </div>
       {!clusters.length && <p class="quiet">Nothing repeats itself in these recordings.</p>}
       <ul class="cards">
@@ -44,14 +44,14 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
         ))}
       </ul>
       {clusters.length > shown.value && (
-        <Button onClick={() => (shown.value += AT_ONCE)}>Show more of {clusters.length}</Button>
+        <Button onClick={() => (shown.value += PAGE_SIZE)}>Show more of {clusters.length}</Button>
       )}
     </>
   );
 }
 
-/** Undo, and the way of numbers and names into tables that people have corrected. */
-function Tables({ page }: { page: LibraryPage }): JSX.Element {
+/** Undo edits and write cluster numbers and names to corrected tables. */
+function TableTools({ page }: { page: LibraryPage }): JSX.Element {
   const { undo = "", recordings = [] } = page.state.value ?? {};
   const { text, others } = page.tablesNews.value;
   const saved = recordings.filter(({ status }) => status === "corrected" || status === "checked");
@@ -69,12 +69,12 @@ function Tables({ page }: { page: LibraryPage }): JSX.Element {
           title="Recordings that nobody has corrected have them anyway. Segments stay; undo is in each recording."
           onClick={() => void page.updateTables(false)}
         >
-          Numbers and names to {counted(saved.length, "corrected recording")}
+          Numbers and names to {formatCount(saved.length, "corrected recording")}
         </Button>
       )}
       {others > 0 && (
         <Button onClick={() => void page.updateTables(true)}>
-          Replace {counted(others, "other name")}, too
+          Replace {formatCount(others, "other name")}, too
         </Button>
       )}
       <span role="status">{text}</span>
@@ -94,7 +94,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
   return (
     <li class="card">
       <div class="card-head">
-        <span class="swatch" style={{ background: clusterColor(it.cluster) }} />
+        <Swatch color={getClusterColor(it.cluster)} />
         <span class="number">{it.cluster}</span>
         <NameInput
           value={it.label}
@@ -102,20 +102,20 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
           onName={(name) => void page.edit({ kind: "name", cluster: it.cluster, name })}
         />
       </div>
-      <Strip page={page} cluster={it} />
+      <ClusterFigure page={page} cluster={it} />
       <p class="quiet number">
         {it.repetitions > 0 &&
-          `${counted(it.repetitions, "repetition")} of ${seconds(it.typical_s)}; `}
-        {counted(it.activities, "activity", "activities")}
-        {it.repetitions === 0 && ` of ${seconds(it.typical_s)}`}, {seconds(it.seconds)} in all, in{" "}
-        {counted(n, "recording")}
+          `${formatCount(it.repetitions, "repetition")} of ${formatSeconds(it.typical_s)}; `}
+        {formatCount(it.activities, "activity", "activities")}
+        {it.repetitions === 0 && ` of ${formatSeconds(it.typical_s)}`}, {formatSeconds(it.seconds)}{" "}
+        in all, in {formatCount(n, "recording")}
         {it.unsure > 0 && <span class="unsure"> · {it.unsure} unsure</span>}
       </p>
       <div class="card-tools">
         <Button
           aria-label={`Find more like this: ${called}`}
           onClick={() =>
-            void page.ask({ title: called, like: [], unlike: [], cluster: it.cluster })
+            void page.startSearch({ title: called, like: [], unlike: [], cluster: it.cluster })
           }
         >
           Find more like this
@@ -145,7 +145,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
           choices={others.map((other) => ({
             value: other.cluster,
             text: `${other.cluster} ${other.label}`,
-            picture: <Strip page={page} cluster={other} />,
+            picture: <ClusterFigure page={page} cluster={other} />,
           }))}
           choose={(chosen) => page.edit({ kind: "merge", cluster: it.cluster, others: chosen })}
         />
@@ -168,8 +168,8 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
   );
 }
 
-/** The most typical segment of a cluster. */
-function Strip(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
+/** Draw the most typical segment of a cluster. */
+function ClusterFigure(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
   const { cluster, example, start_s, stop_s } = props.cluster;
   const span = { recording: example, start_s, stop_s };
   return <Figure sketches={props.page.sketches} span={span} cluster={cluster} />;

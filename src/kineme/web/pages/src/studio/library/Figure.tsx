@@ -1,43 +1,43 @@
-/** A small figure of a span: read when it comes into view, a strip, or one that plays. */
+/** Draw a small strip of poses or an animation of a span once it is visible. */
 import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
-import { clusterColor, onPage } from "../../colors";
+import { getClusterColor, adaptColor } from "../../colors";
 import type { Span } from "../../messages";
 import { unpackMotion } from "../../motion";
 import { theme } from "../../theme";
-import { drawCurves, drawPoses, sheet, type Sketch } from "./drawing";
-import { flattened } from "./flat";
-import { explain } from "../server/answers";
+import { drawCurves, drawPoses, prepareCanvas, type Sketch } from "./drawing";
+import { flattenMotion } from "./flattenMotion";
+import { explainError } from "../server/answers";
 import type { LibraryApi } from "./libraryApi";
 
 const POSES = [0, 1 / 6, 2 / 6, 3 / 6, 4 / 6, 5 / 6, 1];
-const MOST_KEPT = 600;
+const MAX_SKETCHES = 600;
 
-/** The sketches of a page, each asked for once. */
+/** Load and cache the sketches of a page. */
 export class Sketches {
-  private readonly kept = new Map<string, Promise<Sketch>>();
+  private readonly cache = new Map<string, Promise<Sketch>>();
 
   constructor(private readonly api: LibraryApi) {}
 
-  of(span: Span): Promise<Sketch> {
+  load(span: Span): Promise<Sketch> {
     const key = JSON.stringify([span.recording, span.start_s, span.stop_s]);
-    const kept = this.kept.get(key) ?? this.ask(span);
-    this.kept.delete(key);
-    this.kept.set(key, kept); // the last one is the newest
-    kept.catch(() => this.kept.delete(key));
-    for (const old of this.kept.keys()) {
-      if (this.kept.size <= MOST_KEPT) break;
-      this.kept.delete(old);
+    const kept = this.cache.get(key) ?? this.request(span);
+    this.cache.delete(key);
+    this.cache.set(key, kept); // move to the end: the first ones are dropped first
+    kept.catch(() => this.cache.delete(key));
+    for (const old of this.cache.keys()) {
+      if (this.cache.size <= MAX_SKETCHES) break;
+      this.cache.delete(old);
     }
     return kept;
   }
 
-  private async ask(span: Span): Promise<Sketch> {
-    const { motion, numbers, curves } = await this.api.figure(span);
+  private async request(span: Span): Promise<Sketch> {
+    const { motion, numbers, curves } = await this.api.loadFigure(span);
     if (!motion) return { flat: null, curves };
     const packed = Uint8Array.from(atob(numbers), (letter) => letter.charCodeAt(0));
-    return { flat: flattened(await unpackMotion(motion, packed.buffer)), curves };
+    return { flat: flattenMotion(await unpackMotion(motion, packed.buffer)), curves };
   }
 }
 
@@ -45,7 +45,7 @@ interface Props {
   sketches: Sketches;
   span: Span;
   cluster: number;
-  /** Whether it moves; a strip where it never does. */
+  /** Whether to animate; undefined draws a strip of poses. */
   playing?: boolean | undefined;
 }
 
@@ -59,9 +59,9 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
   const draw = useCallback(
     (share: number): void => {
       const shown = sketch.peek();
-      const pen = canvas.current && shown && sheet(canvas.current);
+      const pen = canvas.current && shown && prepareCanvas(canvas.current);
       if (!pen) return;
-      const color = onPage(clusterColor(cluster), theme.peek());
+      const color = adaptColor(getClusterColor(cluster), theme.peek());
       if (shown.flat) drawPoses(pen, shown.flat, playing === undefined ? POSES : [share], color);
       else drawCurves(pen, shown.curves, playing ? share : null, color);
     },
@@ -76,9 +76,9 @@ export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element
       visible.current = entries.at(-1)!.isIntersecting;
       if (!visible.current || sketch.peek()) return;
       sketches
-        .of({ recording, start_s, stop_s })
+        .load({ recording, start_s, stop_s })
         .then((found) => here && (sketch.value = found))
-        .catch((error: unknown) => here && (failure.value = explain(error)));
+        .catch((error: unknown) => here && (failure.value = explainError(error)));
     });
     inView.observe(canvas.current!);
     return () => {

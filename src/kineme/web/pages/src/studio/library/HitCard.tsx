@@ -1,23 +1,24 @@
-/** A hit of a search: a figure that plays, where it is, how far, and whether it is right. */
+/** Show a search hit with an animated figure, its place and distance, and buttons to judge it. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import type { LibraryHit } from "../../messages";
-import { pageAddress } from "../server/address";
+import { buildPageAddress } from "../server/address";
 import { Figure } from "./Figure";
-import { keyOf } from "./hits";
+import { getHitKey } from "./hits";
 import type { LibraryPage } from "./libraryPage";
 import { Button } from "../../layout/controls";
 
-const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const prefersReducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
 export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): JSX.Element {
   const looked = useSignal(false);
-  const right = page.verdicts.value.get(keyOf(hit))?.right;
-  const front = page.hits.value[page.inFront.value] === hit;
+  const right = page.verdicts.value.get(getHitKey(hit))?.right;
+  const front = page.hits.value[page.frontIndex.value] === hit;
   const { recording, start_s, stop_s, cluster, label, name } = hit;
   const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;
   const time = `${start_s.toFixed(2)} to ${stop_s.toFixed(2)} s`;
-  const look = (at: boolean) => (): void => void (looked.value = at && !calm.matches);
+  const look = (at: boolean) => (): void =>
+    void (looked.value = at && !prefersReducedMotion.matches);
   return (
     <li
       class={`card hit ${front ? "front" : ""} ${right === undefined ? "" : right ? "yes" : "no"}`}
@@ -26,7 +27,7 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
       onPointerEnter={look(true)}
       onPointerLeave={look(false)}
       onFocus={() => {
-        page.front.value = keyOf(hit);
+        page.frontKey.value = getHitKey(hit);
         look(true)();
       }}
       onBlur={look(false)}
@@ -38,7 +39,7 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
         playing={page.playing.value || looked.value}
       />
       <p class="name">
-        {id ? <a href={pageAddress(page.api.token, id, start_s)}>{recording}</a> : recording}
+        {id ? <a href={buildPageAddress(page.api.token, id, start_s)}>{recording}</a> : recording}
       </p>
       <p class="quiet number">
         {time}
@@ -67,7 +68,7 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }): 
           aria-label={`Find more like ${recording}, ${time}`}
           onClick={() => {
             page.span.value = { recording, start_s, stop_s };
-            void page.ask({
+            void page.startSearch({
               title: `${recording} ${time}`,
               like: [{ recording, start_s, stop_s }],
               unlike: [],

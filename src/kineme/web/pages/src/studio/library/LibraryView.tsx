@@ -1,10 +1,9 @@
-/** The page of a library: its clusters, its recordings, and a search by example. */
-import { counted } from "../../counted";
+/** Render the page of a library: clusters, recordings and search by example. */
+import { formatCount } from "../../formatCount";
 import type { JSX } from "preact";
 import { Tabs } from "../../layout/Tabs";
-import { theme, toggleTheme } from "../../theme";
-import { folderAddress } from "../server/address";
-import { IconButton } from "../../transport/icons";
+import { buildFolderAddress } from "../server/address";
+import { ThemeButton } from "../../transport/icons";
 import { ClusterCards } from "./ClusterCards";
 import type { LibraryPage } from "./libraryPage";
 import { Recordings } from "./Recordings";
@@ -12,7 +11,6 @@ import { Search } from "./Search";
 
 export function LibraryView({ page }: { page: LibraryPage }): JSX.Element {
   const { value: state } = page.state;
-  const other = theme.value === "dark" ? "light" : "dark";
   const tabs = [
     { id: "clusters", title: "Clusters", panel: () => <ClusterCards page={page} /> },
     { id: "search", title: "Search", panel: () => <Search page={page} /> },
@@ -25,15 +23,15 @@ export function LibraryView({ page }: { page: LibraryPage }): JSX.Element {
         <span class="folder quiet" title={state?.folder}>
           {state?.folder.split(/[\\/]/).at(-1)}
         </span>
-        <a href={folderAddress(page.api.token)}>All recordings</a>
+        <a href={buildFolderAddress(page.api.token)}>All recordings</a>
         <span class="spacer" />
         {state && (
           <span class="quiet number sizes">
-            {counted(state.recordings.length, "recording")}, {state.hours.toFixed(2)} h,{" "}
-            {counted(state.clusters.length, "cluster")}
+            {formatCount(state.recordings.length, "recording")}, {state.hours.toFixed(2)} h,{" "}
+            {formatCount(state.clusters.length, "cluster")}
           </span>
         )}
-        <IconButton icon="theme" label={`Show the page ${other}`} onClick={toggleTheme} />
+        <ThemeButton />
       </header>
       {page.problem.value && (
         <p class="problem" role="alert">

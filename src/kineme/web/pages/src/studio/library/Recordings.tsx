@@ -1,14 +1,14 @@
-/** The recordings of a library: how long, how far, opened in the studio. */
+/** List the recordings of a library, with links to the studio. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
-import { pageAddress } from "../server/address";
-import { seconds } from "./hits";
+import { buildPageAddress } from "../server/address";
+import { formatSeconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
-import { Button } from "../../layout/controls";
+import { Button, TableHead, TextInput } from "../../layout/controls";
 
-const AT_ONCE = 200;
-/** Seconds of a recording that a search begins with. */
-const FIRST = 3;
+const PAGE_SIZE = 200;
+/** Initial duration of a searched span, seconds. */
+const DEFAULT_SPAN = 3;
 
 export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
   const filter = useSignal("");
@@ -19,12 +19,7 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
     <>
       <div class="tools">
         <label>
-          Filter{" "}
-          <input
-            type="search"
-            value={filter.value}
-            onInput={(event) => (filter.value = event.currentTarget.value)}
-          />
+          Filter <TextInput type="search" value={filter} />
         </label>
         <span class="quiet">
           {found.length} of {recordings.length}
@@ -32,25 +27,18 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
       </div>
       <div class="wide-table">
         <table>
-          <thead>
-            <tr>
-              <th scope="col">Recording</th>
-              <th scope="col">Length</th>
-              <th scope="col">Status</th>
-              <th scope="col">Search</th>
-            </tr>
-          </thead>
+          <TableHead columns={["Recording", "Length", "Status", "Search"]} />
           <tbody>
-            {found.slice(0, AT_ONCE).map((each) => (
+            {found.slice(0, PAGE_SIZE).map((each) => (
               <tr key={each.recording}>
                 <td>
                   {each.id ? (
-                    <a href={pageAddress(page.api.token, each.id)}>{each.recording}</a>
+                    <a href={buildPageAddress(page.api.token, each.id)}>{each.recording}</a>
                   ) : (
                     <span title="Its file is not where it was">{each.recording}</span>
                   )}
                 </td>
-                <td class="number">{seconds(each.duration_s)}</td>
+                <td class="number">{formatSeconds(each.duration_s)}</td>
                 <td>{each.status}</td>
                 <td>
                   <Button
@@ -60,7 +48,7 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
                       page.span.value = {
                         recording: each.recording,
                         start_s: 0,
-                        stop_s: Math.min(FIRST, each.duration_s),
+                        stop_s: Math.min(DEFAULT_SPAN, each.duration_s),
                       };
                       page.tab.value = "search";
                     }}
@@ -80,8 +68,8 @@ export function Recordings({ page }: { page: LibraryPage }): JSX.Element {
           </tbody>
         </table>
       </div>
-      {found.length > AT_ONCE && (
-        <p class="quiet">The first {AT_ONCE}; type a part of a name to see others.</p>
+      {found.length > PAGE_SIZE && (
+        <p class="quiet">The first {PAGE_SIZE}; type a part of a name to see others.</p>
       )}
     </>
   );

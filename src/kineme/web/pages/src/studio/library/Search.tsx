@@ -1,11 +1,11 @@
-/** "Find more like this": what is searched for, and the hits as cards to say yes or no to. */
+/** Search by example and judge the hits. */
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { NameInput } from "../../layout/NameInput";
-import { save } from "../server/save";
+import { saveFile } from "../server/saveFile";
 import { HitCard } from "./HitCard";
-import { startHitKeys } from "./hitKeys";
-import { asCsv, asJson, keyOf } from "./hits";
+import { listenToHitKeys } from "./hitKeys";
+import { toCsv, toJson, getHitKey } from "./hits";
 import type { LibraryPage } from "./libraryPage";
 import { SpanForm } from "./SpanForm";
 import { Button } from "../../layout/controls";
@@ -14,7 +14,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
   const { value: question } = page.question;
   const { value: hits } = page.hits;
   const cards = useRef<HTMLUListElement>(null);
-  useEffect(() => startHitKeys(page, () => cards.current), [page]);
+  useEffect(() => listenToHitKeys(page, () => cards.current), [page]);
   const count = page.confirmed.value.length + page.refused.value.length;
   return (
     <>
@@ -46,14 +46,14 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
       )}
       <ul class="cards hits" ref={cards}>
         {hits.map((hit) => (
-          <HitCard key={keyOf(hit)} page={page} hit={hit} />
+          <HitCard key={getHitKey(hit)} page={page} hit={hit} />
         ))}
       </ul>
     </>
   );
 }
 
-/** What was said of the hits, and what may be done with that. */
+/** Show how many hits were judged, and refine the search or name them. */
 function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
   const [yes, no] = [page.confirmed.value.length, page.refused.value.length];
   return (
@@ -88,7 +88,7 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
           <label key={cluster}>
             {n} of the confirmed {n === 1 ? "is" : "are"} in cluster {cluster}. Name all of it:{" "}
             <NameInput
-              value={page.clusterName(cluster)}
+              value={page.getClusterName(cluster)}
               label={`Name of cluster ${cluster}, which has ${n} of the confirmed`}
               onName={(name) => void page.edit({ kind: "name", cluster, name })}
             />
@@ -100,17 +100,17 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
 }
 
 function Downloads({ page }: { page: LibraryPage }): JSX.Element {
-  const write = (name: string, text: typeof asCsv): void => {
+  const write = (name: string, text: typeof toCsv): void => {
     const verdicts = page.verdicts.peek();
-    const content = text(page.hits.peek(), (hit) => verdicts.get(keyOf(hit))?.right);
-    save({ name, data: new Blob([content], { type: "text/plain;charset=utf-8" }) });
+    const content = text(page.hits.peek(), (hit) => verdicts.get(getHitKey(hit))?.right);
+    saveFile({ name, data: new Blob([content], { type: "text/plain;charset=utf-8" }) });
   };
   return (
     <span class="group">
-      <Button onClick={() => write("hits.csv", asCsv)}>CSV</Button>
+      <Button onClick={() => write("hits.csv", toCsv)}>CSV</Button>
       <Button
         title="One object a line, as kineme library search --json"
-        onClick={() => write("hits.jsonl", asJson)}
+        onClick={() => write("hits.jsonl", toJson)}
       >
         JSON
       </Button>

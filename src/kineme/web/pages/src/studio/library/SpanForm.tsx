@@ -1,8 +1,8 @@
-/** A recording, from when to when, and how near a hit must be. */
+/** Edit the searched span and the largest distance. */
 import type { JSX } from "preact";
 import { NumberInput } from "../../layout/NumberInput";
 import type { Span } from "../../messages";
-import { seconds } from "./hits";
+import { formatSeconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
 import { Button, Checkbox } from "../../layout/controls";
 
@@ -23,9 +23,9 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
       class="tools"
       onSubmit={(event) => {
         event.preventDefault();
-        const given = page.span.value ?? span; // a field may have been left by this very Enter
+        const given = page.span.value ?? span; // Enter also commits the focused field
         const title = `${given.recording} ${given.start_s} to ${given.stop_s} s`;
-        if (valid) void page.ask({ title, like: [given], unlike: [] });
+        if (valid) void page.startSearch({ title, like: [given], unlike: [] });
       }}
     >
       <label>
@@ -40,7 +40,7 @@ export function SpanForm({ page }: { page: LibraryPage }): JSX.Element {
       <datalist id="library-recordings">
         {recordings.slice(0, 500).map((each) => (
           <option key={each.recording} value={each.recording}>
-            {seconds(each.duration_s)}
+            {formatSeconds(each.duration_s)}
           </option>
         ))}
       </datalist>

@@ -1,7 +1,7 @@
-/** Small figures on a canvas: one pose, several beside each other, or curves. */
-import type { Flat } from "./flat";
+/** Draw small figures on a canvas: poses or curves. */
+import type { Flat } from "./flattenMotion";
 
-/** What is drawn of a span: a body, or channels from 0 to 1. */
+/** A drawn span: a body, or channels scaled to 0–1. */
 export interface Sketch {
   flat: Flat | null;
   curves: readonly (readonly number[])[];
@@ -9,8 +9,8 @@ export interface Sketch {
 
 const EDGE = 5;
 
-/** A canvas cleared and as sharp as the screen; null where it has no room. */
-export function sheet(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
+/** Clear a canvas and scale it to device pixels; null if it has no size. */
+export function prepareCanvas(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   const [wide, tall] = [canvas.clientWidth, canvas.clientHeight];
   const pen = canvas.getContext("2d");
   if (!pen || !wide || !tall) return null;
@@ -23,7 +23,7 @@ export function sheet(canvas: HTMLCanvasElement): CanvasRenderingContext2D | nul
   return pen;
 }
 
-/** Poses at shares of the span, 0 to 1, beside each other. */
+/** Draw poses at shares of the span (0 to 1) beside each other. */
 export function drawPoses(
   pen: CanvasRenderingContext2D,
   flat: Flat,
@@ -37,7 +37,7 @@ export function drawPoses(
     ((n > 1 ? 1.4 : 1) * wide) / n / (size[0] || 1),
     (tall - 2 * EDGE) / (size[1] || 1),
   );
-  const half = EDGE + (scale * size[0]) / 2; // what the first and the last one need
+  const half = EDGE + (scale * size[0]) / 2; // half the width of the first and last figure
   const apart = n > 1 ? (wide - 2 * half) / (n - 1) : 0;
   const first = n > 1 ? half : wide / 2;
   pen.strokeStyle = color;
@@ -58,7 +58,7 @@ export function drawPoses(
   });
 }
 
-/** Channels below each other, and how far one is in the span. */
+/** Draw channels below each other with the playhead at `share`. */
 export function drawCurves(
   pen: CanvasRenderingContext2D,
   curves: Sketch["curves"],

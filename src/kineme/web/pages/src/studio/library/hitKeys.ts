@@ -1,12 +1,13 @@
-/** The keys of a search: Y and N for the hit in front, after which the next is; arrows go on. */
-import { isForPlayer } from "../../focus";
+/** Judge hits with Y and N and move between them with arrow keys. */
+import { listen } from "../../layout/browser";
+import { isPlayerKey } from "../../focus";
 import type { LibraryPage } from "./libraryPage";
 
-/** Listens while hits are shown, their cards the children of `cards`; call the result to stop. */
-export function startHitKeys(page: LibraryPage, cards: () => HTMLElement | null): () => void {
+/** Listen to the keyboard and return a function that stops; `cards` contains the hits. */
+export function listenToHitKeys(page: LibraryPage, cards: () => HTMLElement | null): () => void {
   const onKey = (event: KeyboardEvent): void => {
-    if (event.ctrlKey || event.altKey || event.metaKey || !isForPlayer(event)) return;
-    const at = page.inFront.peek();
+    if (event.ctrlKey || event.altKey || event.metaKey || !isPlayerKey(event)) return;
+    const at = page.frontIndex.peek();
     const hit = page.hits.peek()[at];
     const key = event.key.toLowerCase();
     if (!hit) return;
@@ -14,7 +15,7 @@ export function startHitKeys(page: LibraryPage, cards: () => HTMLElement | null)
       page.judge(hit, key === "y");
       bringToFront(at + 1);
     } else {
-      const by = stepOf(key, cards()?.contains(event.target as Node) ?? false);
+      const by = getStep(key, cards()?.contains(event.target as Node) ?? false);
       if (!by) return;
       bringToFront(at + by);
     }
@@ -22,14 +23,13 @@ export function startHitKeys(page: LibraryPage, cards: () => HTMLElement | null)
   };
   const bringToFront = (at: number): void => {
     const next = cards()?.children[at];
-    if (next instanceof HTMLElement) next.focus(); // which brings it to the front
+    if (next instanceof HTMLElement) next.focus(); // the focus handler makes it the current hit
   };
-  addEventListener("keydown", onKey);
-  return () => removeEventListener("keydown", onKey);
+  return listen(window, { keydown: onKey });
 }
 
-/** Arrows up and down scroll the page, but from card to card. */
-function stepOf(key: string, onCard: boolean): number {
+/** Return the step of a key; up and down scroll the page unless a card has the focus. */
+function getStep(key: string, onCard: boolean): number {
   const sideways: Record<string, number> = { arrowright: 1, arrowleft: -1 };
   const across: Record<string, number> = { arrowdown: 1, arrowup: -1 };
   return sideways[key] ?? (onCard ? across[key] : undefined) ?? 0;

@@ -1,13 +1,13 @@
-/** Hits of a search: told apart, counted by cluster, and as a table to take along. Pure functions. */
+/** Identify, count, sort and export search hits. Pure functions. */
 import type { LibraryCluster, LibraryHit } from "../../messages";
 
-/** The same for the same span of the same recording. */
-export function keyOf(hit: LibraryHit): string {
+/** Return a key that identifies a hit's span. */
+export function getHitKey(hit: LibraryHit): string {
   return JSON.stringify([hit.recording, hit.start_s, hit.stop_s]);
 }
 
-/** How many hits lie in each cluster, most first; -1 is in none. */
-export function sharesOf(hits: readonly LibraryHit[]): [cluster: number, hits: number][] {
+/** Count hits per cluster, most first; -1 is no cluster. */
+export function countByCluster(hits: readonly LibraryHit[]): [cluster: number, hits: number][] {
   const counts = new Map<number, number>();
   for (const { cluster } of hits) counts.set(cluster, (counts.get(cluster) ?? 0) + 1);
   return [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
@@ -15,7 +15,7 @@ export function sharesOf(hits: readonly LibraryHit[]): [cluster: number, hits: n
 
 export type Order = "seconds" | "count" | "name" | "unsure";
 
-export function ordered(clusters: readonly LibraryCluster[], by: Order): LibraryCluster[] {
+export function sortClusters(clusters: readonly LibraryCluster[], by: Order): LibraryCluster[] {
   const times = (each: LibraryCluster): number => each.repetitions || each.activities;
   const compare: Record<Order, (a: LibraryCluster, b: LibraryCluster) => number> = {
     seconds: (a, b) => b.seconds - a.seconds,
@@ -33,14 +33,14 @@ const COLUMNS = ["recording", "start_s", "stop_s", "distance", "cluster", "label
 
 type Verdict = (hit: LibraryHit) => boolean | undefined;
 
-/** The hits with what was said of them, as `kineme library search --json` has them. */
-export function asJson(hits: readonly LibraryHit[], verdict: Verdict): string {
+/** Return hits and verdicts as JSON lines, as `kineme library search --json` does. */
+export function toJson(hits: readonly LibraryHit[], verdict: Verdict): string {
   return hits
     .map((hit) => JSON.stringify({ ...hit, confirmed: verdict(hit) ?? null }) + "\n")
     .join("");
 }
 
-export function asCsv(hits: readonly LibraryHit[], verdict: Verdict): string {
+export function toCsv(hits: readonly LibraryHit[], verdict: Verdict): string {
   const cell = (value: string | number | boolean | null | undefined): string => {
     const text = String(value ?? "");
     return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
@@ -49,7 +49,7 @@ export function asCsv(hits: readonly LibraryHit[], verdict: Verdict): string {
   return [[...COLUMNS, "confirmed"], ...rows].map((row) => row.map(cell).join(",") + "\n").join("");
 }
 
-export function seconds(value: number): string {
+export function formatSeconds(value: number): string {
   const minutes = Math.floor(value / 60);
   return minutes
     ? `${minutes}:${(value % 60).toFixed(0).padStart(2, "0")} min`

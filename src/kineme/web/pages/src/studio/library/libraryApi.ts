@@ -1,42 +1,31 @@
-/** What the page of a library asks the server. */
-import type {
-  CallHits,
-  LibraryEdit,
-  LibraryFigure,
-  LibraryHits,
-  LibraryState,
-  NamedHits,
-  SearchRequest,
-  Span,
-  TablesChanged,
-  TablesRequest,
-} from "../../messages";
+/** Send the requests of a library's page. */
+import type * as messages from "../../messages";
 import { Api } from "../server/api";
 
 export class LibraryApi extends Api {
-  library(): Promise<LibraryState> {
+  loadLibrary(): Promise<messages.LibraryState> {
     return this.get("/api/library", {});
   }
 
-  editLibrary(edit: LibraryEdit): Promise<LibraryState> {
+  editLibrary(edit: messages.LibraryEdit): Promise<messages.LibraryState> {
     return this.post("/api/library/edits", {}, edit);
   }
 
-  /** Saved tables take the numbers and names of the library. */
-  updateTables(sent: TablesRequest): Promise<TablesChanged> {
+  /** Write the library's numbers and names to saved tables. */
+  updateTables(sent: messages.TablesRequest): Promise<messages.TablesChanged> {
     return this.post("/api/library/tables", {}, sent);
   }
 
-  nameHits(sent: CallHits): Promise<NamedHits> {
+  nameHits(sent: messages.CallHits): Promise<messages.NamedHits> {
     return this.post("/api/library/names", {}, sent);
   }
 
-  /** Refused with status 409 where a newer search was asked for meanwhile. */
-  search(sent: SearchRequest): Promise<LibraryHits> {
+  /** Search; refused with status 409 if a newer search was sent meanwhile. */
+  search(sent: messages.SearchRequest): Promise<messages.LibraryHits> {
     return this.post("/api/library/search", {}, sent);
   }
 
-  figure({ recording, start_s, stop_s }: Span): Promise<LibraryFigure> {
+  loadFigure({ recording, start_s, stop_s }: messages.Span): Promise<messages.LibraryFigure> {
     return this.get("/api/library/figure", {}, { recording, start: start_s, stop: stop_s });
   }
 }

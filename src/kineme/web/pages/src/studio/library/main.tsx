@@ -1,16 +1,16 @@
-/** The page of a library, which the studio's server shows where no recording is named. */
+/** Start the page of a library. */
 import { render } from "preact";
 import "../../styles/index.css";
 import "../studio.css";
 import "./library.css";
 import { watchFocus } from "../../focus";
-import { tokenInAddress } from "../server/address";
+import { readToken } from "../server/address";
 import { shareToken } from "../server/token";
 import { LibraryApi } from "./libraryApi";
 import { LibraryPage } from "./libraryPage";
 import { LibraryView } from "./LibraryView";
 
-const api = new LibraryApi(tokenInAddress());
+const api = new LibraryApi(readToken());
 const page = new LibraryPage(api);
 shareToken(api);
 document.title = "Library · kineme studio";

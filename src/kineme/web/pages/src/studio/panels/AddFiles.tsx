@@ -1,4 +1,4 @@
-/** Files for the folder: chosen here, and how far each is on its way. */
+/** Choose files to upload and show their progress. */
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 

@@ -1,20 +1,20 @@
-/** What people say about the segment. */
+/** Edit the comment on a segment. */
 import type { JSX } from "preact";
-import { useDraft } from "../../layout/draft";
+import { useDraft } from "../../layout/useDraft";
 import { useStudio } from "../context";
 import type { Segment, Segments } from "../../messages";
-import { placeOf } from "../editing/commands";
+import { getTarget } from "../editing/commands";
 
 interface Props {
   segment: Segment;
-  /** What the segment is a row of. */
+  /** Table that contains the segment. */
   table: Segments | undefined;
 }
 
 export function Comment({ segment, table }: Props): JSX.Element {
   const { editor } = useStudio();
   const draft = useDraft(segment.comment ?? "", (now) =>
-    editor.edit({ kind: "comment", ...placeOf(segment), text: now.trim() }, table),
+    editor.edit({ kind: "comment", ...getTarget(segment), text: now.trim() }, table),
   );
   return (
     <label class="field">

@@ -1,16 +1,16 @@
-/** How well the shown result agrees with the one it is compared with. */
+/** Show how well the result agrees with the compared one. */
 import type { JSX } from "preact";
 import { useStore } from "../../context";
-import type { Comparison, Segment } from "../../messages";
-import { laneOf, nameOf, segmentAt } from "../../segments";
-import { clock } from "../../view";
+import type { Comparison } from "../../messages";
+import { getLane, getSegmentName, findSegmentAt } from "../../segments";
+import { DifferenceTable } from "./DifferenceTable";
 import { useStudio } from "../context";
 import { AgreementPanel } from "../people/AgreementPanel";
 import { Button } from "../../layout/controls";
 
 export function ComparePanel(): JSX.Element {
-  const { session, front } = useStudio();
-  const comparison = session.beside.comparison.value;
+  const { session, view } = useStudio();
+  const comparison = session.comparisons.comparison.value;
   const agreement = session.people.agreement.value;
   if (!comparison && agreement) return <AgreementPanel agreement={agreement} />;
   if (!comparison)
@@ -20,7 +20,7 @@ export function ComparePanel(): JSX.Element {
           Lay another preset’s result, or what one or more people say, below this one.
         </p>
         <p>
-          <Button disabled={!session.edited.value} onClick={() => front.show("compare")}>
+          <Button disabled={!session.edited.value} onClick={() => view.show("compare")}>
             Compare…
           </Button>
         </p>
@@ -31,7 +31,7 @@ export function ComparePanel(): JSX.Element {
       <div class="panel-head">
         <b class="name">{comparison.name}</b>
         <span class="spacer" />
-        <Button onClick={() => session.beside.stop()}>Stop comparing</Button>
+        <Button onClick={() => session.comparisons.stop()}>Stop comparing</Button>
       </div>
       {(comparison.differences?.length ?? 0) > 0 && <Differences comparison={comparison} />}
       <table class="scores number">
@@ -55,40 +55,15 @@ export function ComparePanel(): JSX.Element {
   );
 }
 
-/** Where the two say different things; a click goes there. */
+/** List where the two results differ; a click goes there. */
 function Differences({ comparison }: { comparison: Comparison }): JSX.Element {
   const store = useStore();
-  const other = laneOf(comparison.segmentation, "activity");
-  const present = store.activities.value;
-  const nameAt = (lane: readonly Segment[], [start, stop]: readonly [number, number]): string => {
-    const segment = segmentAt(lane, store.frameAt((start + stop) / 2));
-    return segment ? nameOf(segment) : "";
-  };
-  return (
-    <table class="differences number">
-      <caption>Where they differ</caption>
-      <thead>
-        <tr>
-          <th scope="col">From</th>
-          <th scope="col">Seconds</th>
-          <th scope="col">This table</th>
-          <th scope="col">{comparison.name}</th>
-        </tr>
-      </thead>
-      <tbody>
-        {comparison.differences?.map((span) => (
-          <tr key={span[0]}>
-            <td>
-              <Button class="link" onClick={() => store.seek(span[0])}>
-                {clock(span[0], 2)}
-              </Button>
-            </td>
-            <td>{(span[1] - span[0]).toFixed(2)}</td>
-            <td>{nameAt(present, span)}</td>
-            <td>{nameAt(other, span)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  );
+  const lanes = [store.activities.value, getLane(comparison.segmentation, "activity")];
+  const differences = (comparison.differences ?? []).map(([start_s, stop_s]) => {
+    const frame = store.getFrameAt((start_s + stop_s) / 2);
+    const segments = lanes.map((lane) => findSegmentAt(lane, frame));
+    return { start_s, stop_s, labels: segments.map((each) => (each ? getSegmentName(each) : "")) };
+  });
+  const names = ["This table", comparison.name];
+  return <DifferenceTable caption="Where they differ" names={names} differences={differences} />;
 }

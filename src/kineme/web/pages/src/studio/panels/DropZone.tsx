@@ -1,7 +1,8 @@
-/** Files dropped anywhere on the page go into the folder. */
+/** Upload files dropped anywhere on the page. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
+import { listen } from "../../layout/browser";
 import { useStudio } from "../context";
 
 export function DropZone(): JSX.Element | null {
@@ -24,14 +25,7 @@ export function DropZone(): JSX.Element | null {
       over.value = false;
       void uploads.add([...(event.dataTransfer?.files ?? [])]);
     };
-    addEventListener("dragover", onOver);
-    addEventListener("dragleave", onLeave);
-    addEventListener("drop", onDrop);
-    return () => {
-      removeEventListener("dragover", onOver);
-      removeEventListener("dragleave", onLeave);
-      removeEventListener("drop", onDrop);
-    };
+    return listen(window, { dragover: onOver, dragleave: onLeave, drop: onDrop });
   }, [uploads, over]);
   if (!over.value) return null;
   return (

@@ -1,9 +1,9 @@
-/** The buttons that cut and join, for those without a keyboard at hand. */
+/** Offer buttons to split, merge and delete. */
 import type { JSX } from "preact";
 import { useStore } from "../../context";
 import type { Level } from "../../messages";
 import { useStudio } from "../context";
-import { deleteBorder, mergeWithNext } from "../editing/commands";
+import { createDeletion, createMerge } from "../editing/commands";
 import { Button } from "../../layout/controls";
 
 const LEVELS: readonly (readonly [Level, string])[] = [
@@ -15,17 +15,17 @@ export function EditTools(): JSX.Element {
   const store = useStore();
   const { editor } = useStudio();
   const disabled = !editor.segment.value;
-  const where = { lane: store.lane(store.worked.value), frame: store.frame.value };
+  const where = { lane: store.getLane(store.workLevel.value), frame: store.frame.value };
   return (
     <>
       <span class="group" role="group" aria-label="Work on">
         {LEVELS.map(([level, name]) => (
           <Button
             key={level}
-            aria-pressed={store.worked.value === level}
-            disabled={!store.lane(level).length}
+            aria-pressed={store.workLevel.value === level}
+            disabled={!store.getLane(level).length}
             title={`Work on ${name.toLowerCase()} (A)`}
-            onClick={() => store.workOn(level)}
+            onClick={() => store.setLevel(level)}
           >
             {name}
           </Button>
@@ -40,14 +40,14 @@ export function EditTools(): JSX.Element {
           Split
         </Button>
         <Button
-          disabled={!mergeWithNext(where)}
+          disabled={!createMerge(where)}
           title="The segment and the next one become one (M)"
           onClick={() => editor.mergeWithNext()}
         >
           Merge
         </Button>
         <Button
-          disabled={!deleteBorder(where)}
+          disabled={!createDeletion(where)}
           title="Delete the border nearest to the playhead (Delete)"
           onClick={() => editor.deleteBorder()}
         >

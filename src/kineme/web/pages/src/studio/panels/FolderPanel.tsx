@@ -1,22 +1,22 @@
-/** The recordings of the folder: search, open, show beside, add. */
+/** List the recordings of the folder, to search, open and compare. */
 import type { JSX } from "preact";
 
 import { AddFiles } from "./AddFiles";
-import { MiddleShortened } from "./MiddleShortened";
+import { TruncatedName } from "./TruncatedName";
 import { useStudio } from "../context";
-import { checkedIn } from "../../segments";
+import { countChecked } from "../../segments";
 import type { Listing } from "../../messages";
 import { ORDERS, STATUSES, type Status } from "../recordingList";
-import { Button, CloseButton, Select } from "../../layout/controls";
+import { Button, CloseButton, Select, TextInput } from "../../layout/controls";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
 
 export function FolderPanel(): JSX.Element {
-  const { session, front } = useStudio();
+  const { session, view } = useStudio();
   const { search, status, order } = session.list;
   const all = session.state.value?.recordings ?? [];
   const found = session.list.listed.value;
-  const done = all.filter((each) => session.list.statusOf(each) === "checked").length;
+  const done = all.filter((each) => session.list.getStatus(each) === "checked").length;
   return (
     <section class="folder-panel" aria-label="Recordings">
       <div class="panel-head">
@@ -25,7 +25,7 @@ export function FolderPanel(): JSX.Element {
         {all.length > 1 && (
           <Button
             title="All recordings with their segments, and how far each is"
-            onClick={() => (front.folder.value = true)}
+            onClick={() => (view.folder.value = true)}
           >
             Folder
           </Button>
@@ -34,12 +34,11 @@ export function FolderPanel(): JSX.Element {
       </div>
       {all.length > 1 && (
         <div class="folder-filter">
-          <input
+          <TextInput
             type="search"
             placeholder="Search"
             aria-label="Search the recordings"
-            value={search.value}
-            onInput={(event) => (search.value = event.currentTarget.value)}
+            value={search}
           />
           <Select
             label="Show recordings that are"
@@ -62,25 +61,25 @@ export function FolderPanel(): JSX.Element {
       )}
       <ul class="recordings">
         {found.map((listing) => (
-          <Row key={listing.id} listing={listing} />
+          <RecordingRow key={listing.id} listing={listing} />
         ))}
       </ul>
-      <Hint all={all.length} found={found.length} suffixes={session.state.value?.suffixes} />
+      <EmptyHint all={all.length} found={found.length} suffixes={session.state.value?.suffixes} />
     </section>
   );
 }
 
-function Row({ listing }: { listing: Listing }): JSX.Element {
-  const { session, front } = useStudio();
+function RecordingRow({ listing }: { listing: Listing }): JSX.Element {
+  const { session, view } = useStudio();
   const { id, name } = listing;
   const { store } = session;
   const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
   const shown = open !== undefined;
-  const status = session.list.statusOf(listing);
-  const checked = open ? checkedIn(open.segmentation) : listing.checked;
+  const status = session.list.getStatus(listing);
+  const checked = open ? countChecked(open.segmentation) : listing.checked;
   const segments = open?.segmentation.segments.length ?? listing.segments;
   const facts = [
-    megabytes(listing.bytes),
+    formatFileSize(listing.bytes),
     status,
     ...(status === "corrected" ? [`${checked} of ${segments} segments checked`] : []),
     ...(listing.named ? [`${listing.named} with a name`] : []),
@@ -96,11 +95,11 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
         aria-busy={opening}
         title={`${name}: ${facts.join(", ")}`}
         onClick={() => {
-          front.folder.value = null;
+          view.folder.value = null;
           void session.open(id, { beside: shown });
         }}
       >
-        <MiddleShortened name={name} />
+        <TruncatedName name={name} />
         {opening ? <span class="busy" /> : <span aria-hidden="true">{SIGNS[status]}</span>}
       </Button>
       {shown && several ? (
@@ -122,7 +121,7 @@ function Row({ listing }: { listing: Listing }): JSX.Element {
   );
 }
 
-function Hint(props: {
+function EmptyHint(props: {
   all: number;
   found: number;
   suffixes: string[] | undefined;
@@ -140,6 +139,6 @@ function Hint(props: {
   return null;
 }
 
-export function megabytes(bytes: number): string {
+export function formatFileSize(bytes: number): string {
   return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }

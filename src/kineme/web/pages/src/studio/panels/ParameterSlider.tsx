@@ -1,4 +1,4 @@
-/** A constant of a preset: a number, and a slider for it. */
+/** Edit a preset's parameter with a number field and a slider. */
 import type { JSX } from "preact";
 import { NumberInput } from "../../layout/NumberInput";
 import type { Parameter } from "../../messages";
@@ -20,8 +20,8 @@ export function ParameterSlider(props: {
         label={unit ? `${title} in ${unit}` : title}
         min={minimum}
         max={maximum}
-        step={rounded(step)}
-        value={rounded(value)}
+        step={roundToThreeDigits(step)}
+        value={roundToThreeDigits(value)}
         onNumber={change}
       />
       <input
@@ -37,6 +37,6 @@ export function ParameterSlider(props: {
   );
 }
 
-function rounded(value: number): number {
+function roundToThreeDigits(value: number): number {
   return Number(value.toFixed(3));
 }

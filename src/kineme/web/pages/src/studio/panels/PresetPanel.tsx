@@ -1,7 +1,4 @@
-/**
- * Preset and the few parameters that matter. A change shows what it would find below what is
- * there; a button makes it the table, and says what becomes of corrections and names.
- */
+/** Choose a preset and its parameters; a change shows a preview, a button applies it. */
 import { signal, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
@@ -9,16 +6,16 @@ import { useStudio } from "../context";
 import type { Parameter, PresetChoice, Segments } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
 import { DetailSlider } from "../../layout/DetailSlider";
-import type { Choice } from "../editing/beside";
+import type { SegmentationChoice } from "../editing/comparisons";
 import { ParameterSlider } from "./ParameterSlider";
-import { Proposed } from "./Proposed";
+import { ProposalPanel } from "./ProposalPanel";
 import { RunProgress } from "./RunProgress";
 import { Button, Select } from "../../layout/controls";
 
-/** Whether the constants are shown, beside preset and detail: of all recordings. */
-const advanced = signal(false);
+/** Whether the parameters are shown, for all recordings. */
+const showsAdvanced = signal(false);
 
-const PAUSE = 120; // milliseconds without a change before the server is asked
+const PAUSE = 120; // milliseconds without a change before a preview is requested
 
 type Values = Record<string, number>;
 
@@ -32,7 +29,7 @@ export function PresetPanel(): JSX.Element | null {
     <Presets
       key={edited.id}
       edited={edited}
-      presets={signals ? state.presets.map(ofSignals) : state.presets}
+      presets={signals ? state.presets.map(toSignalPreset) : state.presets}
       fallback={state.default_preset}
       details={state.details}
     />
@@ -48,26 +45,27 @@ interface Props {
 
 function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
   const { session } = useStudio();
-  const { draft } = session.beside;
+  const { draft } = session.comparisons;
   const keep = useSignal(true);
   const timer = useRef(0);
   const { revision, segmentation: table } = edited.confirmed.value;
-  const proposal = session.beside.proposal.value;
+  const proposal = session.comparisons.proposal.value;
   const busy = session.segmenting.value;
-  const used = usedBy(table, presets, fallback);
+  const used = readChoice(table, presets, fallback);
   const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
-  /** Whether a preset has found the table: not where people made it, or where that was cancelled. */
+  /** Whether a preset produced the table; not if people made it or the run was cancelled. */
   const isFound = typeof table.provenance.preset === "string";
   const isUsual = detail === 1 && choice.parameters.every((each) => isDefault(each, values));
 
-  const again = useCallback(
-    (next: Choice, pause: number): void => {
+  const requestPreview = useCallback(
+    (next: SegmentationChoice, pause: number): void => {
       draft.value = next;
       window.clearTimeout(timer.current);
       timer.current = window.setTimeout(() => {
-        if (draft.peek() === next) void session.beside.propose(next, keep.value); // else cancelled
+        // Else it was cancelled.
+        if (draft.peek() === next) void session.comparisons.propose(next, keep.value);
       }, pause);
     },
     [session, draft, keep],
@@ -75,23 +73,25 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
   useEffect(
     () => () => {
       window.clearTimeout(timer.current);
-      session.beside.cancel();
+      session.comparisons.cancel();
     },
     [session],
   );
   useEffect(() => {
-    if (proposal && proposal.revision !== revision) again(draft.peek() ?? proposal.choice, 0); // of another table
-  }, [proposal, revision, again, draft]);
-  const change = (parameter: Parameter, value: number): void => {
+    // The preview was of another table.
+    if (proposal && proposal.revision !== revision)
+      requestPreview(draft.peek() ?? proposal.choice, 0);
+  }, [proposal, revision, requestPreview, draft]);
+  const changeParameter = (parameter: Parameter, value: number): void => {
     const { minimum, maximum } = parameter;
     if (!Number.isFinite(value)) return;
     const bounded = Math.min(Math.max(value, minimum), maximum);
-    again({ preset, values: { ...values, [parameter.name]: bounded }, detail }, PAUSE);
+    requestPreview({ preset, values: { ...values, [parameter.name]: bounded }, detail }, PAUSE);
   };
   const levels = {
     all: proposal && !draft.value ? proposal.preview.details : details,
     detail,
-    choose: (next: number) => again({ preset, values, detail: next }, PAUSE),
+    choose: (next: number) => requestPreview({ preset, values, detail: next }, PAUSE),
   };
   useEffect(() => void (session.store.levels.value = levels));
   useEffect(() => () => void (session.store.levels.value = null), [session]);
@@ -104,7 +104,7 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
         <Button
           title={isFound ? "The preset’s own values" : "Segments by this preset, to look at"}
           disabled={isFound ? isUsual : busy || proposal !== null}
-          onClick={() => again({ preset, values: defaults(choice), detail: 1 }, 0)}
+          onClick={() => requestPreview({ preset, values: getDefaults(choice), detail: 1 }, 0)}
         >
           {isFound ? "Reset" : "Segment"}
         </Button>
@@ -117,15 +117,15 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
           options={presets.map(({ name }) => [name, name])}
           onSelect={(chosen) => {
             const next = presets.find(({ name }) => name === chosen)!;
-            again({ preset: next.name, values: defaults(next), detail: 1 }, 0);
+            requestPreview({ preset: next.name, values: getDefaults(next), detail: 1 }, 0);
           }}
         />
         <p class="preset-help quiet">{choice.help}</p>
         <DetailSlider />
         <details
           class="advanced"
-          open={advanced.value}
-          onToggle={(event) => (advanced.value = event.currentTarget.open)}
+          open={showsAdvanced.value}
+          onToggle={(event) => (showsAdvanced.value = event.currentTarget.open)}
         >
           <summary>Advanced</summary>
           {choice.parameters.map((parameter) => (
@@ -133,18 +133,18 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
               key={`${preset}.${parameter.name}`}
               parameter={parameter}
               value={values[parameter.name] ?? parameter.value}
-              change={(value) => change(parameter, value)}
+              change={(value) => changeParameter(parameter, value)}
             />
           ))}
         </details>
       </div>
       {proposal && (
-        <Proposed
+        <ProposalPanel
           proposal={proposal}
           keep={keep.value}
           setKeep={(keeps) => {
             keep.value = keeps;
-            again(proposal.choice, 0);
+            requestPreview(proposal.choice, 0);
           }}
         />
       )}
@@ -152,17 +152,21 @@ function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
   );
 }
 
-/** What signals are offered: lengths in their own unit, which their tables are in, too. */
-function ofSignals(choice: PresetChoice): PresetChoice {
+/** Return a preset with the parameters for signals, whose lengths are in their own unit. */
+function toSignalPreset(choice: PresetChoice): PresetChoice {
   return { ...choice, parameters: choice.signal_parameters };
 }
 
-/** The preset and values a table was made with; the preset's own where it does not say. */
-function usedBy(table: Segments, presets: PresetChoice[], fallback: string): Choice {
+/** Return the preset and values that produced a table, with defaults for missing ones. */
+function readChoice(
+  table: Segments,
+  presets: PresetChoice[],
+  fallback: string,
+): SegmentationChoice {
   const { preset: name, parameters, detail } = table.provenance;
   const choice =
     presets.find((each) => each.name === name) ?? presets.find((each) => each.name === fallback)!;
-  const values = defaults(choice);
+  const values = getDefaults(choice);
   if (choice.name === name && typeof parameters === "object" && parameters !== null)
     for (const key of Object.keys(values)) {
       const value = (parameters as Record<string, unknown>)[key];
@@ -171,7 +175,7 @@ function usedBy(table: Segments, presets: PresetChoice[], fallback: string): Cho
   return { preset: choice.name, values, detail: typeof detail === "number" ? detail : 1 };
 }
 
-function defaults(choice: PresetChoice): Values {
+function getDefaults(choice: PresetChoice): Values {
   return Object.fromEntries(choice.parameters.map(({ name, value }) => [name, value]));
 }
 

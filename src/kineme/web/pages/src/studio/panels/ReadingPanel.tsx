@@ -1,8 +1,8 @@
-/** How the recording is read, where its file does not say or says it wrongly. */
+/** Set how a recording is read where its file does not say or is wrong. */
 import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { JSX, TargetedEvent } from "preact";
-import { personCalled } from "../../opened";
+import { formatPerson } from "../../openRecording";
 import { useStudio } from "../context";
 import { Button } from "../../layout/controls";
 
@@ -20,11 +20,11 @@ export function ReadingPanel(): JSX.Element | null {
   const takes = (!unread && recording?.takes) || [];
   const people = unread ? unread.people : (recording?.people ?? []);
   const shown = unread ? [] : session.store.people.value;
-  const option = (name: string): string => {
+  const getOption = (name: string): string => {
     const value = known[name];
     return typeof value === "string" || typeof value === "number" ? String(value) : "";
   };
-  const person = unread ? "" : (recording?.person ?? option("person"));
+  const person = unread ? "" : (recording?.person ?? getOption("person"));
   if (!id) return null;
   const read = async (chosen = person, everybody = false): Promise<void> => {
     const fields = new FormData(form.current!);
@@ -61,7 +61,7 @@ export function ReadingPanel(): JSX.Element | null {
         }}
       >
         {people.length > 0 ? (
-          <People
+          <PersonButtons
             names={people}
             shown={shown.length ? shown.map((each) => each.recording.value.person ?? "") : [person]}
             question={unread !== null}
@@ -74,7 +74,7 @@ export function ReadingPanel(): JSX.Element | null {
           </label>
         )}
         {takes.length > 1 && (
-          <Choice
+          <OptionSelect
             name="take"
             title={`Take, one of ${takes.length}`}
             none={null}
@@ -91,12 +91,12 @@ export function ReadingPanel(): JSX.Element | null {
             min="0"
             step="any"
             placeholder="as the file says"
-            defaultValue={option("fps")}
+            defaultValue={getOption("fps")}
           />
         </label>
         <div class="pair">
-          <Choice name="unit" title="Unit" values={UNITS} value={option("unit")} />
-          <Choice name="up" title="Up" values={AXES} value={option("up")} />
+          <OptionSelect name="unit" title="Unit" values={UNITS} value={getOption("unit")} />
+          <OptionSelect name="up" title="Up" values={AXES} value={getOption("up")} />
         </div>
         {!(unread && people.length > 0) && (
           <p class="actions">
@@ -114,11 +114,11 @@ export function ReadingPanel(): JSX.Element | null {
   );
 }
 
-/** The people in the file, to be shown one by one or together. */
-function People(props: {
+/** Choose one person of the file, or all. */
+function PersonButtons(props: {
   names: readonly string[];
   shown: readonly string[];
-  /** Whether nobody was chosen yet. */
+  /** Whether no person is chosen yet. */
   question: boolean;
   read: (person?: string, everybody?: boolean) => Promise<void>;
 }): JSX.Element {
@@ -132,10 +132,10 @@ function People(props: {
         <Button
           key={name}
           aria-pressed={shown.includes(name)}
-          title={`Show ${personCalled(name)} alone: each has a table of their own`}
+          title={`Show ${formatPerson(name)} alone: each has a table of their own`}
           onClick={() => void read(name)}
         >
-          {personCalled(name)}
+          {formatPerson(name)}
         </Button>
       ))}
       {names.length > 1 && !session.state.value?.of_library && (
@@ -152,12 +152,12 @@ function People(props: {
   );
 }
 
-function Choice(props: {
+function OptionSelect(props: {
   name: string;
   title: string;
   values: readonly string[];
   value: string;
-  /** What stands for no choice; null where one is to be made. */
+  /** Text for no choice; null if one is required. */
   none?: string | null;
   onChange?: (event: TargetedEvent<HTMLSelectElement, Event>) => void;
 }): JSX.Element {

@@ -1,4 +1,4 @@
-/** How far a segmentation is that takes longer than a look, and the button that cancels it. */
+/** Show a segmentation's progress, with a button to cancel. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
@@ -6,16 +6,16 @@ import type { Progress } from "../../messages";
 import { useStudio } from "../context";
 import { Button } from "../../layout/controls";
 
-const PAUSE = 400; // milliseconds between two questions, and before the first
+const PAUSE = 400; // milliseconds between requests and before the first
 
 export function RunProgress({ id }: { id: string }): JSX.Element | null {
   const { session } = useStudio();
   const progress = useSignal<Progress | null>(null);
   useEffect(() => {
     const timer = window.setInterval(() => {
-      void session.api.progress(id).then(
+      void session.api.loadProgress(id).then(
         (now) => (progress.value = now),
-        () => undefined, // the page says so already
+        () => undefined, // the page reports this already
       );
     }, PAUSE);
     return () => window.clearInterval(timer);

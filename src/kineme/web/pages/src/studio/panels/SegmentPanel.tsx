@@ -1,18 +1,18 @@
-/** The segment one works on: its times, name and cluster, and the name of the cluster. */
+/** Edit the segment at the playhead: name, cluster, kind and comment. */
 import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
-import { placeOf } from "../editing/commands";
-import { clusterColor, NO_COLOR } from "../../colors";
+import { getTarget } from "../editing/commands";
+import { getClusterColor, NO_COLOR } from "../../colors";
 import type { Kind, Segment } from "../../messages";
 import { NameInput } from "../../layout/NameInput";
-import { durationOf, nameOf } from "../../segments";
-import { confidenceOf } from "../../confidence";
-import { counted } from "../../counted";
+import { getDuration, getSegmentName } from "../../segments";
+import { getConfidences } from "../../confidence";
+import { formatCount } from "../../formatCount";
 import type { Session } from "../session";
 import { Comment } from "./Comment";
-import { Vocabulary } from "./Vocabulary";
-import { Checkbox, Select } from "../../layout/controls";
+import { SharedLabels } from "./SharedLabels";
+import { Checkbox, Select, Swatch } from "../../layout/controls";
 
 export function SegmentPanel(): JSX.Element {
   const { session, editor, review } = useStudio();
@@ -28,18 +28,17 @@ export function SegmentPanel(): JSX.Element {
   const called = table?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
-  const confidence = table && confidenceOf(table).get(segment);
+  const confidence = table && getConfidences(table).get(segment);
   return (
     <div class="segment-panel">
       <p class="times number">
-        <span class="swatch" style={{ background: store.colorOf(segment) ?? NO_COLOR }} />{" "}
-        <b>{nameOf(segment)}</b>{" "}
+        <Swatch color={store.getColor(segment) ?? NO_COLOR} /> <b>{getSegmentName(segment)}</b>{" "}
         <span class="quiet">
           {segment.level} {chosen ? "selected" : "at the playhead"}
         </span>
         <br />
         {segment.start_s.toFixed(2)} – {segment.stop_s.toFixed(2)} s{" "}
-        <span class="quiet">({durationOf(segment).toFixed(2)} s)</span>
+        <span class="quiet">({getDuration(segment).toFixed(2)} s)</span>
         <br />
         <span class="quiet">
           frames {segment.start_frame} – {segment.stop_frame}
@@ -50,13 +49,13 @@ export function SegmentPanel(): JSX.Element {
         title="Name of its own"
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
         value={label}
-        names={namesOf(session)}
+        names={listNames(session)}
         naming="segment"
-        onName={(label) => editor.name(segment, label, table)}
+        onName={(label) => editor.nameSegment(segment, label, table)}
       />
       <Checkbox
         checked={review.isChecked(segment)}
-        onCheck={(checked) => editor.check([segment], checked)}
+        onCheck={(checked) => editor.setChecked([segment], checked)}
       >
         Checked: no new segmentation changes it
       </Checkbox>
@@ -69,32 +68,32 @@ export function SegmentPanel(): JSX.Element {
               [segment.level, segment.level],
               ["transition", "transition"],
             ]}
-            onSelect={(to) => editor.edit({ kind: "set_kind", ...placeOf(segment), to })}
+            onSelect={(to) => editor.edit({ kind: "set_kind", ...getTarget(segment), to })}
           />
         </label>
         <label class="field">
           <span>Cluster</span>
-          <span class="swatch" style={{ background: clusterColor(segment.cluster) }} />
-          <ClusterChoice segment={segment} />
+          <Swatch color={getClusterColor(segment.cluster)} />
+          <ClusterSelect segment={segment} />
         </label>
       </div>
       {segment.cluster >= 0 && (
         <NameField
-          title={`Name of cluster ${segment.cluster}, of ${bulkOf(session, segment.cluster)}`}
+          title={`Name of cluster ${segment.cluster}, of ${describeMembers(session, segment.cluster)}`}
           placeholder="no name"
           value={called}
-          names={namesOf(session)}
+          names={listNames(session)}
           naming="cluster"
           onName={(label) => editor.edit({ kind: "name_cluster", cluster: segment.cluster, label })}
         />
       )}
       <Comment segment={segment} table={table} />
-      <Vocabulary />
+      <SharedLabels />
     </div>
   );
 }
 
-function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
+function ClusterSelect({ segment }: { segment: Segment }): JSX.Element {
   const { session, editor } = useStudio();
   const rows = session.store.table.value?.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
@@ -110,18 +109,18 @@ function ClusterChoice({ segment }: { segment: Segment }): JSX.Element {
       label="Cluster of the segment"
       value={segment.cluster}
       options={[...clusters].sort((a, b) => a - b).map((id) => [id, title(id)])}
-      onSelect={(cluster) => editor.edit({ kind: "set_cluster", ...placeOf(segment), cluster })}
+      onSelect={(cluster) => editor.edit({ kind: "set_cluster", ...getTarget(segment), cluster })}
     />
   );
 }
 
-/** How many segments the name of a cluster is for, and how many keep their own. */
-function bulkOf(session: Session, cluster: number): string {
+/** Describe how many segments a cluster's name applies to and how many have their own. */
+function describeMembers(session: Session, cluster: number): string {
   const table = session.store.table.value;
   const called = table?.cluster_names[cluster] ?? "";
   const members = table?.segments.filter((row) => row.cluster === cluster) ?? [];
   const named = members.filter((row) => row.label && row.label !== called).length;
-  const all = counted(members.length - named, "segment");
+  const all = formatCount(members.length - named, "segment");
   return named ? `${all}; ${named} with their own name` : all;
 }
 
@@ -129,9 +128,9 @@ interface NameProps {
   title: string;
   placeholder: string;
   value: string;
-  /** Names in use, offered while one types. */
+  /** Suggestions. */
   names: string[];
-  /** Which name it is, as the editor says when one wants to type it. */
+  /** Which name this field edits; the editor can focus it. */
   naming: "segment" | "cluster";
   onName: (label: string) => void;
 }
@@ -160,7 +159,7 @@ function NameField({ title, placeholder, value, names, naming, onName }: NamePro
   );
 }
 
-function namesOf(session: Session): string[] {
+function listNames(session: Session): string[] {
   const rows = session.store.table.value?.segments ?? [];
   return [...new Set(rows.map((row) => row.label))].filter(Boolean).sort();
 }

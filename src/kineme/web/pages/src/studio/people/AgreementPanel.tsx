@@ -1,11 +1,10 @@
-/** How far people agree: any two of them, all together, by recording, and where they differ. */
+/** Show how well people agree: pairs, all together, by recording, and where they differ. */
 import type { JSX } from "preact";
-import { useStore } from "../../context";
-import type { Agreement, RecordingAgreement } from "../../messages";
-import { clock } from "../../view";
+import type { Agreement } from "../../messages";
+import { DifferenceTable } from "../panels/DifferenceTable";
 import { useStudio } from "../context";
-import { MiddleShortened } from "../panels/MiddleShortened";
-import { Button } from "../../layout/controls";
+import { TruncatedName } from "../panels/TruncatedName";
+import { Button, TableHead } from "../../layout/controls";
 
 const BY_NAMES = "Names are compared, in capitals or small letters.";
 const BY_MAPPING =
@@ -13,7 +12,7 @@ const BY_MAPPING =
 
 export function AgreementPanel({ agreement }: { agreement: Agreement }): JSX.Element {
   const { session } = useStudio();
-  const here = session.people.ofRecording.value;
+  const here = session.people.recordingAgreement.value;
   return (
     <div class="compare-panel">
       <div class="panel-head">
@@ -25,7 +24,13 @@ export function AgreementPanel({ agreement }: { agreement: Agreement }): JSX.Ele
         {agreement.by_names ? BY_NAMES : BY_MAPPING} 1 is equal; of kappa, 0 is what chance gives.
       </p>
       <Pairs agreement={agreement} />
-      {here && <Differences recording={here} />}
+      {here && (
+        <DifferenceTable
+          caption="Where they differ in this recording"
+          names={here.annotators}
+          differences={here.differences}
+        />
+      )}
       {agreement.recordings.length > 1 && <ByRecording agreement={agreement} />}
       {agreement.failures.map((failure) => (
         <p class="quiet" key={failure}>
@@ -58,8 +63,8 @@ function Pairs({ agreement }: { agreement: Agreement }): JSX.Element {
         {agreement.pairs.map(({ annotators, cohen_kappa, border_f1, recordings }) => (
           <tr key={annotators.join()}>
             <th scope="row">{annotators.join(", ")}</th>
-            <td>{shown(cohen_kappa)}</td>
-            <td>{shown(border_f1)}</td>
+            <td>{formatScore(cohen_kappa)}</td>
+            <td>{formatScore(border_f1)}</td>
             <td>{recordings}</td>
           </tr>
         ))}
@@ -67,7 +72,7 @@ function Pairs({ agreement }: { agreement: Agreement }): JSX.Element {
           <th scope="row">
             All <small class="quiet">Fleiss’ kappa</small>
           </th>
-          <td>{shown(agreement.fleiss_kappa)}</td>
+          <td>{formatScore(agreement.fleiss_kappa)}</td>
           <td />
           <td>{all.length}</td>
         </tr>
@@ -76,60 +81,13 @@ function Pairs({ agreement }: { agreement: Agreement }): JSX.Element {
   );
 }
 
-/** Where not all say the same; a click goes there. */
-function Differences({ recording }: { recording: RecordingAgreement }): JSX.Element {
-  const store = useStore();
-  return (
-    <table class="differences number">
-      <caption>Where they differ in this recording</caption>
-      <thead>
-        <tr>
-          <th scope="col">From</th>
-          <th scope="col">Seconds</th>
-          {recording.annotators.map((name) => (
-            <th scope="col" key={name}>
-              {name}
-            </th>
-          ))}
-        </tr>
-      </thead>
-      <tbody>
-        {recording.differences.map(({ start_s, stop_s, labels }) => (
-          <tr key={start_s}>
-            <td>
-              <Button class="link" onClick={() => store.seek(start_s)}>
-                {clock(start_s, 2)}
-              </Button>
-            </td>
-            <td>{(stop_s - start_s).toFixed(2)}</td>
-            {labels.map((label, i) => (
-              <td key={recording.annotators[i]}>{label || "–"}</td>
-            ))}
-          </tr>
-        ))}
-        {recording.differences.length === 0 && (
-          <tr>
-            <td colSpan={2 + recording.annotators.length}>Nowhere for more than 0.25 s.</td>
-          </tr>
-        )}
-      </tbody>
-    </table>
-  );
-}
-
-/** Fleiss' kappa of each recording; a click opens it. */
+/** List Fleiss' kappa of each recording; a click opens it. */
 function ByRecording({ agreement }: { agreement: Agreement }): JSX.Element {
   const { session } = useStudio();
   return (
     <table class="differences number">
       <caption>By recording</caption>
-      <thead>
-        <tr>
-          <th scope="col">Recording</th>
-          <th scope="col">Fleiss’ kappa</th>
-          <th scope="col">Differences</th>
-        </tr>
-      </thead>
+      <TableHead columns={["Recording", "Fleiss’ kappa", "Differences"]} />
       <tbody>
         {agreement.recordings.map(({ id, name, fleiss_kappa, differences }) => (
           <tr key={id}>
@@ -140,10 +98,10 @@ function ByRecording({ agreement }: { agreement: Agreement }): JSX.Element {
                 aria-current={id === session.store.recording.value?.id}
                 onClick={() => void session.open(id)}
               >
-                <MiddleShortened name={name} />
+                <TruncatedName name={name} />
               </Button>
             </td>
-            <td>{shown(fleiss_kappa)}</td>
+            <td>{formatScore(fleiss_kappa)}</td>
             <td>{differences.length}</td>
           </tr>
         ))}
@@ -152,6 +110,6 @@ function ByRecording({ agreement }: { agreement: Agreement }): JSX.Element {
   );
 }
 
-function shown(score: number | null): string {
+function formatScore(score: number | null): string {
   return score === null ? "–" : score.toFixed(3);
 }

@@ -1,22 +1,22 @@
-/** Whose labels are compared with each other: all that are there, unless one says otherwise. */
+/** Choose whose labels to compare; all by default. */
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import { counted } from "../../counted";
+import { formatCount } from "../../formatCount";
 import type { AnnotatorChoice } from "../../messages";
-import { Button, Checkbox, toggled } from "../../layout/controls";
+import { Button, Checkbox, toggleMember } from "../../layout/controls";
 
-const TABLES_HERE = "tables"; // the id of whoever works here
+const TABLES_HERE = "tables"; // id of the tables edited here
 
 export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
-  const { session, front } = useStudio();
+  const { session, view } = useStudio();
   const people = useSignal<AnnotatorChoice[]>([]);
   const ticked = useSignal<ReadonlySet<string>>(new Set());
   const busy = useSignal(false);
   useEffect(() => {
-    void session.bulletin.attempt("agreement", async () => {
-      const found = await session.api.annotators();
+    void session.notifications.attempt("agreement", async () => {
+      const found = await session.api.loadAnnotators();
       const others = found.filter(({ id }) => id !== TABLES_HERE);
       people.value = found;
       ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
@@ -25,8 +25,8 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
   const compare = async (): Promise<void> => {
     busy.value = true;
     if (await session.people.compare([...ticked.value])) {
-      front.tab.value = "compare";
-      front.folder.value = null;
+      view.tab.value = "compare";
+      view.folder.value = null;
       close();
     }
     busy.value = false;
@@ -46,9 +46,9 @@ export function PeopleChoice({ close }: { close: () => void }): JSX.Element {
           <Checkbox
             key={id}
             checked={ticked.value.has(id)}
-            onCheck={() => (ticked.value = toggled(ticked.value, id))}
+            onCheck={() => (ticked.value = toggleMember(ticked.value, id))}
           >
-            {name} <span class="quiet">{counted(recordings, "recording")}</span>
+            {name} <span class="quiet">{formatCount(recordings, "recording")}</span>
           </Checkbox>
         ))}
       </fieldset>

@@ -1,71 +1,71 @@
-/** Several people's labels: how far they agree, and a lane each below the recording in front. */
+/** Compare several people's labels and show their lanes below the recording. */
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { Agreement } from "../../messages";
 import type { OtherResult } from "../../state";
 import type { Store } from "../../store";
-import type { Bulletin } from "../news";
-import { type Api, explain } from "../server/api";
+import type { Notifications } from "../notifications";
+import { type Api, explainError } from "../server/api";
 
-interface Around {
+interface Dependencies {
   api: Api;
   store: Store;
-  bulletin: Bulletin;
+  notifications: Notifications;
   open(id: string): Promise<void>;
 }
 
-export class People {
-  /** How far those agree who were compared last; null where nobody is. */
+export class PeopleComparison {
+  /** Agreement of the compared people; null if none are. */
   readonly agreement = signal<Agreement | null>(null);
-  /** The same of the recording in front; undefined where two of them have not labelled it. */
-  readonly ofRecording = computed(() => {
-    const id = this.around.store.recording.value?.id;
+  /** Agreement on the active recording; undefined if fewer than two labelled it. */
+  readonly recordingAgreement = computed(() => {
+    const id = this.dependencies.store.recording.value?.id;
     return this.agreement.value?.recordings.find((each) => each.id === id);
   });
 
   private chosen: string[] = [];
   private lanes: { recording: string; shown: OtherResult[] } | null = null;
 
-  constructor(private readonly around: Around) {
-    const { store } = around;
+  constructor(private readonly dependencies: Dependencies) {
+    const { store } = dependencies;
     effect(() => {
       const id = store.recording.value?.id;
       if (!this.agreement.value || !id || store.others.value.length) return;
-      untracked(() => void this.lay(id));
+      untracked(() => void this.showLanes(id));
     });
   }
 
-  /** Compares people over the folder, on a recording that two of them labelled; whether it could. */
+  /** Compare people and open a recording that two of them labelled; return whether that worked. */
   compare(annotators: string[]): Promise<boolean> {
-    const { api, store, bulletin } = this.around;
-    return bulletin.attempt("agreement", async () => {
-      const found = await api.agreement({ annotators });
+    const { api, store, notifications } = this.dependencies;
+    return notifications.attempt("agreement", async () => {
+      const found = await api.loadAgreement({ annotators });
       this.chosen = annotators;
       this.lanes = null;
       store.others.value = [];
       this.agreement.value = found;
-      if (!this.ofRecording.value) await this.around.open(found.recordings[0]!.id);
+      if (!this.recordingAgreement.value) await this.dependencies.open(found.recordings[0]!.id);
     });
   }
 
   stop(): void {
     this.agreement.value = null;
     this.lanes = null;
-    this.around.store.others.value = [];
+    this.dependencies.store.others.value = [];
   }
 
-  /** Lays the lanes of a recording below it, once they are there and it is still in front. */
-  private async lay(recording: string): Promise<void> {
-    const { api, store, bulletin } = this.around;
+  /** Show a recording's lanes once they are loaded, if it is still active. */
+  private async showLanes(recording: string): Promise<void> {
+    const { api, store, notifications } = this.dependencies;
     if (this.lanes?.recording !== recording) {
-      this.lanes = { recording, shown: [] }; // asked for once
+      this.lanes = { recording, shown: [] }; // requested once
       const { chosen: annotators, agreement, lanes } = this;
       const asked = agreement.value;
       try {
-        const found = await api.lanes(recording, { annotators });
+        const found = await api.loadLanes(recording, { annotators });
         if (agreement.peek() !== asked || this.lanes !== lanes) return;
         this.lanes.shown = found;
       } catch (error) {
-        bulletin.problem(explain(error), "agreement");
+        notifications.reportProblem(explainError(error), "agreement");
       }
     }
     const isFree = store.recording.peek()?.id === recording && !store.others.peek().length;

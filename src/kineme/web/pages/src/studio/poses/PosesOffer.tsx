@@ -1,23 +1,23 @@
-/** What becomes of videos without poses: an offer to estimate these, then how far that is. */
+/** Offer to estimate the poses of videos, then show the progress. */
 import type { JSX } from "preact";
-import { counted } from "../../counted";
+import { formatCount } from "../../formatCount";
 import { Button } from "../../layout/controls";
 import type { PosesProgress } from "../../messages";
 import { useStudio } from "../context";
 
-/** @param all whether it is about the folder, or about the video that was to be opened */
+/** @param all whether to offer all videos of the folder, or only the one to be opened */
 export function PosesOffer({ all = false }: { all?: boolean }): JSX.Element | null {
   const { poses, session } = useStudio();
   const { value: progress } = poses.progress;
   const { value: videos } = poses.videos;
-  const { value: asked } = poses.asked;
+  const { value: asked } = poses.requestedVideo;
   if (!(all ? videos.length > 0 || progress : asked)) return null;
-  const subject = all ? counted(videos.length, "video") : asked!.name;
+  const subject = all ? formatCount(videos.length, "video") : asked!.name;
   const has = all && videos.length !== 1 ? "have" : "has";
   return (
     <div class={`poses-offer ${all ? "of-folder" : "of-video"}`}>
       {progress ? (
-        <Estimating {...progress} />
+        <EstimationProgress {...progress} />
       ) : (
         <p>
           {subject} {has} no poses yet.{" "}
@@ -48,13 +48,13 @@ export function PosesOffer({ all = false }: { all?: boolean }): JSX.Element | nu
         )
       )}
       {!all && !progress && session.store.active.value && (
-        <Button onClick={() => (session.needing.value = null)}>Not now</Button>
+        <Button onClick={() => (session.videoWithoutPoses.value = null)}>Not now</Button>
       )}
     </div>
   );
 }
 
-function Estimating({ name, share, pace, done, all }: PosesProgress): JSX.Element {
+function EstimationProgress({ name, share, pace, done, all }: PosesProgress): JSX.Element {
   const percent = share === null ? "" : `${Math.round(100 * share)} %, `;
   return (
     <p role="status">

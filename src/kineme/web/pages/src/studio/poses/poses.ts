@@ -1,64 +1,65 @@
-/** Poses of videos of the folder, which the server estimates one video after the other. */
+/** Let the server estimate poses of videos, one after the other. */
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { PosesProgress } from "../../messages";
-import { later } from "../later";
-import { explain } from "../server/api";
+import { delay } from "../delay";
+import { explainError } from "../server/api";
 import type { Session } from "../session";
 
-const POLL = 500; // milliseconds between two looks at how far it is
+const POLL_INTERVAL = 500; // milliseconds
 
 export class Poses {
-  /** How far the server is; null while it estimates none. */
+  /** Progress; null if nothing runs. */
   readonly progress = signal<PosesProgress | null>(null);
   /** Videos without poses. */
   readonly videos = computed(
     () => this.session.state.value?.recordings.filter((each) => each.needs_poses) ?? [],
   );
-  /** The video that was to be opened. */
-  readonly asked = computed(() =>
-    this.videos.value.find((each) => each.id === this.session.needing.value),
+  /** The video that the user wants to open. */
+  readonly requestedVideo = computed(() =>
+    this.videos.value.find((each) => each.id === this.session.videoWithoutPoses.value),
   );
-  /** What is to be installed first; empty where nothing is. */
+  /** What must be installed first; empty if nothing. */
   readonly install = computed(() => this.session.state.value?.install ?? "");
-  private watching = false;
+  private isPolling = false;
   private isNew = true;
 
   constructor(private readonly session: Session) {
     effect(() => {
       const { value: state } = session.state;
       if (!state || !this.isNew || !this.videos.value.length) return;
-      const only = state.recordings.length === 1 ? this.asked.value : undefined;
-      if (state.recordings.length === 1 && !only) return; // it is being opened yet
+      const only = state.recordings.length === 1 ? this.requestedVideo.value : undefined;
+      if (state.recordings.length === 1 && !only) return; // it is still being opened
       this.isNew = false;
-      // Who starts the studio on one video wants its poses; a queue outlives the page.
+      // Starting the studio on one video implies estimating its poses; a running queue survives a
+      // reload.
       if (only && !state.install) untracked(() => void this.start([only.id]));
-      else untracked(() => void this.watch());
+      else untracked(() => void this.pollProgress());
     });
   }
 
-  /** Estimates the poses of these videos. */
+  /** Estimate the poses of these videos. */
   async start(ids: readonly string[]): Promise<void> {
-    const { api, bulletin } = this.session;
-    await bulletin.attempt("poses", async () => {
+    const { api, notifications } = this.session;
+    await notifications.attempt("poses", async () => {
       this.progress.value = await api.estimatePoses({ recordings: [...ids] });
     });
-    await this.watch();
+    await this.pollProgress();
   }
 
   async cancel(): Promise<void> {
-    const { api, bulletin } = this.session;
-    await bulletin.attempt("poses", () => api.cancelPoses());
-    bulletin.tell("Cancelled. The poses so far are kept: estimating goes on from there.");
+    const { api, notifications } = this.session;
+    await notifications.attempt("poses", () => api.cancelPoses());
+    notifications.tell("Cancelled. The poses so far are kept: estimating goes on from there.");
   }
 
-  /** Looks how far it is until it is done, and opens the video that was asked for. */
-  private async watch(): Promise<void> {
-    if (this.watching) return;
-    this.watching = true;
-    const { api, bulletin } = this.session;
+  /** Poll the progress until it is done, then open the requested video. */
+  private async pollProgress(): Promise<void> {
+    if (this.isPolling) return;
+    this.isPolling = true;
+    const { api, notifications } = this.session;
     try {
-      for (let done = 0; ; await later(POLL)) {
-        const now = await api.posesProgress();
+      for (let done = 0; ; await delay(POLL_INTERVAL)) {
+        const now = await api.loadPosesProgress();
         if (now.done > done) await this.refresh();
         done = now.done;
         if (now.recording) {
@@ -67,21 +68,21 @@ export class Poses {
         }
         const more = now.failed.length > 1 ? ` (and ${now.failed.length - 1} more)` : "";
         if (this.progress.value && now.failed.length)
-          bulletin.problem(`${now.failed[0]}${more}`, "poses");
+          notifications.reportProblem(`${now.failed[0]}${more}`, "poses");
         break;
       }
     } catch (error) {
-      bulletin.problem(explain(error), "poses");
+      notifications.reportProblem(explainError(error), "poses");
     }
     this.progress.value = null;
-    this.watching = false;
+    this.isPolling = false;
   }
 
-  /** The folder as it is now; the video that was asked for is opened once it can be. */
+  /** Reload the folder and open the requested video once possible. */
   private async refresh(): Promise<void> {
     const { session } = this;
     await session.refresh();
-    const { value: needing } = session.needing;
-    if (needing && !this.asked.value) await session.open(needing);
+    const { value: needing } = session.videoWithoutPoses;
+    if (needing && !this.requestedVideo.value) await session.open(needing);
   }
 }

@@ -1,4 +1,4 @@
-/** On to the next place to look at, with or without a mark on this one. */
+/** Go to the next segment to review, optionally marking the current one. */
 import type { JSX } from "preact";
 import { useStudio } from "../context";
 import { Button } from "../../layout/controls";
@@ -7,7 +7,7 @@ export function ReviewButtons(): JSX.Element {
   const { review } = useStudio();
   return (
     <>
-      <Button title="Next to look at (J)" onClick={() => void review.next()}>
+      <Button title="Next to look at (J)" onClick={() => void review.goToNext()}>
         Next
       </Button>
       <Button

@@ -1,16 +1,15 @@
-/** What to look at next, why, and how far one is. */
+/** Show what to review next and the progress. */
 import type { ComponentChildren, JSX } from "preact";
 import { ReviewButtons } from "./ReviewButtons";
 import { useStudio } from "../context";
-import { clusterColor, NO_COLOR } from "../../colors";
+import { getClusterColor, NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
-import { nameOf } from "../../segments";
-import { clock } from "../../view";
-import { progressOf, type Doubt } from "./doubts";
-import { keyOf } from "./review";
-import { Button, Select } from "../../layout/controls";
+import { getSegmentKey, getSegmentName } from "../../segments";
+import { formatTime } from "../../view";
+import { countProgress, type Doubt } from "./doubts";
+import { Button, Select, Swatch } from "../../layout/controls";
 
-const MOST = 100; // rows; the rest comes when these are checked
+const MAX_ROWS = 100; // rows; the rest follows when these are checked
 
 export function ReviewPanel(): JSX.Element {
   const { session, review } = useStudio();
@@ -29,7 +28,7 @@ export function ReviewPanel(): JSX.Element {
           ["recording", "this recording"],
           ["folder", "all recordings"],
         ]}
-        onSelect={(chosen) => void review.goEverywhere(chosen === "folder")}
+        onSelect={(chosen) => void review.setEverywhere(chosen === "folder")}
       />
     </label>
   );
@@ -37,57 +36,57 @@ export function ReviewPanel(): JSX.Element {
   return (
     <div class="review-panel">
       {scope}
-      <Progress level="activity" title="Activities" of={progressOf(table, "activity")} />
-      <Progress level="primitive" title="Primitives" of={progressOf(table, "primitive")} />
+      <Progress level="activity" title="Activities" of={countProgress(table, "activity")} />
+      <Progress level="primitive" title="Primitives" of={countProgress(table, "primitive")} />
       <p class="actions">
         <ReviewButtons />
       </p>
       <p class="why" role="status">
         {present
-          ? present.why
+          ? present.confidence.why
           : doubts.length
             ? "“Next” goes to where confidence is lowest."
             : "Every segment of this recording is checked."}
       </p>
       <ol class="doubts">
-        {doubts.slice(0, MOST).map((doubt) => (
-          <Item
-            key={keyOf(doubt.segment)}
+        {doubts.slice(0, MAX_ROWS).map((doubt) => (
+          <DoubtItem
+            key={getSegmentKey(doubt.segment)}
             doubt={doubt}
-            color={store.colorOf(doubt.segment) ?? NO_COLOR}
+            color={store.getColor(doubt.segment) ?? NO_COLOR}
             current={doubt === present}
-            go={() => review.go(doubt)}
+            go={() => review.goTo(doubt)}
           />
         ))}
       </ol>
-      {doubts.length > MOST && <p class="quiet note">and {doubts.length - MOST} more</p>}
+      {doubts.length > MAX_ROWS && <p class="quiet note">and {doubts.length - MAX_ROWS} more</p>}
     </div>
   );
 }
 
-/** The same of all recordings; what is under the figure has why, and goes on. */
+/** List what to review in all recordings; the bar below the figure has the details. */
 function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
   const { review } = useStudio();
   const { folder, queue } = review;
   const { value: places } = queue.places;
-  const without = folder.without.value.length;
+  const without = folder.unsegmented.value.length;
   return (
     <div class="review-panel">
       {scope}
       <ol class="doubts">
-        {places.slice(0, MOST).map((place) => (
-          <Item
-            key={`${place.id} ${keyOf(place.doubt.segment)}`}
+        {places.slice(0, MAX_ROWS).map((place) => (
+          <DoubtItem
+            key={`${place.id} ${getSegmentKey(place.doubt.segment)}`}
             doubt={place.doubt}
-            color={clusterColor(place.doubt.segment.cluster)}
-            current={place === queue.looking.value}
-            go={() => void queue.go(place)}
+            color={getClusterColor(place.doubt.segment.cluster)}
+            current={place === queue.current.value}
+            go={() => void queue.goTo(place)}
           >
             <span class="of quiet">{place.recording}</span>
-          </Item>
+          </DoubtItem>
         ))}
       </ol>
-      {places.length > MOST && <p class="quiet note">and {places.length - MOST} more</p>}
+      {places.length > MAX_ROWS && <p class="quiet note">and {places.length - MAX_ROWS} more</p>}
       {without > 0 && <p class="quiet note">{without} recordings are not segmented yet</p>}
     </div>
   );
@@ -101,18 +100,23 @@ interface ItemProps {
   children?: ComponentChildren;
 }
 
-/** A segment to look at; a click goes there. */
-function Item({ doubt, color, current, go, children }: ItemProps): JSX.Element {
-  const { segment, short, why } = doubt;
+/** Show a segment to review; a click goes there. */
+function DoubtItem({ doubt, color, current, go, children }: ItemProps): JSX.Element {
+  const { segment, confidence } = doubt;
   return (
     <li>
-      <Button class="plain" aria-current={current ? "true" : undefined} title={why} onClick={go}>
-        <span class="swatch" style={{ background: color }} />
+      <Button
+        class="plain"
+        aria-current={current ? "true" : undefined}
+        title={confidence.why}
+        onClick={go}
+      >
+        <Swatch color={color} />
         <span class="name">
-          {nameOf(segment)} <span class="quiet">{segment.level}</span>
+          {getSegmentName(segment)} <span class="quiet">{segment.level}</span>
         </span>
-        <span class="number quiet">{clock(segment.start_s, 2)}</span>
-        <span class="number">{short || "–"}</span>
+        <span class="number quiet">{formatTime(segment.start_s, 2)}</span>
+        <span class="number">{confidence.short || "–"}</span>
         {children}
       </Button>
     </li>

@@ -1,30 +1,30 @@
-/** The way through what should be looked at: the next one, and the marks on what was. */
+/** Go through the segments to review and mark them. */
 import { computed, signal } from "@preact/signals";
 import type { Segment } from "../../messages";
 import type { Editor } from "../editing/editor";
 import { Folder } from "../folder/folder";
 import { FolderQueue } from "../folder/folderQueue";
-import { NameOffer } from "../folder/offer";
-import { findRow } from "../../segments";
+import { NameOffer } from "../folder/nameOffer";
+import { findRow, getSegmentKey } from "../../segments";
 import type { Session } from "../session";
-import { doubtsOf, type Doubt } from "./doubts";
+import { listDoubts, type Doubt } from "./doubts";
 
 export class Review {
-  /** Whether J goes through all recordings of the folder. */
+  /** Whether the review covers all recordings of the folder. */
   readonly everywhere = signal(false);
   readonly folder: Folder;
   readonly queue: FolderQueue;
   readonly offer: NameOffer;
   readonly doubts = computed<Doubt[]>(() => {
     const table = this.session.store.table.value;
-    return table ? doubtsOf(table) : [];
+    return table ? listDoubts(table) : [];
   });
-  /** What is looked at, and why; null once the playhead has left it. */
+  /** The current doubt; null once the playhead has left it. */
   readonly present = computed(() => {
     const target = this.editor.segment.value;
-    return this.doubts.value.find(({ segment }) => same(segment, target)) ?? null;
+    return this.doubts.value.find(({ segment }) => isSame(segment, target)) ?? null;
   });
-  /** Those that were passed over without a mark come last. */
+  /** Keys of places that were skipped; these come last. */
   private readonly passed = signal(new Set<string>());
 
   constructor(
@@ -36,45 +36,47 @@ export class Review {
     this.offer = new NameOffer(this.folder);
   }
 
-  /** Goes through all recordings from now on, the least sure place of them first; or no more. */
-  async goEverywhere(everywhere: boolean): Promise<void> {
+  /** Start or stop reviewing all recordings. */
+  async setEverywhere(everywhere: boolean): Promise<void> {
     this.everywhere.value = everywhere;
-    if (everywhere) await this.queue.next();
-    else this.queue.looking.value = null;
+    if (everywhere) await this.queue.goToNext();
+    else this.queue.current.value = null;
   }
 
-  /** Goes to the segment of lowest confidence that has not been looked at. */
-  async next(): Promise<void> {
+  /** Go to the segment of lowest confidence that was not skipped. */
+  async goToNext(): Promise<void> {
     const { everywhere, session } = this;
-    if (everywhere.value) return this.queue.next();
+    if (everywhere.value) return this.queue.goToNext();
     const several = (session.state.value?.recordings.length ?? 0) > 1;
-    if (!session.store.recording.value && several) return this.goEverywhere(true);
+    if (!session.store.recording.value && several) return this.setEverywhere(true);
     const { doubts, present } = this;
-    if (present.value) this.passed.value.add(keyOf(present.value.segment));
-    let next = doubts.value.find(({ segment }) => !this.passed.value.has(keyOf(segment)));
+    if (present.value) this.passed.value.add(getSegmentKey(present.value.segment));
+    let next = doubts.value.find(({ segment }) => !this.passed.value.has(getSegmentKey(segment)));
     if (!next) {
-      await session.edited.value?.settled(); // what was just checked is none any more
+      await session.edited.value?.waitUntilSent(); // the segment just checked is no longer in doubt
       this.passed.value.clear();
       next = doubts.value.find((doubt) => doubt !== present.value) ?? doubts.value[0];
     }
-    if (next) this.go(next);
-    else this.session.bulletin.tell("Every segment of this recording is checked.");
+    if (next) this.goTo(next);
+    else this.session.notifications.tell("Every segment of this recording is checked.");
   }
 
-  go({ segment }: Doubt): void {
-    this.session.store.lookAt(segment);
+  goTo({ segment }: Doubt): void {
+    this.session.store.showSegment(segment);
   }
 
-  /** Marks the segment at the playhead as checked, and goes on. */
+  /** Mark the current segment as checked and go to the next. */
   checkAndGoOn(): void {
-    if (!this.editor.segment.value || !this.session.edited.value?.takesEdits()) return;
-    this.editor.atPlayhead((segment) => this.editor.check([segment], true));
-    void this.next();
+    if (!this.editor.segment.value || !this.session.edited.value?.acceptsEdits()) return;
+    this.editor.runAtPlayhead((segment) => this.editor.setChecked([segment], true));
+    void this.goToNext();
   }
 
-  /** Marks the segment at the playhead, or takes the mark away. */
-  toggle(): void {
-    this.editor.atPlayhead((segment) => this.editor.check([segment], !this.isChecked(segment)));
+  /** Mark the current segment as checked or unchecked. */
+  toggleChecked(): void {
+    this.editor.runAtPlayhead((segment) =>
+      this.editor.setChecked([segment], !this.isChecked(segment)),
+    );
   }
 
   isChecked(segment: Segment): boolean {
@@ -83,11 +85,6 @@ export class Review {
   }
 }
 
-/** Where it starts; an edit of its end makes it no other. */
-export function keyOf({ level, start_frame }: Segment): string {
-  return `${level} ${start_frame}`;
-}
-
-function same(a: Segment, b: Segment | undefined): boolean {
-  return b !== undefined && keyOf(a) === keyOf(b);
+function isSame(a: Segment, b: Segment | undefined): boolean {
+  return b !== undefined && getSegmentKey(a) === getSegmentKey(b);
 }

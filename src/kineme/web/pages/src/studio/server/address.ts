@@ -1,72 +1,72 @@
-/** Addresses: those of the server, as it lists them, and that of a page, with what is open on it. */
-import type { OpenRecording } from "../../opened";
+/** Build addresses of the server; read and write the page's address. */
+import type { OpenRecording } from "../../openRecording";
 import type { GetPath, PostPath } from "./paths";
 
-/** The names in braces of a path. */
+/** Names in braces of a path. */
 type NameIn<P> = P extends `${string}{${infer Name}}${infer Rest}` ? Name | NameIn<Rest> : never;
 
-/** What is filled in for them. */
-export type Parts<P> = Record<NameIn<P>, string | number>;
+/** Values for these names. */
+export type PathParts<P> = Record<NameIn<P>, string | number>;
 
 export type Query = Record<string, string | number>;
 
-/** An address of the server. */
-export function addressOf<P extends GetPath | PostPath>(
+/** Build an address of the server. */
+export function buildAddress<P extends GetPath | PostPath>(
   path: P,
-  parts: Parts<P>,
+  parts: PathParts<P>,
   query: Query = {},
 ): string {
   const filled = Object.entries<string | number>(parts).reduce<string>(
     (address, [name, part]) => address.replace(`{${name}}`, () => encodeURIComponent(part)),
     path,
   );
-  return filled + search(query);
+  return filled + buildQuery(query);
 }
 
-/** The address of a page; of the library where no recording is named. */
-export function pageAddress(token: string, open?: string, at_s = 0): string {
-  return search({ token, ...(open && { open }), ...(at_s && { at: at_s.toFixed(3) }) });
+/** Build a page's address; without a recording it is the library's. */
+export function buildPageAddress(token: string, open?: string, at_s = 0): string {
+  return buildQuery({ token, ...(open && { open }), ...(at_s && { at: at_s.toFixed(3) }) });
 }
 
-/** The address of the page that shows the recordings of a library as a folder. */
-export function folderAddress(token: string): string {
-  return search({ token, folder: 1 });
+/** Build the address that shows a library's recordings as a folder. */
+export function buildFolderAddress(token: string): string {
+  return buildQuery({ token, folder: 1 });
 }
 
-/** The token in this page's address. */
-export function tokenInAddress(): string {
-  return inAddress().get("token") ?? "";
+/** Return the token in this page's address. */
+export function readToken(): string {
+  return readQuery().get("token") ?? "";
 }
 
-export function tokenToAddress(token: string): void {
-  const address = inAddress();
+export function writeToken(token: string): void {
+  const address = readQuery();
   address.set("token", token);
   history.replaceState(null, "", `?${address}`);
 }
 
-/** The recordings named in the address, so that a reload finds them, and the server ahead of it. */
-export function openInAddress(): string[] {
-  return inAddress().getAll("open");
+/** Return the ids of open recordings in the address, which a reload restores. */
+export function readOpenIds(): string[] {
+  return readQuery().getAll("open");
 }
 
-/** Seconds at which the first of them is to be shown. */
-export function secondsInAddress(): number {
-  return Number(inAddress().get("at")) || 0;
+/** Return the initial playhead in seconds. */
+export function readStartTime(): number {
+  return Number(readQuery().get("at")) || 0;
 }
 
-export function openToAddress(opened: OpenRecording[]): void {
-  const address = inAddress();
+export function writeOpenIds(opened: OpenRecording[]): void {
+  const address = readQuery();
   address.delete("open");
   address.delete("at");
   for (const each of opened) address.append("open", each.recording.peek().id);
   history.replaceState(null, "", `?${address}`);
 }
 
-function inAddress(): URLSearchParams {
+function readQuery(): URLSearchParams {
   return new URLSearchParams(location.search);
 }
 
-function search(query: Query): string {
+function buildQuery(query: Query): string {
   const entries = Object.entries(query).map(([name, value]) => [name, String(value)]);
   return entries.length ? `?${new URLSearchParams(entries)}` : "";
 }

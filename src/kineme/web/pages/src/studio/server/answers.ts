@@ -1,7 +1,7 @@
-/** What can become of a request. */
+/** Represent and explain the outcomes of a request. */
 import type { Failure } from "../../messages";
 
-/** A file for the person to keep. */
+/** A file to save. */
 export interface Download {
   name: string;
   data: Blob;
@@ -23,31 +23,31 @@ export class Unreachable extends Error {
   }
 }
 
-/** Whether a recording could not be read, and of which people one is to be chosen. */
-export function notRead(error: unknown): string[] | null {
+/** Return the people to choose from if a recording could not be read, else null. */
+export function getUnreadPeople(error: unknown): string[] | null {
   const failure = error instanceof Refused ? (error.body as Partial<Failure> | null) : null;
   return failure?.reading ? (failure.people ?? []) : null;
 }
 
-/** Whether a recording is a video whose poses have to be estimated first. */
+/** Return whether a video's poses must be estimated first. */
 export function needsPoses(error: unknown): boolean {
   return error instanceof Refused && Boolean((error.body as Partial<Failure> | null)?.poses);
 }
 
-/** What to tell a person about anything thrown by this page. */
-export function explain(error: unknown): string {
+/** Return a message for anything that was thrown. */
+export function explainError(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }
 
-/** The file name of a Content-Disposition header, its UTF-8 form first; empty if it has none. */
-export function filename(disposition: string): string {
+/** Return the file name of a Content-Disposition header, the UTF-8 form first; empty if none. */
+export function parseFilename(disposition: string): string {
   const encoded = /filename\*=utf-8''([^;]+)/i.exec(disposition)?.[1];
   if (encoded) return decodeURIComponent(encoded);
   return /filename="?([^";]+)"?/i.exec(disposition)?.[1] ?? "";
 }
 
-/** What was asked for; null where there is no such thing. */
-export async function orNull<T>(answer: Promise<T>): Promise<T | null> {
+/** Return the answer, or null for status 404. */
+export async function nullIfMissing<T>(answer: Promise<T>): Promise<T | null> {
   try {
     return await answer;
   } catch (error) {
@@ -56,7 +56,7 @@ export async function orNull<T>(answer: Promise<T>): Promise<T | null> {
   }
 }
 
-export async function unbroken<T>(work: Promise<T>): Promise<T> {
+export async function catchNetworkError<T>(work: Promise<T>): Promise<T> {
   try {
     return await work;
   } catch {
@@ -64,7 +64,7 @@ export async function unbroken<T>(work: Promise<T>): Promise<T> {
   }
 }
 
-export function parsed(text: string): unknown {
+export function parseJson(text: string): unknown {
   try {
     return JSON.parse(text);
   } catch {
@@ -72,7 +72,7 @@ export function parsed(text: string): unknown {
   }
 }
 
-export function sentence(body: unknown, status: number): string {
+export function getErrorMessage(body: unknown, status: number): string {
   const error = (body as Partial<Failure> | null)?.error;
   return error ?? `The server refused this with status ${status}.`;
 }

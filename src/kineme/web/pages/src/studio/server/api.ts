@@ -1,249 +1,221 @@
 /**
- * Every request the studio makes, and what can become of it.
- *
- * A request ends in its answer, in `Refused` (the server says no, with a
- * sentence why), or in `Unreachable` (nobody answers; it may or may not have
- * been carried out). Nothing else is thrown.
+ * Send all requests of the studio. A request ends in its answer, in `Refused` (the server explains
+ * why) or in `Unreachable` (no answer; it may have been carried out). Nothing else is thrown.
  */
 
-import type {
-  Agreement,
-  AgreementRequest,
-  AnnotatorChoice,
-  CallEverywhere,
-  Changed,
-  ClipsRequest,
-  ClusterCurves,
-  CompareRequest,
-  Comparison,
-  CurveList,
-  CycleChannel,
-  CycleChannels,
-  Edited,
-  EditRequest,
-  FileChoice,
-  FolderTables,
-  KnowledgeRequest,
-  LabelLane,
-  LabelsRequest,
-  LoopRow,
-  Loops,
-  Level,
-  Listing,
-  PlayedLoop,
-  PosesProgress,
-  PosesRequest,
-  Preview,
-  ReadRequest,
-  PreviewRequest,
-  Progress,
-  Recording,
-  State,
-  TablesChanged,
-  Version,
-  Versions,
-  VideoRequest,
-} from "../../messages";
+import type * as messages from "../../messages";
 
-import { addressOf, type Parts, type Query } from "./address";
+import { buildAddress, type PathParts, type Query } from "./address";
 import {
-  filename,
-  orNull,
-  parsed,
+  parseFilename,
+  nullIfMissing,
+  parseJson,
   Refused,
-  sentence,
+  getErrorMessage,
   Unreachable,
-  unbroken,
+  catchNetworkError,
   type Download,
 } from "./answers";
 import type { GetPath, PostPath } from "./paths";
 
-export { explain, Refused, Unreachable, type Download } from "./answers";
+export { explainError, Refused, Unreachable, type Download } from "./answers";
 
-/** Milliseconds between two tries to reach the server. */
-export const RETRY = 1000;
+/** Milliseconds between attempts to reach the server. */
+export const RETRY_INTERVAL = 1000;
 
 export class Api {
-  /** @param token what the server printed in its address; another server has another one */
+  /** @param token from the address that the server printed; each server has its own */
   constructor(public token: string) {}
 
-  state(): Promise<State> {
+  loadState(): Promise<messages.State> {
     return this.get("/api/state", {});
   }
 
-  /** The tables of all recordings of the folder. */
-  tables(): Promise<FolderTables> {
+  /** Return the tables of all recordings of the folder. */
+  loadTables(): Promise<messages.FolderTables> {
     return this.get("/api/tables", {});
   }
 
-  recording(id: string): Promise<Recording> {
+  loadRecording(id: string): Promise<messages.Recording> {
     return this.get("/api/recordings/{id}", { id });
   }
 
-  async motion(id: string, poses: number): Promise<ArrayBuffer> {
-    const answer = await this.ask(addressOf("/api/recordings/{id}/motion", { id }, { poses }));
-    return unbroken(answer.arrayBuffer());
+  async loadMotion(id: string, poses: number): Promise<ArrayBuffer> {
+    const answer = await this.request(
+      buildAddress("/api/recordings/{id}/motion", { id }, { poses }),
+    );
+    return catchNetworkError(answer.arrayBuffer());
   }
 
-  async keypoints(id: string): Promise<ArrayBuffer> {
-    const answer = await this.ask(addressOf("/api/recordings/{id}/keypoints", { id }));
-    return unbroken(answer.arrayBuffer());
+  async loadKeypoints(id: string): Promise<ArrayBuffer> {
+    const answer = await this.request(buildAddress("/api/recordings/{id}/keypoints", { id }));
+    return catchNetworkError(answer.arrayBuffer());
   }
 
-  /** A tile of the matrix; null where the server has none. */
-  tile(id: string, level: number, row: number, column: number): Promise<Blob | null> {
+  /** Return a tile of the matrix, or null. */
+  loadTile(id: string, level: number, row: number, column: number): Promise<Blob | null> {
     const path = "/api/recordings/{id}/matrix/{level}/{row}/{column}";
-    const asked = this.ask(addressOf(path, { id, level, row, column }));
-    return orNull(asked.then((answer) => unbroken(answer.blob())));
+    const asked = this.request(buildAddress(path, { id, level, row, column }));
+    return nullIfMissing(asked.then((answer) => catchNetworkError(answer.blob())));
   }
 
-  curves(id: string): Promise<CurveList> {
+  loadCurves(id: string): Promise<messages.CurveList> {
     return this.get("/api/recordings/{id}/curves", { id });
   }
 
-  /** Part of a curve; null where the server has none. */
-  curveTile(id: string, curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+  /** Return a tile of a curve, or null. */
+  loadCurveTile(
+    id: string,
+    curve: number,
+    level: number,
+    number: number,
+  ): Promise<ArrayBuffer | null> {
     const path = "/api/recordings/{id}/curves/{curve}/{level}/{number}";
-    const asked = this.ask(addressOf(path, { id, curve, level, number }));
-    return orNull(asked.then((answer) => unbroken(answer.arrayBuffer())));
+    const asked = this.request(buildAddress(path, { id, curve, level, number }));
+    return nullIfMissing(asked.then((answer) => catchNetworkError(answer.arrayBuffer())));
   }
 
-  async cycleChannels(id: string): Promise<CycleChannel[]> {
-    const answer: CycleChannels = await this.get("/api/recordings/{id}/cycles", { id });
+  async loadCycleChannels(id: string): Promise<messages.CycleChannel[]> {
+    const answer: messages.CycleChannels = await this.get("/api/recordings/{id}/cycles", { id });
     return answer.channels;
   }
 
-  /** The repetitions of a cluster, beside those of another recording; null where there are none. */
-  clusterCurves(
+  /** Return the curves of a cluster, with another recording's mean; null if there are none. */
+  loadClusterCurves(
     id: string,
     cluster: number,
     channel: string,
     beside = "",
-  ): Promise<ClusterCurves | null> {
+  ): Promise<messages.ClusterCurves | null> {
     const path = "/api/recordings/{id}/cycles/{cluster}";
     const query: Record<string, string> = beside ? { channel, beside } : { channel };
-    return orNull(this.get<ClusterCurves, typeof path>(path, { id, cluster }, query));
+    return nullIfMissing(
+      this.get<messages.ClusterCurves, typeof path>(path, { id, cluster }, query),
+    );
   }
 
-  edit(id: string, request: EditRequest): Promise<Edited> {
+  sendEdit(id: string, request: messages.EditRequest): Promise<messages.Edited> {
     return this.post("/api/recordings/{id}/edits", { id }, request);
   }
 
-  preview(id: string, request: PreviewRequest): Promise<Preview> {
+  loadPreview(id: string, request: messages.PreviewRequest): Promise<messages.Preview> {
     return this.post("/api/recordings/{id}/preview", { id }, request);
   }
 
-  /** What the server computes for a recording. */
-  progress(id: string): Promise<Progress> {
+  /** Return the progress of the computation for a recording. */
+  loadProgress(id: string): Promise<messages.Progress> {
     return this.get("/api/recordings/{id}/progress", { id });
   }
 
-  /** What the server computes for a recording is not wanted any more. */
+  /** Cancel the computation for a recording. */
   async cancel(id: string): Promise<void> {
-    await this.ask(addressOf("/api/recordings/{id}/cancel", { id }), {});
+    await this.request(buildAddress("/api/recordings/{id}/cancel", { id }), {});
   }
 
-  /** The tables that were replaced. */
-  async versions(id: string): Promise<Version[]> {
-    const answer: Versions = await this.get("/api/recordings/{id}/versions", { id });
+  /** Return the replaced tables. */
+  async loadVersions(id: string): Promise<messages.Version[]> {
+    const answer: messages.Versions = await this.get("/api/recordings/{id}/versions", { id });
     return answer.versions;
   }
 
-  version(id: string, number: number): Promise<Comparison> {
+  loadVersion(id: string, number: number): Promise<messages.Comparison> {
     return this.get("/api/recordings/{id}/versions/{number}", { id, number });
   }
 
-  compare(id: string, request: CompareRequest): Promise<Comparison> {
+  compare(id: string, request: messages.CompareRequest): Promise<messages.Comparison> {
     return this.post("/api/recordings/{id}/compare", { id }, request);
   }
 
-  /** Who labelled recordings of the folder. */
-  annotators(): Promise<AnnotatorChoice[]> {
+  /** Return who labelled recordings of the folder. */
+  loadAnnotators(): Promise<messages.AnnotatorChoice[]> {
     return this.get("/api/annotators", {});
   }
 
-  /** How far people agree, over the folder. */
-  agreement(request: AgreementRequest): Promise<Agreement> {
+  /** Return how well people agree over the folder. */
+  loadAgreement(request: messages.AgreementRequest): Promise<messages.Agreement> {
     return this.post("/api/agreement", {}, request);
   }
 
-  /** What they say of a recording. */
-  lanes(id: string, request: AgreementRequest): Promise<LabelLane[]> {
+  /** Return their labels of a recording. */
+  loadLanes(id: string, request: messages.AgreementRequest): Promise<messages.LabelLane[]> {
     return this.post("/api/recordings/{id}/lanes", { id }, request);
   }
 
-  /** The segments of a level, or of all that the format holds, as a file named by the server. */
-  exported(id: string, format: string, level: Level | ""): Promise<Download> {
+  /** Export the segments of a level, or of all levels that the format holds. */
+  exportSegments(id: string, format: string, level: messages.Level | ""): Promise<Download> {
     const path = "/api/recordings/{id}/export/{format}";
-    return this.download(addressOf(path, { id, format }, { level }));
+    return this.download(buildAddress(path, { id, format }, { level }));
   }
 
-  /** The same of all recordings that are checked. */
-  exportedTogether(format: string, level: Level | ""): Promise<Download> {
-    return this.download(addressOf("/api/export/{format}", { format }, { level }));
+  /** Export all checked recordings. */
+  exportAll(format: string, level: messages.Level | ""): Promise<Download> {
+    return this.download(buildAddress("/api/export/{format}", { format }, { level }));
   }
 
-  /** Some rows of the table as motion files. */
-  clips(id: string, request: ClipsRequest): Promise<Download> {
-    return this.download(addressOf("/api/recordings/{id}/clips", { id }), request);
+  /** Export rows of the table as motion files. */
+  exportClips(id: string, request: messages.ClipsRequest): Promise<Download> {
+    return this.download(buildAddress("/api/recordings/{id}/clips", { id }), request);
   }
 
-  /** How good the repetitions would be as loops. */
-  async loops(id: string): Promise<LoopRow[]> {
-    const answer: Loops = await this.get("/api/recordings/{id}/loops", { id });
+  /** Return the quality of the repetitions as loops. */
+  async loadLoops(id: string): Promise<messages.LoopRow[]> {
+    const answer: messages.Loops = await this.get("/api/recordings/{id}/loops", { id });
     return answer.loops;
   }
 
-  /** A round of the loop that a row of the table would be written as. */
-  loop(id: string, number: number): Promise<PlayedLoop> {
+  /** Return one round of the loop made from a row of the table. */
+  loadLoop(id: string, number: number): Promise<messages.PlayedLoop> {
     return this.get("/api/recordings/{id}/loops/{number}", { id, number });
   }
 
-  /** What a cluster is called holds in all recordings: by the library, or by the name it had. */
-  callEverywhere(request: CallEverywhere, ofLibrary: boolean): Promise<TablesChanged> {
+  /** Rename a cluster in all recordings: by the library's number, or by its previous name. */
+  renameEverywhere(
+    request: messages.CallEverywhere,
+    ofLibrary: boolean,
+  ): Promise<messages.TablesChanged> {
     return this.post(ofLibrary ? "/api/library/everywhere" : "/api/names", {}, request);
   }
 
-  shareLabels(request: LabelsRequest): Promise<string[]> {
+  shareLabels(request: messages.LabelsRequest): Promise<string[]> {
     return this.post("/api/labels", {}, request);
   }
 
-  makeKnowledge(request: KnowledgeRequest): Promise<FileChoice> {
+  makeKnowledge(request: messages.KnowledgeRequest): Promise<messages.FileChoice> {
     return this.post("/api/knowledge", {}, request);
   }
 
-  /** How a file is read from now on; the recordings that are asked for. */
-  readAs(id: string, request: ReadRequest): Promise<string[]> {
+  /** Change how a file is read; return the ids of the resulting recordings. */
+  readAs(id: string, request: messages.ReadRequest): Promise<string[]> {
     return this.post("/api/recordings/{id}/reading", { id }, request);
   }
 
-  /** How far the server is with the poses of videos. */
-  posesProgress(): Promise<PosesProgress> {
+  /** Return the progress of pose estimation. */
+  loadPosesProgress(): Promise<messages.PosesProgress> {
     return this.get("/api/poses", {});
   }
 
-  estimatePoses(request: PosesRequest): Promise<PosesProgress> {
+  estimatePoses(request: messages.PosesRequest): Promise<messages.PosesProgress> {
     return this.post("/api/poses", {}, request);
   }
 
   async cancelPoses(): Promise<void> {
-    await this.ask(addressOf("/api/poses/cancel", {}), {});
+    await this.request(buildAddress("/api/poses/cancel", {}), {});
   }
 
-  /** Where the video of a recording comes from. */
-  videoAddress(id: string): string {
-    return addressOf("/api/recordings/{id}/video", { id }, { token: this.token });
+  /** Return the address of a recording's video. */
+  getVideoAddress(id: string): string {
+    return buildAddress("/api/recordings/{id}/video", { id }, { token: this.token });
   }
 
-  placeVideo(id: string, request: VideoRequest): Promise<VideoRequest> {
+  placeVideo(id: string, request: messages.VideoRequest): Promise<messages.VideoRequest> {
     return this.post("/api/recordings/{id}/video", { id }, request);
   }
 
-  /** A file into the folder; `progress` is told the share sent, 0 to 1. */
-  upload(file: File, progress: (share: number) => void): Promise<Listing> {
+  /** Upload a file to the folder; `progress` gets the sent share, 0 to 1. */
+  upload(file: File, progress: (share: number) => void): Promise<messages.Listing> {
     return new Promise((resolve, reject) => {
-      const request = new XMLHttpRequest(); // fetch cannot tell how much is sent
-      request.open("POST", addressOf("/api/recordings", {}, { name: file.name }));
+      const request = new XMLHttpRequest(); // fetch does not report upload progress
+      request.open("POST", buildAddress("/api/recordings", {}, { name: file.name }));
       request.setRequestHeader("X-Kineme-Token", this.token);
       request.setRequestHeader("Content-Type", "application/octet-stream");
       request.upload.onprogress = (event) => {
@@ -251,17 +223,21 @@ export class Api {
       };
       request.onerror = () => reject(new Unreachable());
       request.onload = () => {
-        const body = parsed(request.responseText);
-        if (request.status < 300) resolve(body as Listing);
-        else reject(new Refused(request.status, sentence(body, request.status), body));
+        const body = parseJson(request.responseText);
+        if (request.status < 300) resolve(body as messages.Listing);
+        else reject(new Refused(request.status, getErrorMessage(body, request.status), body));
       };
       request.send(file);
     });
   }
 
-  /** Calls back for all news, and when the line drops or returns; it is set up again by itself. */
-  listen<T = Changed>(told: (news: T) => void, line: (up: boolean) => void, up = true): void {
-    const source = new EventSource(addressOf("/api/events", {}, { token: this.token }));
+  /** Listen to the server's events and to changes of the connection; reconnect automatically. */
+  listen<T = messages.Changed>(
+    told: (news: T) => void,
+    line: (up: boolean) => void,
+    up = true,
+  ): void {
+    const source = new EventSource(buildAddress("/api/events", {}, { token: this.token }));
     source.onmessage = (event) => told(JSON.parse(event.data as string) as T);
     source.onopen = () => {
       if (!up) line(true);
@@ -270,34 +246,38 @@ export class Api {
     source.onerror = () => {
       source.close();
       if (up) line(false);
-      setTimeout(() => this.listen(told, line, false), RETRY);
+      setTimeout(() => this.listen(told, line, false), RETRY_INTERVAL);
     };
   }
 
   private async download(address: string, body?: unknown): Promise<Download> {
-    const answer = await this.ask(address, body);
-    const name = filename(answer.headers.get("content-disposition") ?? "") || "kineme";
-    return { name, data: await unbroken(answer.blob()) };
+    const answer = await this.request(address, body);
+    const name = parseFilename(answer.headers.get("content-disposition") ?? "") || "kineme";
+    return { name, data: await catchNetworkError(answer.blob()) };
   }
 
-  protected async get<T, P extends GetPath>(path: P, parts: Parts<P>, query?: Query): Promise<T> {
-    const answer = await this.ask(addressOf(path, parts, query));
-    return (await unbroken(answer.json())) as T;
+  protected async get<T, P extends GetPath>(
+    path: P,
+    parts: PathParts<P>,
+    query?: Query,
+  ): Promise<T> {
+    const answer = await this.request(buildAddress(path, parts, query));
+    return (await catchNetworkError(answer.json())) as T;
   }
 
   protected async post<T, P extends PostPath>(
     path: P,
-    parts: Parts<P>,
+    parts: PathParts<P>,
     request: unknown,
   ): Promise<T> {
-    const answer = await this.ask(addressOf(path, parts), request);
-    return (await unbroken(answer.json())) as T;
+    const answer = await this.request(buildAddress(path, parts), request);
+    return (await catchNetworkError(answer.json())) as T;
   }
 
-  private async ask(address: string, body?: unknown): Promise<Response> {
+  private async request(address: string, body?: unknown): Promise<Response> {
     const headers: Record<string, string> = { "X-Kineme-Token": this.token };
     if (body !== undefined) headers["Content-Type"] = "application/json";
-    const answer = await unbroken(
+    const answer = await catchNetworkError(
       fetch(address, {
         method: body === undefined ? "GET" : "POST",
         headers,
@@ -306,7 +286,7 @@ export class Api {
       }),
     );
     if (answer.ok) return answer;
-    const failure = parsed(await unbroken(answer.text()));
-    throw new Refused(answer.status, sentence(failure, answer.status), failure);
+    const failure = parseJson(await catchNetworkError(answer.text()));
+    throw new Refused(answer.status, getErrorMessage(failure, answer.status), failure);
   }
 }

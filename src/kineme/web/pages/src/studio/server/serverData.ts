@@ -1,4 +1,4 @@
-/** The data of one recording, from the studio's server. */
+/** Load the data of one recording from the studio's server. */
 import type { ClusterCurves, CurveList, CycleChannel, Recording } from "../../messages";
 import type { RecordingData } from "../../recordingData";
 import type { Api } from "./api";
@@ -11,48 +11,48 @@ export class ServerData implements RecordingData {
     private readonly id: string,
   ) {}
 
-  recording(): Promise<Recording> {
-    return this.api.recording(this.id);
+  loadRecording(): Promise<Recording> {
+    return this.api.loadRecording(this.id);
   }
 
-  motion(n_samples: number): Promise<ArrayBuffer> {
-    return this.api.motion(this.id, n_samples);
+  loadMotion(n_samples: number): Promise<ArrayBuffer> {
+    return this.api.loadMotion(this.id, n_samples);
   }
 
-  keypoints(): Promise<ArrayBuffer> {
-    return this.api.keypoints(this.id);
+  loadKeypoints(): Promise<ArrayBuffer> {
+    return this.api.loadKeypoints(this.id);
   }
 
-  videoAddresses(): string[] {
-    return [this.api.videoAddress(this.id)];
+  getVideoAddresses(): string[] {
+    return [this.api.getVideoAddress(this.id)];
   }
 
-  tile(level: number, row: number, column: number): Promise<Blob | null> {
-    return this.api.tile(this.id, level, row, column);
+  loadTile(level: number, row: number, column: number): Promise<Blob | null> {
+    return this.api.loadTile(this.id, level, row, column);
   }
 
-  curves(): Promise<CurveList | null> {
-    return this.api.curves(this.id);
+  loadCurves(): Promise<CurveList | null> {
+    return this.api.loadCurves(this.id);
   }
 
-  curveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
-    return this.api.curveTile(this.id, curve, level, number);
+  loadCurveTile(curve: number, level: number, number: number): Promise<ArrayBuffer | null> {
+    return this.api.loadCurveTile(this.id, curve, level, number);
   }
 
-  cycleChannels(): Promise<CycleChannel[]> {
-    this.channels ??= this.api.cycleChannels(this.id).catch((error: unknown) => {
-      this.channels = null; // asked for again
+  loadCycleChannels(): Promise<CycleChannel[]> {
+    this.channels ??= this.api.loadCycleChannels(this.id).catch((error: unknown) => {
+      this.channels = null; // the next call requests them again
       throw error;
     });
     return this.channels;
   }
 
-  clusterCurves(
+  loadClusterCurves(
     cluster: number,
     channel: string,
     _: number,
     beside?: string,
   ): Promise<ClusterCurves | null> {
-    return this.api.clusterCurves(this.id, cluster, channel, beside);
+    return this.api.loadClusterCurves(this.id, cluster, channel, beside);
   }
 }

@@ -1,24 +1,22 @@
 /**
- * The token, which tabs tell each other.
- *
- * A server that is started anew has a new one, and so has the tab it opens.
- * Tabs of the old server, which may hold unsent edits, go on with it.
+ * Share the token between tabs. A restarted server has a new token, known to the tab it opens.
+ * Older tabs, which may hold unsent edits, continue with it.
  */
-import { tokenToAddress } from "./address";
+import { writeToken } from "./address";
 import { Api, Refused } from "./api";
 
-/** Tells other tabs the token if it is good, and takes theirs if its own no longer is. */
+/** Send this tab's token to other tabs and take over theirs if its own is no longer valid. */
 export function shareToken(api: Api): void {
   const channel = new BroadcastChannel("kineme.token");
   const isGood = (token: string): Promise<boolean> =>
     new Api(token)
-      .state()
+      .loadState()
       .then(() => true)
       .catch((error: unknown) => !(error instanceof Refused));
   channel.onmessage = async ({ data: token }: MessageEvent<string>) => {
     if (token === api.token || (await isGood(api.token)) || !(await isGood(token))) return;
     api.token = token;
-    tokenToAddress(token);
+    writeToken(token);
   };
   channel.postMessage(api.token);
 }

@@ -1,11 +1,11 @@
-/** Files on their way into the folder. */
+/** Upload files to the folder. */
 import { signal } from "@preact/signals";
-import { explain } from "./api";
+import { explainError } from "./api";
 import type { Session } from "../session";
 
 export interface Upload {
   name: string;
-  /** How much is sent, 0 to 1. */
+  /** Sent share, 0 to 1. */
   share: number;
 }
 
@@ -14,7 +14,7 @@ export class Uploads {
 
   constructor(private readonly session: Session) {}
 
-  /** Sends files one after the other, then opens the first that is a recording. */
+  /** Send files one after the other and open the first recording. */
   async add(files: readonly File[]): Promise<void> {
     const { session } = this;
     const ids: string[] = [];
@@ -29,9 +29,12 @@ export class Uploads {
       };
       try {
         ids.push((await session.api.upload(file, progress)).id);
-        session.bulletin.solved(`upload ${file.name}`);
+        session.notifications.clearProblem(`upload ${file.name}`);
       } catch (error) {
-        session.bulletin.problem(`${file.name}: ${explain(error)}`, `upload ${file.name}`);
+        session.notifications.reportProblem(
+          `${file.name}: ${explainError(error)}`,
+          `upload ${file.name}`,
+        );
       }
       this.running.value = this.running.value.filter((each) => each !== upload);
     }

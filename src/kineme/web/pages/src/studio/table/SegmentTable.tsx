@@ -1,22 +1,19 @@
-/**
- * All segments as a table: ordered, filtered, several chosen at once. Only the rows that are seen
- * are there, so that ten thousand scroll like ten.
- */
-import { counted } from "../../counted";
+/** List all segments; only visible rows are rendered, so long lists scroll fast. */
+import { formatCount } from "../../formatCount";
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 import { useMemo, useRef } from "preact/hooks";
 import { useStore } from "../../context";
 import { NO_COLOR } from "../../colors";
-import { durationOf, nameOf } from "../../segments";
-import { clock } from "../../view";
-import { between, EVERYTHING, type Filter, type Order, type Row, rowsOf } from "./rows";
-import { Actions, LoopsButton } from "./Actions";
+import { getDuration, getSegmentName } from "../../segments";
+import { formatTime } from "../../view";
+import { sliceRows, NO_FILTER, type Filter, type Order, type Row, listRows } from "./rows";
+import { RowActions, LoopsButton } from "./RowActions";
 import { TableFilter } from "./TableFilter";
-import { Button } from "../../layout/controls";
+import { Button, Swatch } from "../../layout/controls";
 
-const HEIGHT = 26; // pixels of a row
-const MORE = 6; // rows drawn above and below what is seen
+const ROW_HEIGHT = 26; // pixels of a row
+const OVERSCAN = 6; // rows rendered above and below the visible ones
 const COLUMNS: readonly (readonly [Order, string])[] = [
   ["start", "Start"],
   ["duration", "Length"],
@@ -26,7 +23,7 @@ const COLUMNS: readonly (readonly [Order, string])[] = [
 
 export function SegmentTable(): JSX.Element {
   const store = useStore();
-  const filter = useSignal<Filter>(EVERYTHING);
+  const filter = useSignal<Filter>(NO_FILTER);
   const order = useSignal<[Order, boolean]>(["start", false]);
   const chosen = useSignal<ReadonlySet<number>>(new Set());
   const anchor = useRef(0);
@@ -37,25 +34,27 @@ export function SegmentTable(): JSX.Element {
     () =>
       computed(() => {
         const table = store.table.value;
-        return table ? rowsOf(table, filter.value, ...order.value) : [];
+        return table ? listRows(table, filter.value, ...order.value) : [];
       }),
     [store, filter, order],
   );
-  // What is chosen on the timeline is chosen here, too.
+  // Select the row of the segment selected on the timeline.
   useSignalEffect(() => {
     const selected = store.selected.value;
     const at = rows.peek().findIndex(({ segment }) => segment === selected);
     if (at < 0 || chosen.peek().has(rows.peek()[at]!.number)) return;
     chosen.value = new Set([rows.peek()[at]!.number]);
     anchor.current = at;
-    scrollTo(place.current, at);
+    scrollToRow(place.current, at);
   });
-  const go = (at: number, many: "one" | "range" | "more"): void => {
+  const chooseRow = (at: number, many: "one" | "range" | "more"): void => {
     const row = rows.value[Math.min(Math.max(at, 0), rows.value.length - 1)];
     if (!row) return;
     const index = rows.value.indexOf(row);
     if (many === "range")
-      chosen.value = new Set(between(rows.value, anchor.current, index).map((each) => each.number));
+      chosen.value = new Set(
+        sliceRows(rows.value, anchor.current, index).map((each) => each.number),
+      );
     else {
       const before = many === "more" ? [...chosen.value] : [];
       const numbers = before.includes(row.number)
@@ -66,13 +65,13 @@ export function SegmentTable(): JSX.Element {
     }
     last.current = index;
     if (many !== "more") store.select(row.segment);
-    scrollTo(place.current, index);
+    scrollToRow(place.current, index);
   };
   const last = useRef(0);
   const onKeyDown = (event: KeyboardEvent): void => {
     const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     const key = event.key.toLowerCase();
-    if (by) go(last.current + by, event.shiftKey ? "range" : "one");
+    if (by) chooseRow(last.current + by, event.shiftKey ? "range" : "one");
     else if (key === "a" && (event.ctrlKey || event.metaKey))
       chosen.value = new Set(rows.value.map((each) => each.number));
     else return;
@@ -80,12 +79,15 @@ export function SegmentTable(): JSX.Element {
     event.stopPropagation();
   };
   const many = rows.value.filter(({ number }) => chosen.value.has(number));
-  const from = Math.max(Math.floor(top.value / HEIGHT) - MORE, 0);
-  const to = Math.min(Math.ceil((top.value + height.value) / HEIGHT) + MORE, rows.value.length);
+  const from = Math.max(Math.floor(top.value / ROW_HEIGHT) - OVERSCAN, 0);
+  const to = Math.min(
+    Math.ceil((top.value + height.value) / ROW_HEIGHT) + OVERSCAN,
+    rows.value.length,
+  );
   return (
     <div class="segment-table">
       <TableFilter filter={filter} />
-      {many.length > 0 && <Actions rows={many} />}
+      {many.length > 0 && <RowActions rows={many} />}
       <div class="table-head" role="presentation">
         {COLUMNS.map(([id, title]) => (
           <Button
@@ -116,15 +118,15 @@ export function SegmentTable(): JSX.Element {
           height.value = event.currentTarget.clientHeight;
         }}
       >
-        <div role="presentation" style={{ height: `${rows.value.length * HEIGHT}px` }}>
+        <div role="presentation" style={{ height: `${rows.value.length * ROW_HEIGHT}px` }}>
           {rows.value.slice(from, to).map((row, i) => (
             <TableRow
               key={row.number}
               row={row}
               at={from + i}
-              color={store.colorOf(row.segment) ?? NO_COLOR}
+              color={store.getColor(row.segment) ?? NO_COLOR}
               chosen={chosen.value.has(row.number)}
-              go={go}
+              go={chooseRow}
             />
           ))}
         </div>
@@ -135,7 +137,7 @@ export function SegmentTable(): JSX.Element {
           role="status"
           title="Click rows, with Shift or Ctrl several, to name, merge, check or write them"
         >
-          {counted(rows.value.length, "segment")}
+          {formatCount(rows.value.length, "segment")}
           {many.length > 0 && `, ${many.length} chosen`}
         </p>
         <LoopsButton />
@@ -159,19 +161,19 @@ function TableRow(props: {
       class={segment.level}
       aria-selected={chosen}
       aria-rowindex={at + 1}
-      style={{ top: `${at * HEIGHT}px` }}
+      style={{ top: `${at * ROW_HEIGHT}px` }}
       onClick={(event) =>
         go(at, event.shiftKey ? "range" : event.ctrlKey || event.metaKey ? "more" : "one")
       }
     >
       <span role="gridcell" class="number">
-        {clock(segment.start_s, 2)}
+        {formatTime(segment.start_s, 2)}
       </span>
       <span role="gridcell" class="number">
-        {durationOf(segment).toFixed(2)}
+        {getDuration(segment).toFixed(2)}
       </span>
-      <span role="gridcell" class="name" title={`${segment.level}: ${nameOf(segment)}`}>
-        <span class="swatch" style={{ background: color }} /> {nameOf(segment)}
+      <span role="gridcell" class="name" title={`${segment.level}: ${getSegmentName(segment)}`}>
+        <Swatch color={color} /> {getSegmentName(segment)}
       </span>
       <span role="gridcell" class="number">
         {segment.checked ? (
@@ -184,11 +186,11 @@ function TableRow(props: {
   );
 }
 
-/** Brings a row into the view. */
-function scrollTo(place: HTMLElement | null, at: number): void {
+/** Scroll to a row. */
+function scrollToRow(place: HTMLElement | null, at: number): void {
   if (!place) return;
   const { scrollTop, clientHeight } = place;
-  if (at * HEIGHT < scrollTop) place.scrollTop = at * HEIGHT;
-  else if ((at + 1) * HEIGHT > scrollTop + clientHeight)
-    place.scrollTop = (at + 1) * HEIGHT - clientHeight;
+  if (at * ROW_HEIGHT < scrollTop) place.scrollTop = at * ROW_HEIGHT;
+  else if ((at + 1) * ROW_HEIGHT > scrollTop + clientHeight)
+    place.scrollTop = (at + 1) * ROW_HEIGHT - clientHeight;
 }

@@ -1,8 +1,8 @@
-/** What the table of segments is narrowed to. */
+/** Filter the table of segments. */
 import { signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import { EVERYTHING, type Filter } from "./rows";
+import { NO_FILTER, type Filter } from "./rows";
 import { Button, Select } from "../../layout/controls";
 
 const LEVELS = [
@@ -20,7 +20,12 @@ const CHECKED = [
   ["no", "not checked"],
   ["yes", "checked"],
 ] as const;
-/** Whether more is shown than name and level. */
+const NUMBERS = [
+  ["shortest", "from s", "Shortest, seconds", "0.1"],
+  ["longest", "to s", "Longest, seconds", "0.1"],
+  ["confidenceBelow", "confidence <", "Confidence below", "0.05"],
+] as const;
+/** Whether all filters are shown. */
 const open = signal(false);
 
 export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element {
@@ -28,7 +33,7 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
     void (filter.value = { ...filter.value, ...part });
   const { text, level, ...rest } = filter.value;
   const narrowed = Object.entries(rest).some(
-    ([what, value]) => value !== EVERYTHING[what as keyof typeof rest],
+    ([what, value]) => value !== NO_FILTER[what as keyof typeof rest],
   );
   return (
     <div class="table-filter">
@@ -61,11 +66,6 @@ export function TableFilter({ filter }: { filter: Signal<Filter> }): JSX.Element
 function MoreFilters({ filter }: { filter: Signal<Filter> }): JSX.Element {
   const change = (part: Partial<Filter>): void =>
     void (filter.value = { ...filter.value, ...part });
-  const number = (text: string, otherwise: number): number => {
-    const value = Number.parseFloat(text);
-    return Number.isFinite(value) ? value : otherwise;
-  };
-  const { shortest, longest, confidenceBelow } = filter.value;
   return (
     <div class="more-filters">
       <Select
@@ -81,36 +81,21 @@ function MoreFilters({ filter }: { filter: Signal<Filter> }): JSX.Element {
         onSelect={(checked) => change({ checked })}
       />
       <span class="group">
-        <input
-          type="number"
-          min="0"
-          step="0.1"
-          placeholder="from s"
-          aria-label="Shortest, seconds"
-          defaultValue={shortest || ""}
-          onInput={(event) => change({ shortest: number(event.currentTarget.value, 0) })}
-        />
-        <input
-          type="number"
-          min="0"
-          step="0.1"
-          placeholder="to s"
-          aria-label="Longest, seconds"
-          defaultValue={Number.isFinite(longest) ? longest : ""}
-          onInput={(event) => change({ longest: number(event.currentTarget.value, Infinity) })}
-        />
-        <input
-          type="number"
-          min="0"
-          max="1"
-          step="0.05"
-          placeholder="confidence <"
-          aria-label="Confidence below"
-          defaultValue={Number.isFinite(confidenceBelow) ? confidenceBelow : ""}
-          onInput={(event) =>
-            change({ confidenceBelow: number(event.currentTarget.value, Infinity) })
-          }
-        />
+        {NUMBERS.map(([key, placeholder, label, step]) => (
+          <input
+            key={key}
+            type="number"
+            min="0"
+            step={step}
+            max={key === "confidenceBelow" ? 1 : ""}
+            placeholder={placeholder}
+            aria-label={label}
+            defaultValue={filter.value[key] === NO_FILTER[key] ? "" : filter.value[key]}
+            onInput={({ currentTarget: { valueAsNumber: value } }) =>
+              change({ [key]: Number.isFinite(value) ? value : NO_FILTER[key] })
+            }
+          />
+        ))}
       </span>
     </div>
   );

@@ -1,0 +1,126 @@
+/** Show other results below the table: a preview or a comparison. */
+import { computed, signal, type ReadonlySignal } from "@preact/signals";
+import type { Comparison, CompareRequest, Preview } from "../../messages";
+import type { OtherResult } from "../../state";
+import type { Store } from "../../store";
+import type { Notifications } from "../notifications";
+import { type Api, explainError } from "../server/api";
+import type { EditedRecording } from "./editedRecording";
+
+/** A preset, its parameters and the level of detail: 1 is the default, less is coarser. */
+export interface SegmentationChoice {
+  preset: string;
+  values: Record<string, number>;
+  detail: number;
+}
+
+export interface Proposal {
+  choice: SegmentationChoice;
+  keep: boolean;
+  preview: Preview;
+  shown: OtherResult;
+  /** Revision of the table that it would replace. */
+  revision: number;
+}
+
+interface Dependencies {
+  api: Api;
+  store: Store;
+  notifications: Notifications;
+  edited: ReadonlySignal<EditedRecording | undefined>;
+}
+
+export class Comparisons {
+  /** The previewed segmentation, while it is shown below the table. */
+  readonly proposal = computed(() =>
+    this.proposed.value?.shown === this.dependencies.store.others.value[0]
+      ? this.proposed.value
+      : null,
+  );
+  /** The comparison shown below the table. */
+  readonly comparison = computed(() =>
+    this.proposal.value
+      ? null
+      : (this.compared.value.get(this.dependencies.store.others.value[0]!) ?? null),
+  );
+
+  /** The choice whose preview is being computed. */
+  readonly draft = signal<SegmentationChoice | null>(null);
+
+  private readonly proposed = signal<Proposal | null>(null);
+  private readonly compared = signal(new WeakMap<OtherResult, Comparison>());
+  private requestCount = 0;
+
+  constructor(private readonly dependencies: Dependencies) {}
+
+  /** Preview a segmentation without changing the table. */
+  async propose(choice: SegmentationChoice, keep: boolean): Promise<void> {
+    const edited = this.dependencies.edited.value;
+    if (!edited) return;
+    const turn = ++this.requestCount;
+    this.draft.value = choice;
+    const { revision } = edited.confirmed.peek();
+    try {
+      const { preset, values: parameters, detail } = choice;
+      const request = { preset, parameters, detail, keep };
+      const preview = await this.dependencies.api.loadPreview(edited.id, request);
+      if (turn !== this.requestCount || this.dependencies.edited.peek() !== edited) return;
+      const shown = { name: "Preview", segmentation: preview.segmentation, marked: true };
+      this.proposed.value = { choice, keep, preview, shown, revision };
+      this.dependencies.store.others.value = [shown];
+      this.dependencies.notifications.clearProblem("preview");
+    } catch (error) {
+      if (turn === this.requestCount)
+        this.dependencies.notifications.reportProblem(explainError(error), "preview");
+    } finally {
+      if (turn === this.requestCount) this.draft.value = null;
+    }
+  }
+
+  /** Cancel the preview being computed; the previous one stays. */
+  cancel(): void {
+    this.requestCount += 1;
+    this.draft.value = null;
+  }
+
+  /** Replace the table by the previewed segmentation. */
+  apply(): void {
+    const { value: proposal } = this.proposal;
+    if (!proposal || !this.dependencies.edited.value?.acceptsEdits()) return;
+    const { choice, keep } = proposal;
+    this.discard();
+    void this.dependencies.edited.value?.edit({
+      kind: "segment",
+      preset: choice.preset,
+      parameters: choice.values,
+      detail: choice.detail,
+      keep,
+    });
+  }
+
+  discard(): void {
+    this.cancel();
+    if (this.proposal.value) this.dependencies.store.others.value = [];
+    this.proposed.value = null;
+  }
+
+  /** Compare with another result; return whether that worked. */
+  async compare(request: CompareRequest): Promise<boolean> {
+    const edited = this.dependencies.edited.value;
+    if (!edited) return false;
+    return this.dependencies.notifications.attempt("compare", async () =>
+      this.showBelow(await this.dependencies.api.compare(edited.id, request)),
+    );
+  }
+
+  /** Show a result below the table. */
+  showBelow(comparison: Comparison, marked = false): void {
+    const shown = { name: comparison.name, segmentation: comparison.segmentation, marked };
+    this.compared.value.set(shown, comparison);
+    this.dependencies.store.others.value = [shown];
+  }
+
+  stop(): void {
+    this.dependencies.store.others.value = [];
+  }
+}

@@ -1,0 +1,42 @@
+import { signal } from "@preact/signals";
+import { deflateSync } from "node:zlib";
+import { expect, test } from "vitest";
+import type { MotionHead, Recording } from "../src/messages";
+import type { Motion } from "../src/motion";
+import { loadMotion, type OpenRecording } from "../src/openRecording";
+import type { RecordingData } from "../src/recordingData";
+
+const head = (n_samples: number): MotionHead => ({
+  n_samples,
+  sample_fps: 30,
+  joints: ["hips"],
+  parents: [-1],
+  bones: [],
+  origin: [0, 0, 0],
+  step: 1,
+  heading: null,
+  effectors: {},
+});
+
+test("all poses follow the few that a large recording shows first, also where they overtake", async () => {
+  const recording = signal({ motion: head(2) } as Recording);
+  const asked: number[] = [];
+  const data = {
+    loadMotion(n_samples: number) {
+      asked.push(n_samples);
+      recording.value = { motion: head(5) } as Recording; // it has been read meanwhile
+      return Promise.resolve(new Uint8Array(deflateSync(new Uint8Array(6 * n_samples))).buffer);
+    },
+  } as unknown as RecordingData;
+  const opened: OpenRecording = {
+    data,
+    recording,
+    motion: signal<Motion | null>(null),
+    keypoints: signal(null),
+  };
+  await loadMotion(opened);
+  expect(asked).toEqual([2, 5]);
+  expect(opened.motion.value?.head.n_samples).toBe(5);
+  await loadMotion(opened);
+  expect(asked).toEqual([2, 5]);
+});
