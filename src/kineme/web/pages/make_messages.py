@@ -183,9 +183,9 @@ def format_paths() -> str:
     routes = [*Api(unused, unused).routes(), *LibraryApi(unused, unused).routes()]
     return (
         "// Made from the routes of kineme/studio by make_messages.py; change them there.\n\n"
-        "/** What is asked for; names in braces are filled in. */\n"
+        "/** Paths of GET requests; names in braces are filled in. */\n"
         f"export type GetPath ={_format_path_union(routes, 'GET')};\n\n"
-        "/** Where something is sent to. */\n"
+        "/** Paths of POST requests. */\n"
         f"export type PostPath ={_format_path_union(routes, 'POST')};\n"
     )
 

@@ -1,6 +1,6 @@
 // Made from the routes of kineme/studio by make_messages.py; change them there.
 
-/** What is asked for; names in braces are filled in. */
+/** Paths of GET requests; names in braces are filled in. */
 export type GetPath =
   | "/api/annotators"
   | "/api/events"
@@ -26,7 +26,7 @@ export type GetPath =
   | "/api/state"
   | "/api/tables";
 
-/** Where something is sent to. */
+/** Paths of POST requests. */
 export type PostPath =
   | "/api/agreement"
   | "/api/knowledge"
