@@ -1,4 +1,4 @@
-"""The same movement in other guises, and how far two answers to it are the same."""
+"""Make variants of a recording and measure how far their segmentations agree."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from _joined import clusters_of
+from _joined import list_clusters
 from kineme.features.channels import resample_channels
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn
@@ -20,13 +20,13 @@ RATES = (25.0, 30.0, 60.0, 120.0)
 CUT_S = 2.0
 NOISE_M = 0.002
 NOISE_SHARE = 0.02
-"""Of the deviation of each channel."""
+"""Standard deviation of the noise, as a share of that of each channel."""
 COMPARED = 30.0
-"""Moments a second at which two answers are compared."""
+"""Samples per second at which two segmentations are compared."""
 
 
-class Guise(NamedTuple):
-    """A recording in another guise, where it begins in the first, and how much faster it is."""
+class Variant(NamedTuple):
+    """A changed recording, where it starts in the original, and its relative speed."""
 
     name: str
     recording: Motion | Signals
@@ -34,33 +34,33 @@ class Guise(NamedTuple):
     speed: float = 1.0
 
 
-def guises(recording: Motion | Signals) -> Iterator[Guise]:
-    """The recording at other rates and speeds, cut, with noise; bodies turned and scaled, too."""
+def make_variants(recording: Motion | Signals) -> Iterator[Variant]:
+    """Yield the recording at other rates and speeds, cut, with noise, turned and scaled."""
     noise = np.random.default_rng(0)
     for rate in RATES:
         if abs(rate - recording.fps) > 1:
-            yield Guise(f"{rate:g} Hz", _at(recording, rate))
+            yield Variant(f"{rate:g} Hz", _resample(recording, rate))
     late = round(CUT_S * recording.fps)
     if recording.n_frames > 4 * late:
-        yield Guise("2 s cut off", recording[late:], start_s=CUT_S)
+        yield Variant("2 s cut off", recording[late:], start_s=CUT_S)
     for speed in (0.8, 1.25):
-        yield Guise(
+        yield Variant(
             f"{speed:g} of the speed", replace(recording, fps=recording.fps * speed), 0.0, speed
         )
     if isinstance(recording, Signals):
         spread = NOISE_SHARE * recording.values.std(axis=0)
         values = recording.values + noise.normal(0, 1, recording.values.shape) * spread
-        yield Guise("noise", replace(recording, values=values))
+        yield Variant("noise", replace(recording, values=values))
         return
     places = recording.positions + noise.normal(0, NOISE_M, recording.positions.shape)
-    yield Guise("noise", Motion(recording.skeleton, places, recording.fps, gaps=recording.gaps))
-    yield Guise("points alone", Motion(recording.skeleton, recording.positions, recording.fps))
-    yield Guise("turned", turn(recording, 2.0))
-    yield Guise("0.9 of the size", scale(recording, 0.9))
-    yield Guise("1.1 of the size", scale(recording, 1.1))
+    yield Variant("noise", Motion(recording.skeleton, places, recording.fps, gaps=recording.gaps))
+    yield Variant("points alone", Motion(recording.skeleton, recording.positions, recording.fps))
+    yield Variant("turned", turn(recording, 2.0))
+    yield Variant("0.9 of the size", scale(recording, 0.9))
+    yield Variant("1.1 of the size", scale(recording, 1.1))
 
 
-def _at(recording: Motion | Signals, rate: float) -> Motion | Signals:
+def _resample(recording: Motion | Signals, rate: float) -> Motion | Signals:
     if isinstance(recording, Motion):
         return resample(recording, rate)
     return Signals(
@@ -70,12 +70,12 @@ def _at(recording: Motion | Signals, rate: float) -> Motion | Signals:
     )
 
 
-def agreement(here: Segmentation, there: Segmentation, guise: Guise) -> float:
-    """The share of moments in the same cluster, each of the one standing for one of the other."""
+def measure_agreement(here: Segmentation, there: Segmentation, guise: Variant) -> float:
+    """Return the share of time in the same cluster, with clusters matched one to one."""
     length = there.n_frames / there.fps * guise.speed
     times = np.arange(0, length, 1 / COMPARED)
-    own = _clusters_at(here, times + guise.start_s)
-    other = _clusters_at(there, times / guise.speed)
+    own = _sample_clusters(here, times + guise.start_s)
+    other = _sample_clusters(there, times / guise.speed)
     _, a = np.unique(own, return_inverse=True)
     _, b = np.unique(other, return_inverse=True)
     together = np.zeros((a.max() + 1, b.max() + 1))
@@ -83,6 +83,6 @@ def agreement(here: Segmentation, there: Segmentation, guise: Guise) -> float:
     return float(together[linear_sum_assignment(-together)].sum() / len(times))
 
 
-def _clusters_at(found: Segmentation, times: NDArray[np.float64]) -> NDArray[np.int64]:
+def _sample_clusters(found: Segmentation, times: NDArray[np.float64]) -> NDArray[np.int64]:
     frames = np.clip((times * found.fps).astype(np.int64), 0, found.n_frames - 1)
-    return clusters_of(found)[frames]
+    return list_clusters(found)[frames]
