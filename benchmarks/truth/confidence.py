@@ -28,7 +28,7 @@ from scipy.stats import rankdata
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, choose_size, find_data, make_parser
+from _options import choose_size, find_data, make_parser
 from _recordings import (
     ACTORS,
     CONDITIONS,
@@ -498,7 +498,7 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=2)
     add_option(parser)
     options = parser.parse_args()
-    find_data("", DATA)
+    find_data("")
     work = partial(judge_source, every=options.every, near_s=options.near)
     sources = choose_size(list(KNOWN), ["subject 86", "synthetic", "ipolgait", "UI-PRMD"])
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:

@@ -22,7 +22,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, choose_size, find_data, make_parser
+from _options import choose_size, find_data, make_parser
 from _sources import SOURCES, Judged
 from kineme.evaluation.score import pool_scores
 from kineme.methods.kineme.preset import KINEME, OF_SENSORS, SENSORS, KinemePreset
@@ -204,7 +204,7 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=2)
     add_option(parser)
     options = parser.parse_args()
-    find_data("", DATA)
+    find_data("")
     sources = options.sources or choose_size(list(EVERY), ["uiprmd_incorrect", "ipolgait"])
     changes = [
         change

@@ -1,4 +1,4 @@
-"""Movements that hardly ever come back, and gestures among them, 30 frames a second."""
+"""Make random movement with gestures, at 30 frames per second."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from kineme.methods.kineme.preset import KINEME
 
 
 def wandering(rng: np.random.Generator, n: int) -> np.ndarray:
-    """Movement that hardly ever comes back: body sizes, 30 frames a second."""
+    """Return random movement without repetitions, in body sizes."""
     noise = rng.normal(0, 1, (n + 60, 6))
     window = np.hanning(45)
     smooth = [np.convolve(column, window / np.linalg.norm(window), "valid") for column in noise.T]
@@ -16,7 +16,7 @@ def wandering(rng: np.random.Generator, n: int) -> np.ndarray:
 
 
 def with_gestures(seed: int, places: list[int]) -> np.ndarray:
-    """A gesture of 40 frames at some places of such movement, begun and ended at one pose."""
+    """Insert a gesture of 40 frames at some places; each starts and ends at the same pose."""
     rows = wandering(np.random.default_rng(seed), 900)
     angle = np.linspace(0, 2 * np.pi, 40)
     gesture = 0.3 * np.column_stack([np.sin(k * angle) for k in (1, 2, 1, 3, 1, 2)])
@@ -31,7 +31,7 @@ def with_gestures(seed: int, places: list[int]) -> np.ndarray:
 
 
 def stacked(rows: np.ndarray) -> np.ndarray:
-    """Features of the method: each pose with those before and after, scaled."""
+    """Stack each pose with earlier and later ones, as the method does."""
     shifts = [round(offset * KINEME.working_fps) for offset in KINEME.offsets]
     places = np.arange(len(rows)) + np.array(shifts)[:, None]
     return np.hstack(rows[places.clip(0, len(rows) - 1)]) / len(shifts) ** 0.5
