@@ -1,4 +1,4 @@
-"""Chromium for the benchmarks of the pages; drawn by the processor, as where nobody has a card."""
+"""Start Chromium with software rendering, as on a computer without a graphics card."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ DRAWN = "window.kineme?.hasMotion && window.kineme.drawn > 0"
 
 
 @contextmanager
-def chromium(*flags: str) -> Iterator[Any]:
-    """A browser with these flags; ends the script as skipped where there is none."""
+def open_chromium(*flags: str) -> Iterator[Any]:
+    """Open a browser with these flags; skip the benchmark if none is installed."""
     need_packages("playwright")
     from playwright.sync_api import sync_playwright
 
@@ -32,6 +32,6 @@ def chromium(*flags: str) -> Iterator[Any]:
 
 
 def wait(tab: Any, condition: str) -> None:
-    """Wait until the condition holds; ask from outside, as the page's policy wants it."""
+    """Wait until the condition holds; poll, because the page's policy forbids evaluated code."""
     while not tab.evaluate(condition):
         tab.wait_for_timeout(10)

@@ -1,4 +1,4 @@
-"""Bytes, damaged in one to four ways: bytes, lines, numbers, headers, structure."""
+"""Damage bytes in one to four ways: bytes, lines, numbers, headers, structure."""
 
 from __future__ import annotations
 
@@ -12,18 +12,26 @@ WORDS = [b"nan", b"inf", b"-inf", b"1e300", b"-1.7e308", b"1e-320", b"0", b"-1",
 NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
 
 
-def mutated(data: bytes, seed: int) -> bytes:
-    """The bytes, damaged as the seed says."""
+def damage_bytes(data: bytes, seed: int) -> bytes:
+    """Return the bytes with damage that depends on the seed."""
     chance = random.Random(seed)
     for _ in range(chance.randint(1, 4)):
-        data = chance.choice((_bytes, _bytes, _lines, _numbers, _numbers, _head, _structure))(
-            data, chance
-        )
+        data = chance.choice(
+            (
+                _damage_slice,
+                _damage_slice,
+                _damage_line,
+                _damage_number,
+                _damage_number,
+                _damage_header,
+                _damage_structure,
+            )
+        )(data, chance)
     return data
 
 
-def _bytes(data: bytes, chance: random.Random) -> bytes:
-    """A few bytes or a stretch of them turned, doubled, cut or replaced."""
+def _damage_slice(data: bytes, chance: random.Random) -> bytes:
+    """Invert, double, remove or replace a few bytes."""
     if not data:
         return data
     start = chance.randrange(len(data))
@@ -40,8 +48,8 @@ def _bytes(data: bytes, chance: random.Random) -> bytes:
     return data[:start] + new + data[stop:]
 
 
-def _lines(data: bytes, chance: random.Random) -> bytes:
-    """A line left out, doubled, moved, cut off or many times there."""
+def _damage_line(data: bytes, chance: random.Random) -> bytes:
+    """Remove, double, move, cut or repeat a line."""
     lines = data.split(b"\n")
     at, to = chance.randrange(len(lines)), chance.randrange(len(lines))
     line = lines[at]
@@ -50,18 +58,18 @@ def _lines(data: bytes, chance: random.Random) -> bytes:
     return b"\n".join(lines)
 
 
-def _numbers(data: bytes, chance: random.Random) -> bytes:
-    """A number of a text replaced by an odd one."""
+def _damage_number(data: bytes, chance: random.Random) -> bytes:
+    """Replace a number in a text by an unusual one."""
     start = chance.randrange(max(1, len(data) - 2000)) if chance.random() < 0.5 else 0
     found = list(NUMBER.finditer(data, start, start + 2000))
     if not found:
-        return _bytes(data, chance)
+        return _damage_slice(data, chance)
     where = chance.choice(found)
     return data[: where.start()] + chance.choice(WORDS) + data[where.end() :]
 
 
-def _head(data: bytes, chance: random.Random) -> bytes:
-    """A byte of the first thousand, where formats keep their counts, or of the last."""
+def _damage_header(data: bytes, chance: random.Random) -> bytes:
+    """Change one of the first or last thousand bytes, where formats store counts."""
     if not data:
         return data
     at = chance.randrange(min(len(data), 1000))
@@ -69,8 +77,8 @@ def _head(data: bytes, chance: random.Random) -> bytes:
     return data[:at] + bytes([chance.choice((0, 1, 127, 128, 255))]) + data[at + 1 :]
 
 
-def _structure(data: bytes, chance: random.Random) -> bytes:
-    """A file cut off, repeated, turned round, or two stretches of it exchanged."""
+def _damage_structure(data: bytes, chance: random.Random) -> bytes:
+    """Cut off, repeat or insert a part, or exchange two parts."""
     a, b = sorted(chance.randrange(len(data) + 1) for _ in range(2))
     middle = (a + b) // 2
     return chance.choice((

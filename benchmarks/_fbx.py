@@ -1,4 +1,4 @@
-"""FBX files as tests and benchmarks make them: nodes, written as binary or as text."""
+"""Build FBX files for tests and benchmarks: nodes, written as binary or as text."""
 
 from __future__ import annotations
 
@@ -35,35 +35,35 @@ class Node:
     children: list[Node] = field(default_factory=list)
 
 
-def node(name: str, *values: Any, children: Iterable[Node] = ()) -> Node:
+def make_node(name: str, *values: Any, children: Iterable[Node] = ()) -> Node:
     return Node(name, values, list(children))
 
 
-def as_binary(nodes: Sequence[Node], version: int = 7400, *, packed: bool = True) -> bytes:
+def encode_binary(nodes: Sequence[Node], version: int = 7400, *, packed: bool = True) -> bytes:
     wide = version >= 7500
     head = b"Kaydara FBX Binary  \x00\x1a\x00" + struct.pack("<I", version)
     body = b"".join
     data = head
     for each in nodes:
-        data += _binary(each, len(data), wide, packed)
+        data += _encode_node(each, len(data), wide, packed)
     return body([data, bytes(25 if wide else 13), bytes(160)])
 
 
-def _binary(each: Node, at: int, wide: bool, packed: bool) -> bytes:
+def _encode_node(each: Node, at: int, wide: bool, packed: bool) -> bytes:
     head = struct.Struct("<QQQB" if wide else "<IIIB")
     name = each.name.encode()
-    values = b"".join(_value(value, packed) for value in each.values)
+    values = b"".join(_encode_value(value, packed) for value in each.values)
     start = at + head.size + len(name) + len(values)
     inside = bytearray()
     for child in each.children:
-        inside += _binary(child, start + len(inside), wide, packed)
+        inside += _encode_node(child, start + len(inside), wide, packed)
     if each.children:
         inside += bytes(head.size)
     end = start + len(inside)
     return head.pack(end, len(each.values), len(values), len(name)) + name + values + inside
 
 
-def _value(value: Any, packed: bool) -> bytes:
+def _encode_value(value: Any, packed: bool) -> bytes:
     if isinstance(value, np.ndarray):
         raw = value.astype(value.dtype.newbyteorder("<")).tobytes()
         code = CODES[value.dtype.newbyteorder("<").str]
@@ -80,31 +80,31 @@ def _value(value: Any, packed: bool) -> bytes:
     return b"D" + struct.pack("<d", value)
 
 
-def as_text(nodes: Sequence[Node], version: int = 7400) -> bytes:
+def format_text(nodes: Sequence[Node], version: int = 7400) -> bytes:
     lines = [f"; FBX {version // 1000}.{version % 1000 // 100}.0 project file", "; ----", ""]
     for each in nodes:
-        lines += _text(each, "")
+        lines += _format_node(each, "")
     return ("\n".join(lines) + "\n").encode()
 
 
-def _text(each: Node, tab: str) -> Iterable[str]:
+def _format_node(each: Node, tab: str) -> Iterable[str]:
     if len(each.values) == 1 and isinstance(each.values[0], np.ndarray):
         array = each.values[0]
         yield f"{tab}{each.name}: *{len(array)} {{"
-        yield f"{tab}\ta: " + ",".join(map(repr, _plain(array, each.name)))
+        yield f"{tab}\ta: " + ",".join(map(repr, _list_numbers(array, each.name)))
         yield f"{tab}}}"
         return
-    said = ", ".join(_word(value) for value in each.values)
+    said = ", ".join(_format_value(value) for value in each.values)
     opened = " {" if each.children or not each.values else ""
     yield f"{tab}{each.name}: {said}{opened}"
     for child in each.children:
-        yield from _text(child, tab + "\t")
+        yield from _format_node(child, tab + "\t")
     if opened:
         yield f"{tab}}}"
 
 
-def _plain(array: np.ndarray, name: str) -> list[Any]:
-    """Numbers as texts have them: the packed weights of keys as whole numbers."""
+def _list_numbers(array: np.ndarray, name: str) -> list[Any]:
+    """Return the numbers of a text file: packed weights of keys are whole numbers."""
     numbers = array.tolist()
     if name == "KeyAttrDataFloat":
         bits = array.astype("<f4").view("<u4")
@@ -112,7 +112,7 @@ def _plain(array: np.ndarray, name: str) -> list[Any]:
     return numbers
 
 
-def _word(value: Any) -> str:
+def _format_value(value: Any) -> str:
     if isinstance(value, Name):
         return f'"{value.kind}::{value.name}"'
     if isinstance(value, str):
@@ -124,7 +124,7 @@ def _word(value: Any) -> str:
 
 @dataclass
 class Keys:
-    """A curve: seconds, values, and how it goes on."""
+    """Keys of a curve: seconds, values and interpolation flags."""
 
     times: Sequence[float]
     values: Sequence[float]
@@ -135,7 +135,7 @@ class Keys:
     def nodes(self) -> list[Node]:
         n = len(self.times)
         alike = isinstance(self.flags, int) and not self.details and not self.weights
-        rows = 1 if alike else n  # what keys have in common stands once
+        rows = 1 if alike else n  # attributes that all keys share are stored once
         flags = [self.flags] * rows if isinstance(self.flags, int) else list(self.flags)
         details = np.zeros((rows, 4), "<f4")
         if self.details:
@@ -144,17 +144,17 @@ class Keys:
             packed = [round(r * 1e4) | round(b * 1e4) << 16 for r, b in self.weights]
             details[:, 2] = np.array(packed, "<u4").view("<f4")
         return [
-            node("Default", 0.0),
-            node("KeyVer", 4009),
-            node("KeyTime", np.round(np.array(self.times) * TICKS).astype("<i8")),
-            node("KeyValueFloat", np.array(self.values, "<f4")),
-            node("KeyAttrFlags", np.array(flags, "<i4")),
-            node("KeyAttrDataFloat", details.ravel()),
-            node("KeyAttrRefCount", np.full(rows, n // rows, "<i4")),
+            make_node("Default", 0.0),
+            make_node("KeyVer", 4009),
+            make_node("KeyTime", np.round(np.array(self.times) * TICKS).astype("<i8")),
+            make_node("KeyValueFloat", np.array(self.values, "<f4")),
+            make_node("KeyAttrFlags", np.array(flags, "<i4")),
+            make_node("KeyAttrDataFloat", details.ravel()),
+            make_node("KeyAttrRefCount", np.full(rows, n // rows, "<i4")),
         ]
 
 
-def prop(name: str, *values: Any) -> Node:
+def make_property(name: str, *values: Any) -> Node:
     kinds = {bool: "bool", int: "int", str: "KString"}
     kind = kinds.get(type(values[0]), "double")
     kind = {"TimeMode": "enum", "LocalStart": "KTime", "LocalStop": "KTime"}.get(name, kind)
@@ -164,11 +164,11 @@ def prop(name: str, *values: Any) -> Node:
         kind = "Vector3D"
     elif name in ("RotationOrder", "InheritType", "BlendMode"):
         kind = "enum"
-    return node("P", name, kind, "", "A", *values)
+    return make_node("P", name, kind, "", "A", *values)
 
 
 class Scene:
-    """Builds a file: models, takes with layers and curves, settings."""
+    """Build a file of models, takes with layers and curves, and settings."""
 
     def __init__(self, **settings: Any) -> None:
         self.ids = count(1000)
@@ -181,13 +181,16 @@ class Scene:
 
     def _object(self, kind: str, name: Name, sort: str, said: dict[str, Any], *more: Node) -> int:
         number = next(self.ids)
-        props = [prop(key, *np.atleast_1d(np.array(value, object))) for key, value in said.items()]
-        held = [node("Properties70", children=props)] if props else []
-        self.objects.append(node(kind, number, name, sort, children=[*held, *more]))
+        props = [
+            make_property(key, *np.atleast_1d(np.array(value, object)))
+            for key, value in said.items()
+        ]
+        held = [make_node("Properties70", children=props)] if props else []
+        self.objects.append(make_node(kind, number, name, sort, children=[*held, *more]))
         return number
 
     def link(self, kind: str, part: int, whole: int, *what: str) -> None:
-        self.links.append(node("C", kind, part, whole, *what))
+        self.links.append(make_node("C", kind, part, whole, *what))
 
     def model(self, name: str, parent: int = 0, kind: str = "LimbNode", **said: Any) -> int:
         said = {key.replace("Lcl", "Lcl "): value for key, value in said.items()}
@@ -196,8 +199,8 @@ class Scene:
             Name(name, "Model"),
             kind,
             said,
-            node("Version", 232),
-            node("Culling", "CullingOff"),
+            make_node("Version", 232),
+            make_node("Culling", "CullingOff"),
         )
         if kind in ("LimbNode", "Null", "Root"):
             attribute = self._object("NodeAttribute", Name(name, "NodeAttribute"), kind, {})
@@ -219,7 +222,7 @@ class Scene:
     def animate(
         self, layer: int, model: int, what: str, rest: Sequence[float] = (0, 0, 0), **axes: Keys
     ) -> int:
-        """What is "T", "R", "S", or the whole name of a property; ``rest`` is without curves."""
+        """Animate "T", "R", "S" or a named property; ``rest`` applies to axes without keys."""
         full = {"T": "Lcl Translation", "R": "Lcl Rotation", "S": "Lcl Scaling"}.get(what, what)
         said = {f"d|{axis}": float(value) for axis, value in zip("XYZ", rest, strict=True)}
         part = self._object("AnimationCurveNode", Name(what, "AnimCurveNode"), "", said)
@@ -231,29 +234,29 @@ class Scene:
         return part
 
     def nodes(self, version: int = 7400) -> list[Node]:
-        settings = [prop(name, value) for name, value in self.settings.items()]
+        settings = [make_property(name, value) for name, value in self.settings.items()]
         kinds = sorted({each.name for each in self.objects})
-        types = [node("ObjectType", kind, children=[node("Count", 1)]) for kind in kinds]
-        document = node("Document", 99, "", "Scene", children=[node("RootNode", 0)])
-        header = [node("FBXHeaderVersion", 1003), node("FBXVersion", version)]
+        types = [make_node("ObjectType", kind, children=[make_node("Count", 1)]) for kind in kinds]
+        document = make_node("Document", 99, "", "Scene", children=[make_node("RootNode", 0)])
+        header = [make_node("FBXHeaderVersion", 1003), make_node("FBXVersion", version)]
         return [
-            node("FBXHeaderExtension", children=header),
-            node("GlobalSettings", children=[node("Properties70", children=settings)]),
-            node("Documents", children=[node("Count", 1), document]),
-            node("Definitions", children=[node("Count", len(self.objects)), *types]),
-            node("Objects", children=self.objects),
-            node("Connections", children=self.links),
+            make_node("FBXHeaderExtension", children=header),
+            make_node("GlobalSettings", children=[make_node("Properties70", children=settings)]),
+            make_node("Documents", children=[make_node("Count", 1), document]),
+            make_node("Definitions", children=[make_node("Count", len(self.objects)), *types]),
+            make_node("Objects", children=self.objects),
+            make_node("Connections", children=self.links),
         ]
 
     def binary(self, version: int = 7400, *, packed: bool = True) -> bytes:
-        return as_binary(self.nodes(version), version, packed=packed)
+        return encode_binary(self.nodes(version), version, packed=packed)
 
     def text(self, version: int = 7400) -> bytes:
-        return as_text(self.nodes(version), version)
+        return format_text(self.nodes(version), version)
 
 
-def walker(**settings: Any) -> Scene:
-    """A small body that walks in a take of two seconds, and bends in a second one; and a prop."""
+def make_walker(**settings: Any) -> Scene:
+    """Return a small body that walks in one take and bends in another, and a prop."""
     scene = Scene(**{"TimeMode": 3, **settings})
     walk, bow = scene.take("walk", 0.0, 2.0), scene.take("bow", 0.5, 1.0)
     layers = scene.layer(walk), scene.layer(bow)
@@ -279,8 +282,8 @@ def walker(**settings: Any) -> Scene:
     return scene
 
 
-def of_motion(motion: Motion) -> Scene:
-    """A motion with rotations as a scene: bones, and keys at each frame."""
+def make_scene(motion: Motion) -> Scene:
+    """Return a motion with rotations as a scene: bones, with a key at every frame."""
     if motion.rotations is None:
         raise ValueError("a scene needs rotations")
     scene = Scene(TimeMode=14, CustomFrameRate=float(motion.fps))

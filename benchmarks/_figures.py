@@ -1,10 +1,9 @@
-"""Measured numbers, kept in ``docs/figures.json`` with what measured them and when.
+"""Store measured figures in ``docs/figures.json``, with command, version and date.
 
-``python docs/fill_pages.py`` writes the tables of README and docs from them.
-A benchmark takes the option ``--record`` and then keeps each number, under a name
-that begins with its own:
-``record("constants.alike.off", 0.021)``. Without the option the numbers are
-compared with those kept, and what differs is told at the end.
+``python docs/fill_pages.py`` writes the tables of README and docs from them. With ``--record`` a
+benchmark stores each figure under a name that starts with its own:
+``record("constants.bands.off", 0.021)``. Without it, the figures are compared with those stored,
+and differences are printed at the end.
 """
 
 from __future__ import annotations
@@ -27,25 +26,25 @@ _measured: dict[str, float | str] = {}
 
 
 def add_option(parser: argparse.ArgumentParser) -> None:
-    atexit.register(_tell)
+    atexit.register(_print_comparison)
     parser.add_argument(OPTION, action="store_true", help=f"keep the numbers in {FILE.name}")
 
 
 def record(name: str, value: float | str, *, unit: str = "") -> None:
-    """Keep a number, or two as in "3 of 4", in the file if the script runs with ``--record``.
+    """Store a number, or a text such as "3 of 4", if the script runs with ``--record``.
 
-    Never one of a quick run, which goes over too little to say anything.
+    Ignore figures of quick runs, which use too little data.
     """
     if is_quick():
         return
     if OPTION not in sys.argv:
         _measured[name] = value
         return
-    figures = _kept()
+    figures = _read_figures()
     figures[name] = {
         "value": value,
         "unit": unit,
-        "command": _command(),
+        "command": _format_command(),
         "version": __version__,
         "date": dt.datetime.now(tz=dt.UTC).date().isoformat(),
     }
@@ -53,9 +52,9 @@ def record(name: str, value: float | str, *, unit: str = "") -> None:
     FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 
 
-def compared(measured: dict[str, float | str]) -> list[str]:
-    """A line for each number that is not the one kept, and how many are."""
-    figures, lines, same = _kept(), [], 0
+def compare_figures(measured: dict[str, float | str]) -> list[str]:
+    """Return the number of figures that equal those stored, and a line for each other one."""
+    figures, lines, same = _read_figures(), [], 0
     for name, value in measured.items():
         kept = figures.get(name)
         if kept is not None and kept["value"] == value:
@@ -63,26 +62,26 @@ def compared(measured: dict[str, float | str]) -> list[str]:
         elif kept is None:
             lines.append(f"  {name}: {value}, not recorded")
         else:
-            other = "" if kept["command"] == _command() else f" by {kept['command']}"
+            other = "" if kept["command"] == _format_command() else f" by {kept['command']}"
             lines.append(f"  {name}: {value}, {kept['value']} recorded {kept['date']}{other}")
     return [f"{same} of {len(measured)} figures as recorded{':' if lines else ''}", *lines]
 
 
-def _tell() -> None:
+def _print_comparison() -> None:
     if _measured:
-        print("\n".join(compared(_measured)))
+        print("\n".join(compare_figures(_measured)))
 
 
-def _kept() -> dict[str, dict[str, float | str]]:
+def _read_figures() -> dict[str, dict[str, float | str]]:
     return json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
 
 
-def _command() -> str:
-    """What is typed to measure that."""
-    options = [_nowhere(word) for word in sys.argv[1:] if word != OPTION]
+def _format_command() -> str:
+    """Return the command that measures the figures."""
+    options = [_strip_folder(word) for word in sys.argv[1:] if word != OPTION]
     return shlex.join(["python", "-m", "benchmarks", Path(sys.argv[0]).stem, *options])
 
 
-def _nowhere(word: str) -> str:
-    """An option without the place of a file, which is one machine's own."""
+def _strip_folder(word: str) -> str:
+    """Return an option without the folder of a file, which differs between machines."""
     return Path(word).name if Path(word).is_absolute() else word

@@ -1,7 +1,6 @@
-"""Small sound files of every kind that the package reads, and what reads each of them.
+"""Write small intact files of every kind that the package reads, with functions that read them.
 
-A file lies in a folder that is called after its kind; what lies beside it stays sound while
-it is damaged.
+Each kind of file has a folder. While one file is damaged, the others stay intact.
 """
 
 from __future__ import annotations
@@ -48,41 +47,50 @@ from kineme.synthesis import motion_graph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
 LARGEST = 100_000
-"""Bytes of a sample from KINEME_DATA; of longer texts the beginning is taken."""
+"""Maximum bytes of a sample from KINEME_DATA; longer texts are cut."""
 
 TEXTS = (".bvh", ".amc", ".trc", ".mot", ".txt")
 
 TAKE, CUT = Path("studio/walk.bvh"), Path("graphs/cut.bvh")
-"""What side files and a graph are of; damage to them is that to a recording."""
+"""Recordings of the side files and of the graph; not damaged, as other recordings are."""
 
 SIDE_FILES = ("labels.json", "walk.bvh.video.json", "walk.bvh.reading.json")
 
-Door = Callable[[Path], object]
+Reader = Callable[[Path], object]
 
 
 @dataclass(frozen=True)
 class Case:
-    """A file that is damaged, and what reads it, given the folder of all kinds."""
+    """A file to damage, and functions that read it, given the root folder."""
 
     path: Path
     sound: bytes
-    doors: tuple[Door, ...]
+    readers: tuple[Reader, ...]
 
 
 def write_samples(root: Path) -> list[Case]:
-    """Small sound files in folders of their kinds; every one of them as a case."""
+    """Write small intact files and return each as a case."""
     motion = formats.read_motion(bundled_recording())
     truth = kineme.read_segments(bundled_truth())
-    for write in (_recordings, _labels, _pairs, _tables, _others, _benchmark, _library, _studio):
+    for write in (
+        _write_recordings,
+        _write_labels,
+        _write_pairs,
+        _write_tables,
+        _write_others,
+        _write_benchmark,
+        _write_library,
+        _write_studio,
+    ):
         write(root, motion, truth)
     paths = sorted(path.relative_to(root) for path in root.rglob("*") if path.is_file())
     read = [path for path in paths if path not in (TAKE, CUT)]
-    cases = [Case(path, (root / path).read_bytes(), doors_of(path)) for path in read]
-    return [case for case in cases if case.sound]  # locks are empty
+    cases = [Case(path, (root / path).read_bytes(), list_readers(path)) for path in read]
+    return [case for case in cases if case.sound]  # lock files are empty
 
 
-def doors_of(path: Path) -> tuple[Door, ...]:
-    """What reads a file, by the folder that it lies in."""
+def list_readers(path: Path) -> tuple[Reader, ...]:
+    """Return the functions that read a file, by its folder."""
     table = "cuts.csv" if path.name.startswith("cuts") else "pair_events.tsv"
     return {
         "recordings": (
@@ -95,9 +103,9 @@ def doors_of(path: Path) -> tuple[Door, ...]:
         "labels": (
             lambda root: kineme.read_segments(root / path, format=path.stem, fps=60),
             lambda root: kineme.read_segments(root / path),
-            lambda root: _write_on(root, path),
+            lambda root: _convert_labels(root, path),
         ),
-        "tables": (lambda root: _labels_of_many(root / path),),
+        "tables": (lambda root: _read_collection(root / path),),
         "benchmark": (
             lambda root: is_annotation_file(root / path),
             lambda root: read_trials(root / path),
@@ -105,14 +113,14 @@ def doors_of(path: Path) -> tuple[Door, ...]:
         "pairs": (lambda root: kineme.read_segments(root / "pairs" / table),),
         "knowledge": (lambda root: kineme.KnowledgeBase.load(root / path),),
         "graphs": (lambda root: load_sources(read_graph(root / path)),),
-        "library": (_ask_library, _search_library, _export_library)
+        "library": (_read_library, _search_library, _export_library)
         + ((_build_library,) if path.name == STATES else ()),
-        "studio": (_read_beside,) if path.name in SIDE_FILES else (_open_studio,),
+        "studio": (_read_side_files,) if path.name in SIDE_FILES else (_open_studio,),
     }[path.parts[0]]
 
 
-def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
-    folder = _made(root / "recordings")
+def _write_recordings(root: Path, motion: Motion, _: Segmentation) -> None:
+    folder = _make_folder(root / "recordings")
     for known in formats.supported_formats():
         for suffix in known.suffixes if known.write else ():
             with suppress(MissingDependencyError):
@@ -121,9 +129,12 @@ def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
     signals = kineme.Signals(rng.normal(size=(80, 3)), 50, ["a", "b", "c"])
     for suffix in (".csv", ".parquet"):
         formats.write(signals, folder / f"signals{suffix}")
-    for name, scene in (("packed", _fbx.walker().binary()), ("text", _fbx.walker().text())):
+    for name, scene in (
+        ("packed", _fbx.make_walker().binary()),
+        ("text", _fbx.make_walker().text()),
+    ):
         (folder / f"{name}.fbx").write_bytes(scene)
-    (folder / "wide.fbx").write_bytes(_fbx.walker().binary(7700, packed=False))
+    (folder / "wide.fbx").write_bytes(_fbx.make_walker().binary(7700, packed=False))
     np.save(folder / "array.npy", np.asarray(motion.positions[:20]))
     data = Path(os.environ.get("KINEME_DATA", "/nowhere"))
     for path in sorted([*data.glob("*formats/*"), *data.glob("timeseries/*")]):
@@ -136,29 +147,29 @@ def _recordings(root: Path, motion: Motion, _: Segmentation) -> None:
             (folder / path.name).write_bytes(path.read_bytes())
 
 
-def _labels(root: Path, _: Motion, truth: Segmentation) -> None:
-    folder = _made(root / "labels")
+def _write_labels(root: Path, _: Motion, truth: Segmentation) -> None:
+    folder = _make_folder(root / "labels")
     for known in labels.label_formats().values():
         if known.write and not known.folder:
             path = folder / f"{known.name}{known.written_suffix}"
             labels.write_segments(truth, path, format=known.name)
 
 
-def _pairs(root: Path, _: Motion, truth: Segmentation) -> None:
-    folder = _made(root / "pairs")
+def _write_pairs(root: Path, _: Motion, truth: Segmentation) -> None:
+    folder = _make_folder(root / "pairs")
     kineme.write_segments(truth, folder / "cuts.csv")
     kineme.write_segments(truth, folder / "pair_events.tsv")
 
 
-def _tables(root: Path, _: Motion, __: Segmentation) -> None:
+def _write_tables(root: Path, _: Motion, __: Segmentation) -> None:
     rows = ["recording,start_s,stop_s,label", "a.bvh,0,2,walk", "a.bvh,2,3.5,jump", "b,0,1,walk"]
     for name, mark in (("commas.csv", ","), ("tabs.tsv", "\t"), ("semicolons.csv", ";")):
         text = "\n".join(row.replace(",", mark) for row in rows)
-        (_made(root / "tables") / name).write_text(text + "\n")
+        (_make_folder(root / "tables") / name).write_text(text + "\n")
 
 
-def _benchmark(root: Path, _: Motion, __: Segmentation) -> None:
-    folder = _made(root / "benchmark")
+def _write_benchmark(root: Path, _: Motion, __: Segmentation) -> None:
+    folder = _make_folder(root / "benchmark")
     marks = (("walk", 90, 100, 110), ("jump", 190, 200, 210), ("walk", 300, 300, 300))
     names = ("label", "end_earliest", "end_mean", "end_latest")
     trials = {"86_01": [dict(zip(names, row, strict=True)) for row in marks]}
@@ -168,10 +179,12 @@ def _benchmark(root: Path, _: Motion, __: Segmentation) -> None:
     )
 
 
-def _others(root: Path, motion: Motion, truth: Segmentation) -> None:
-    kineme.KnowledgeBase.from_recording(motion, truth).save(_made(root / "knowledge") / "base.npz")
+def _write_others(root: Path, motion: Motion, truth: Segmentation) -> None:
+    kineme.KnowledgeBase.from_recording(motion, truth).save(
+        _make_folder(root / "knowledge") / "base.npz"
+    )
     graph = kineme.MotionGraph((), (), (), 60.0, 0.1, 0.3)
-    write_graph(graph, _made(root / "graphs") / "empty.json")
+    write_graph(graph, _make_folder(root / "graphs") / "empty.json")
     cut = motion[:900]
     formats.write(cut, root / CUT)
     cut = formats.read_motion(root / CUT)
@@ -179,8 +192,8 @@ def _others(root: Path, motion: Motion, truth: Segmentation) -> None:
     write_graph(graph, root / "graphs" / "graph.json")
 
 
-def _library(root: Path, motion: Motion, _: Segmentation) -> None:
-    takes = _made(root.parent / "takes")
+def _write_library(root: Path, motion: Motion, _: Segmentation) -> None:
+    takes = _make_folder(root.parent / "takes")
     for name, part in (("walk.bvh", motion[:300]), ("jacks.bvh", motion[2400:2640])):
         formats.write(part, takes / name)
     folder = root / "library"
@@ -188,8 +201,8 @@ def _library(root: Path, motion: Motion, _: Segmentation) -> None:
     Library(folder).name(0, "walk").merge(0, 1).split(0, ["walk.bvh"])
 
 
-def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
-    folder = _made(root / "studio")
+def _write_studio(root: Path, motion: Motion, truth: Segmentation) -> None:
+    folder = _make_folder(root / "studio")
     formats.write(motion[:60], root / TAKE)
     said = formats.ReadOptions(fps=30.0, unit="cm", up="y")
     write_reading(root / TAKE, said, ["Anna", "Bob"])
@@ -205,17 +218,17 @@ def _studio(root: Path, motion: Motion, truth: Segmentation) -> None:
         )
 
 
-def _write_on(root: Path, path: Path) -> object:
-    """What was read, in formats that tell more than the table: where it came from, and notes."""
+def _convert_labels(root: Path, path: Path) -> object:
+    """Write the labels in formats that hold more than the table, such as comments."""
     found = kineme.read_segments(root / path, format=path.stem, fps=60)
-    folder = _made(root.parent / "written")
+    folder = _make_folder(root.parent / "written")
     for name in ("boris", "babel", "clips", "csv"):
         known = labels.label_formats()[name]
         kineme.write_segments(found, folder / f"{name}{known.written_suffix}", format=name)
     return find_marked(found, "checked"), editing.cluster_names(found), editing.comments(found)
 
 
-def _labels_of_many(path: Path) -> object:
+def _read_collection(path: Path) -> object:
     sources = find_labels([Path("a.bvh"), Path("b.bvh")], path)
     return [source.of(n_frames=240, fps=60.0) for source in sources.values()]
 
@@ -227,14 +240,14 @@ def _build_library(root: Path) -> object:
     return build((), folder)
 
 
-def _read_beside(root: Path) -> object:
+def _read_side_files(root: Path) -> object:
     take = root / TAKE
     said = list_sidecar_problems(take)
     found = kineme.read(take, **vars(read_saved_options(take))), list_recordings([take])
     return found, make_video_message(take), read_shared_labels(take.parent), said
 
 
-def _ask_library(root: Path) -> object:
+def _read_library(root: Path) -> object:
     library = Library(root / "library")
     tables = [
         library.table(name) for name in ("segments", "recordings", "local_clusters", "embeddings")
@@ -268,6 +281,6 @@ def _open_studio(root: Path) -> object:
     return kept, before, journal.knows("x")
 
 
-def _made(folder: Path) -> Path:
+def _make_folder(folder: Path) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     return folder

@@ -1,4 +1,4 @@
-"""Recordings of a set joined to one, with the classes of their frames."""
+"""Join recordings of a set, and list the classes and clusters of their frames."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import kineme
-from _options import few
+from _options import choose_size
 from kineme.evaluation.comparison import UNLABELLED
 from kineme.evaluation.folder import find_recordings
 from kineme.labels.collections import find_labels
@@ -21,14 +21,14 @@ from sets import read_sensors
 Ints = NDArray[np.int64]
 
 
-def joined(recordings: Sequence[Signals]) -> Signals:
-    """One after the other, at the rate of the first."""
+def join_signals(recordings: Sequence[Signals]) -> Signals:
+    """Concatenate recordings at the rate of the first."""
     values = np.concatenate([one.values for one in recordings])
     return Signals(values, recordings[0].fps, recordings[0].names)
 
 
-def classes_of(truth: kineme.Segmentation) -> Ints:
-    """The class of each frame; `UNLABELLED` where nobody says."""
+def list_classes(truth: kineme.Segmentation) -> Ints:
+    """Return the class of each frame; `UNLABELLED` without a label."""
     numbers: dict[str, int] = {}
     classes = np.full(truth.n_frames, UNLABELLED, np.int64)
     for row in truth.activities:
@@ -38,31 +38,31 @@ def classes_of(truth: kineme.Segmentation) -> Ints:
     return classes
 
 
-def clusters_of(found: kineme.Segmentation) -> Ints:
-    """The cluster of each frame."""
+def list_clusters(found: kineme.Segmentation) -> Ints:
+    """Return the cluster of each frame."""
     clusters = np.full(found.n_frames, UNLABELLED, np.int64)
     for row in found.activities:
         clusters[row.start_frame : row.stop_frame] = row.cluster
     return clusters
 
 
-def person_of(name: str) -> str:
-    """The person of a recording that is named after the person and a number of its own."""
+def parse_person(name: str) -> str:
+    """Return the person from a recording name such as ``PERSON_NUMBER``."""
     return name.rpartition("_")[0]
 
 
 class Piece(NamedTuple):
-    """A recording that is to be joined, and the classes of its frames."""
+    """A recording and the classes of its frames."""
 
     name: str
     recording: Signals
     truth: Ints
 
 
-def pieces(folder: Path) -> Iterator[Piece]:
+def read_pieces(folder: Path) -> Iterator[Piece]:
     sources = find_labels(find_recordings(folder / "recordings"), folder / "labels.csv")
-    for path, source in few(list(sources.items()), list(sources.items())[:2]):
+    for path, source in choose_size(list(sources.items()), list(sources.items())[:2]):
         one = read_sensors(path)
         if isinstance(one, Signals):
             truth = source.of(n_frames=one.n_frames, fps=one.fps)
-            yield Piece(path.stem, one, classes_of(truth))
+            yield Piece(path.stem, one, list_classes(truth))

@@ -1,4 +1,4 @@
-"""Libraries of recordings in hand, and of simulated ones, for the benchmarks."""
+"""Build libraries of given and of simulated recordings."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from time import perf_counter
 
 import numpy as np
 
-from _options import few, needed
+from _options import choose_size, find_data
 from kineme import Library, read
 from kineme._version import __version__
 from kineme.library.compiling import compile_tables
@@ -23,13 +23,13 @@ from kineme.recordings import Motion, Signals
 from kineme.transfer.clusters import CONSTANTS
 
 SHAKEN = 0.05
-"""Deviation of what is added to each feature of a copy."""
-LASTS_S = few(360.0, 60.0)
-"""Of a simulated recording, seconds."""
+"""Standard deviation of the noise added to the features of a copy."""
+LASTS_S = choose_size(360.0, 60.0)
+"""Duration of a simulated recording in seconds."""
 
 
-def library_of(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]]) -> Library:
-    """A library of recordings in hand, by their names."""
+def build_library(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]]) -> Library:
+    """Build a library of recordings, given by name."""
     (folder / ANALYSES).mkdir(parents=True, exist_ok=True)
     keys = {}
     for name, recording in recordings:
@@ -38,12 +38,12 @@ def library_of(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]])
             write_analysis(
                 folder / ANALYSES, keys[name], *make_analysis(recording, SegmentOptions())
             )
-    joined(folder, keys)
+    write_tables_and_head(folder, keys)
     return Library(folder)
 
 
-def joined(folder: Path, keys: Mapping[str, str]) -> float:
-    """Leave head and tables of pieces by the names of their recordings; seconds that it took."""
+def write_tables_and_head(folder: Path, keys: Mapping[str, str]) -> float:
+    """Write head and tables of a library; return the seconds that this takes."""
     start = perf_counter()
     entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
     tables, following = compile_tables(folder, entries, {}, 0, lambda _: None)
@@ -64,13 +64,13 @@ def joined(folder: Path, keys: Mapping[str, str]) -> float:
     return perf_counter() - start
 
 
-def simulated(folder: Path, hours: float) -> float:
-    """A library of shaken pieces of subject 86; seconds that joining its clusters took."""
+def simulate_library(folder: Path, hours: float) -> float:
+    """Build a library of noisy pieces of subject 86; return the seconds of joining clusters."""
     (folder / ANALYSES).mkdir(parents=True)
     rng = np.random.default_rng(0)
     made = [
         make_analysis(read(path), SegmentOptions())
-        for path in sorted(needed("cmu86").glob("*.amc"))[: few(None, 1)]
+        for path in sorted(find_data("cmu86").glob("*.amc"))[: choose_size(None, 1)]
     ]
     keys = {}
     for number in range(round(hours * 3600 / LASTS_S)):
@@ -86,4 +86,4 @@ def simulated(folder: Path, hours: float) -> float:
         write_analysis(
             folder / ANALYSES, key, Analysis(facts, piece.table, piece.embeddings), shaken
         )
-    return joined(folder, keys)
+    return write_tables_and_head(folder, keys)

@@ -1,23 +1,42 @@
-"""What code and commands take; medians of runs in turn, so that other work falls on all alike."""
+"""Measure time and memory of code and commands."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from ctypes import CDLL
 from resource import struct_rusage
 from statistics import median
 from time import perf_counter
+from typing import NamedTuple
 
 PR_SET_CHILD_SUBREAPER = 36
-"""Of Linux's prctl."""
+"""Number of this option of Linux's prctl."""
 
 
-def interleaved(works: Mapping[str, Callable[[], object]], *, runs: int) -> dict[str, float]:
-    """Median seconds of each work over so many rounds, after one that is not counted."""
+class Duration(NamedTuple):
+    """Seconds by the clock, and of processor time, which excludes other work on the machine."""
+
+    clock: float
+    processor: float
+
+    def __str__(self) -> str:
+        return f"{self.clock:.3f} s ({self.processor:.3f} s of processor time)"
+
+
+def take_medians(rows: Iterable[Duration]) -> Duration:
+    """Return the medians."""
+    return Duration(*map(median, zip(*rows, strict=True)))
+
+
+def time_in_turn(works: Mapping[str, Callable[[], object]], *, runs: int) -> dict[str, float]:
+    """Return the median seconds of each function; run them in turn, so that other load is shared.
+
+    One more round runs first and is not counted.
+    """
     seconds: dict[str, list[float]] = {name: [] for name in works}
     for work in works.values():
         work()
@@ -29,14 +48,14 @@ def interleaved(works: Mapping[str, Callable[[], object]], *, runs: int) -> dict
     return {name: median(times) for name, times in seconds.items()}
 
 
-def verdict(value: float, most: float) -> str:
-    """Whether what was promised is kept."""
+def judge(value: float, most: float) -> str:
+    """Return whether a value is within its promised limit."""
     return f"at most {most:g} promised: {'kept' if value <= most else 'NOT KEPT'}"
 
 
-def kineme(*arguments: object) -> tuple[float, float, float]:
-    """Seconds that a command takes, of clock and processors; gigabytes of its largest process."""
-    _adopt()
+def run_kineme(*arguments: object) -> tuple[float, float, float]:
+    """Return wall seconds and processor seconds of a command, and GB of its largest process."""
+    _adopt_children()
     start = perf_counter()
     process = subprocess.Popen(
         [sys.executable, "-m", "kineme", *map(str, arguments)], stdout=subprocess.DEVNULL
@@ -45,19 +64,19 @@ def kineme(*arguments: object) -> tuple[float, float, float]:
     clock = perf_counter() - start
     if status:
         raise SystemExit(f"{arguments} ended with {status}")
-    usages = [usage, *_left_behind()]
+    usages = [usage, *_wait_for_children()]
     used = sum(each.ru_utime + each.ru_stime for each in usages)
     return clock, used, max(each.ru_maxrss for each in usages) / 1e6
 
 
-def _adopt() -> None:
-    """Become the parent of what the processes of a command leave behind (Linux only)."""
+def _adopt_children() -> None:
+    """Become the parent of orphaned child processes, to measure them (Linux only)."""
     if sys.platform == "linux":
         CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
 
-def _left_behind() -> Iterator[struct_rusage]:
-    """What they used, such as the process that the others are copies of."""
+def _wait_for_children() -> Iterator[struct_rusage]:
+    """Yield the usage of remaining child processes, such as a fork server."""
     with suppress(ChildProcessError):
         while True:
             yield os.wait4(-1, 0)[2]

@@ -1,9 +1,7 @@
-"""What every benchmark asks of its command line, and how it says that it cannot run.
+"""Define the options that all benchmarks share, and skip benchmarks that cannot run.
 
-``--quick`` goes the whole way on as little as there is, in seconds: it shows that the benchmark
-runs, not what it finds, and its figures are never recorded. ``python -m benchmarks all --quick``
-runs all of them so. What recordings, packages or programs a benchmark lacks, it says, and ends as
-skipped.
+With ``--quick`` a benchmark runs all its code on little data, in seconds. Its figures are not
+recorded. A benchmark that lacks recordings, packages or programs ends as skipped.
 """
 
 from __future__ import annotations
@@ -19,15 +17,15 @@ DATA = Path(os.environ.get("KINEME_DATA", Path(__file__).resolve().parents[2] / 
 """The folder of real recordings."""
 QUICK = "--quick"
 SKIPPED = 77
-"""The exit code of a benchmark that lacks what it needs, as test programs of automake have it."""
+"""Exit code of a skipped benchmark, as in automake."""
 
 T = TypeVar("T")
 
 
-def command_line(doc: str | None) -> argparse.ArgumentParser:
-    """A parser that tells the first line of the script's docstring, and knows ``--quick``."""
+def make_parser(doc: str | None) -> argparse.ArgumentParser:
+    """Return a parser with the first line of the docstring as help, and ``--quick``."""
     parser = argparse.ArgumentParser(description=(doc or "").strip().splitlines()[0])
-    parser.add_argument(QUICK, action="store_true", help="try that it runs, on next to nothing")
+    parser.add_argument(QUICK, action="store_true", help="check that it runs, on little data")
     return parser
 
 
@@ -35,27 +33,27 @@ def is_quick() -> bool:
     return QUICK in sys.argv
 
 
-def few(usual: T, quick: T) -> T:
-    """What is usual, or what will do to try that the script runs."""
+def choose_size(usual: T, quick: T) -> T:
+    """Return the second value in a quick run, otherwise the first."""
     return quick if is_quick() else usual
 
 
-def needed(place: str, data: Path = DATA) -> Path:
-    """A folder or file of the recordings; ends the script as skipped where it is not."""
-    path = data / place
+def find_data(place: str) -> Path:
+    """Return the path of a folder or file of recordings; skip the benchmark if it is missing."""
+    path = DATA / place
     if not path.exists():
         skip(f"no {place} among the recordings: set KINEME_DATA to the folder that holds it")
     return path
 
 
 def need_packages(*names: str) -> None:
-    """End the script as skipped where a package is not installed."""
+    """Skip the benchmark if a package is not installed."""
     missing = [name for name in names if find_spec(name) is None]
     if missing:
         skip(f"needs {', '.join(missing)}: pip install {' '.join(missing)}")
 
 
 def skip(reason: str) -> NoReturn:
-    """End the script as one that cannot run here."""
+    """Exit as skipped, with a reason."""
     print(f"skipped: {reason}", file=sys.stderr)
     sys.exit(SKIPPED)

@@ -1,7 +1,4 @@
-"""Recordings with a truth for the benchmarks: subject 86, HDM05 sequences, synthetic ones.
-
-All are `Case`s: a motion, and what people or the maker say of it.
-"""
+"""Provide recordings with known truth: subject 86, HDM05 sequences and synthetic recordings."""
 
 from __future__ import annotations
 
@@ -15,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import kineme
-from _options import DATA, few, needed
+from _options import DATA, choose_size, find_data
 from _sequences import Exercise, join_exercises
 from kineme.datasets import ACTIONS, Action, synthesize
 from kineme.evaluation import Truth, make_labelling
@@ -26,7 +23,7 @@ from kineme_reproduction.trials import find_folder, load_trials
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 
 ACTORS = ("bd", "bk", "dg")
-# HDM05 names the repetitions in the class, steps singly: four of them are two double steps.
+# HDM05 counts single steps in the class name: four steps are two repetitions.
 REPETITIONS = {"jogLeftCircle4StepsRstart": 2}
 
 EXERCISES = [name for name in ACTIONS if name not in ("walk", "stand")]
@@ -36,42 +33,42 @@ CONDITIONS = ("as it is", "speed", "size", "noise", "one hand", "all")
 
 @dataclass(frozen=True)
 class Case:
-    """A recording and its truth; where the maker knows them, every repetition, too."""
+    """A recording and its truth."""
 
     name: str
     motion: Motion
     truth: Truth
     made: Segmentation | None = None
-    """The truth as a segmentation, repetitions and all, where it was made."""
+    """The truth with all repetitions, if the recording was made from parts."""
 
 
-def subject_86() -> list[Case]:
-    """The five trials of the benchmark; two, where it shall be quick."""
-    needed("cmu86")
-    trials = load_trials(find_folder(DATA), few(TRIALS, TRIALS[:2]))
+def read_subject_86() -> list[Case]:
+    """Read the five trials of the published benchmark (quick: two)."""
+    find_data("cmu86")
+    trials = load_trials(find_folder(DATA), choose_size(TRIALS, TRIALS[:2]))
     return [Case(trial.name, trial.motion, trial.truth) for trial in trials]
 
 
-def hdm05(
+def join_hdm05(
     seeds: int, *, first: int = 0, runs: int = 8, repeats: tuple[int, int] = (3, 6)
 ) -> Iterator[Case]:
-    """Sequences of HDM05 exercises, actors in turn; one short one, where it shall be quick."""
-    runs = few(runs, 4)
-    for seed in range(first, first + few(seeds, 1)):
+    """Join HDM05 exercises to sequences, actors in turn (quick: one short sequence)."""
+    runs = choose_size(runs, 4)
+    for seed in range(first, first + choose_size(seeds, 1)):
         actor = ACTORS[seed % len(ACTORS)]
-        made = join_exercises(drawn(exercises(actor), seed, runs, repeats))
-        yield Case(f"{actor} {seed}", made.motion, annotation(made.truth), made.truth)
+        made = join_exercises(draw_exercises(read_exercises(actor), seed, runs, repeats))
+        yield Case(f"{actor} {seed}", made.motion, make_truth(made.truth), made.truth)
 
 
-def drawn(
+def draw_exercises(
     takes: list[Exercise], seed: int, runs: int, repeats: tuple[int, int], actions: int = 5
 ) -> list[Exercise]:
-    """Runs of an actor's exercises in random order; no action follows itself."""
+    """Draw runs of exercises in random order; no action follows itself."""
     of_name: dict[str, list[Exercise]] = {}
     for exercise in takes:
         of_name.setdefault(exercise.name, []).append(exercise)
     rng = np.random.default_rng(seed)
-    # Sorted first, so that the draw does not depend on the order of the files.
+    # Sorted, so that the result does not depend on the order of the files.
     names = rng.permutation(sorted(of_name))[:actions].tolist()
     order: list[str] = []
     while len(order) < runs:
@@ -82,37 +79,36 @@ def drawn(
     parts = []
     for name in order[:runs]:
         count, found = int(rng.integers(repeats[0], repeats[1] + 1)), of_name[name]
-        # None twice before each came once.
+        # Each take is used once before any is used again.
         places = rng.permutation(len(found))
         parts += [found[places[i % len(found)]] for i in range(count)]
     return parts
 
 
 @cache
-def exercises(actor: str) -> list[Exercise]:
-    """What one actor of HDM05 did."""
+def read_exercises(actor: str) -> list[Exercise]:
+    """Read the exercises of one actor of HDM05."""
     return [
-        Exercise(kind, motion, REPETITIONS.get(kind, 1)) for _, kind, motion in cuts_of_hdm05(actor)
+        Exercise(kind, motion, REPETITIONS.get(kind, 1)) for _, kind, motion in read_hdm05(actor)
     ]
 
 
-def cuts_of_hdm05(actor: str, *, every: int = 1) -> Iterator[tuple[str, str, Motion]]:
-    """Name, class and motion of each ``HDM_<actor>_<class>_<number>_120.amc``."""
-    folder = needed("hdm05")
+def read_hdm05(actor: str, *, every: int = 1) -> Iterator[tuple[str, str, Motion]]:
+    """Yield name, class and motion of each ``HDM_<actor>_<class>_<number>_120.amc``."""
+    folder = find_data("hdm05")
     skeleton = folder / "asf" / f"HDM_{actor}.asf"
     for path in sorted((folder / "amc").glob(f"HDM_{actor}_*_120.amc"))[::every]:
         yield path.name, path.stem.split("_")[2], kineme.read(path, skeleton=skeleton)
 
 
-def synthetic(condition: str, seeds: int) -> Iterator[Case]:
-    """Walking between exercises, three to eight repetitions each, under a condition.
+def synthesize_cases(condition: str, seeds: int) -> Iterator[Case]:
+    """Synthesize exercises with walking between them, three to eight repetitions each.
 
-    ``speed``: each action at half to twice its speed; ``size``: bodies half to
-    twice as large; ``noise``: every joint shakes by up to 2 cm; ``one hand``:
-    waves and punches at half to full size are among the exercises. One seed, where it
-    shall be quick.
+    Conditions: ``speed`` varies each action's speed from half to twice; ``size`` the size of the
+    body likewise; ``noise`` moves every joint by up to 2 cm; ``one hand`` adds waves and punches
+    of half to full size; ``all`` combines these. Quick: one seed.
     """
-    for seed in range(few(seeds, 1)):
+    for seed in range(choose_size(seeds, 1)):
         rng = np.random.default_rng(seed)
         varied = {c: condition in (c, "all") for c in CONDITIONS}
         chosen = rng.permutation(EXERCISES)[:3].tolist()
@@ -125,24 +121,24 @@ def synthetic(condition: str, seeds: int) -> Iterator[Case]:
                 Action(
                     name,
                     int(rng.integers(3, 9)),
-                    speed=_factor(rng) if varied["speed"] else 1.0,
+                    speed=_draw_factor(rng) if varied["speed"] else 1.0,
                     amplitude=float(rng.uniform(0.5, 1)) if small else 1,
                     side=("left", "right")[rng.integers(2)],
                 )
             )
-        size = _factor(rng) if varied["size"] else 1.0
+        size = _draw_factor(rng) if varied["size"] else 1.0
         noise = float(rng.uniform(0, 0.02)) if varied["noise"] else 0
         made = synthesize(sequence, fps=60, size=1.75 * size, noise=noise, seed=seed)
-        yield Case(f"{condition} {seed}", made.motion, annotation(made.truth), made.truth)
+        yield Case(f"{condition} {seed}", made.motion, make_truth(made.truth), made.truth)
 
 
-def _factor(rng: np.random.Generator) -> float:
-    """From a half to two, either way as likely."""
+def _draw_factor(rng: np.random.Generator) -> float:
+    """Draw a factor from 0.5 to 2, evenly on a logarithmic scale."""
     return float(2 ** rng.uniform(-1, 1))
 
 
-def annotation(truth: Segmentation) -> Truth:
-    """A known truth in the form in which people's are: transitions are uncertain borders."""
+def make_truth(truth: Segmentation) -> Truth:
+    """Convert a known truth to the form of annotations: transitions become uncertain borders."""
     rows = truth.activities
     units = Counter(truth.primitives.activity.tolist())
     marks = Truth.from_labelling(make_labelling(rows, fps=truth.fps))
@@ -150,8 +146,8 @@ def annotation(truth: Segmentation) -> Truth:
     return replace(marks, counts=tuple(counts))
 
 
-def by_recording(path: Path) -> dict[str, list[dict[str, str]]]:
-    """Rows of a table by recording; none where there is no such table."""
+def read_rows(path: Path) -> dict[str, list[dict[str, str]]]:
+    """Return the rows of a CSV by recording; empty if the file does not exist."""
     rows: dict[str, list[dict[str, str]]] = defaultdict(list)
     if path.exists():
         with path.open(encoding="utf-8", newline="") as file:

@@ -1,8 +1,8 @@
-"""Files that are well formed and say what nobody would: damage to what they mean, not to bytes.
+"""Change the content of files but keep their syntax, for fuzzing.
 
-JSON keeps its syntax and gets other values, keys and shapes; tables get other cells, rows and
-columns; words of BVH, ASF and AMC change places; arrays and Parquet columns are written anew as
-other types. What is none of these is damaged as bytes are.
+JSON gets other values, keys and shapes; tables get other cells, rows and columns; words of BVH,
+ASF and AMC change places; arrays and Parquet columns get other types. In all other files, bytes
+are damaged.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from _damage import mutated
+from _damage import damage_bytes
 
 ODD: list[Any] = [
     None, True, False, 0, -1, 1, 2, 0.5, -0.0, 1e-320, 1e300, -1.7e308, math.nan, math.inf,
@@ -46,12 +46,12 @@ UNWRITABLE = (ValueError, TypeError, ArithmeticError, NotImplementedError, Looku
 Chance = random.Random
 
 
-def restructured(path: Path, data: bytes, seed: int) -> bytes:
-    """A file of another meaning, or its bytes damaged where nothing is known of its structure."""
+def change_structure(path: Path, data: bytes, seed: int) -> bytes:
+    """Return a file with other content, or with damaged bytes if its syntax is unknown."""
     chance = random.Random(seed)
     change = CHANGES.get(path.suffix.lower())
     if change is None:
-        return mutated(data, seed)
+        return damage_bytes(data, seed)
     try:
         with np.errstate(all="ignore"):
             for _ in range(chance.randint(1, 3)):
@@ -61,8 +61,8 @@ def restructured(path: Path, data: bytes, seed: int) -> bytes:
     return data
 
 
-def _json(data: bytes, chance: Chance) -> bytes:
-    """Another value, key, order or number of something anywhere in the tree."""
+def _change_json(data: bytes, chance: Chance) -> bytes:
+    """Change, move, repeat or delete a value or key anywhere in the tree."""
     tree = json.loads(data)
     places: list[tuple[Any, Any]] = []
     waiting = [tree]
@@ -92,8 +92,8 @@ def _json(data: bytes, chance: Chance) -> bytes:
     return json.dumps(tree).encode("utf-8", "surrogatepass")
 
 
-def _cells(data: bytes, chance: Chance) -> bytes:
-    """Other cells, rows and columns of a table."""
+def _change_cells(data: bytes, chance: Chance) -> bytes:
+    """Change cells, rows or columns of a table."""
     text = data.decode("utf-8", "replace")
     between = max("\t,; ", key=text.count)
     rows = [line.split(between) for line in text.split("\n")]
@@ -119,12 +119,12 @@ def _cells(data: bytes, chance: Chance) -> bytes:
         rows[at], rows[-1 - at] = rows[-1 - at], rows[at]
     ends = chance.choice(("\n", "\n", "\r\n", "\r"))
     mark = chance.choice((between, between, ";", "\t"))
-    told = ends.join(mark.join(row) for row in rows)
-    return told.encode(chance.choice(("utf-8", "utf-8", "utf-16")))
+    changed = ends.join(mark.join(row) for row in rows)
+    return changed.encode(chance.choice(("utf-8", "utf-8", "utf-16")))
 
 
-def _words(data: bytes, chance: Chance) -> bytes:
-    """Words in other places, of those that the format knows."""
+def _swap_words(data: bytes, chance: Chance) -> bytes:
+    """Replace or swap words by others that the format uses."""
     words = re.split(r"(\s+)", data.decode("utf-8", "replace"))
     head = chance.choice((40, 400, len(words)))
     a, b = (chance.randrange(min(head, len(words))) for _ in range(2))
@@ -143,7 +143,7 @@ def _words(data: bytes, chance: Chance) -> bytes:
     return "".join(words).encode()
 
 
-def _array(array: Any, chance: Chance) -> Any:
+def _change_array(array: Any, chance: Chance) -> Any:
     """The same numbers as another type, in another shape, or with odd ones among them."""
     array = np.asarray(array)
     floats = array.dtype.kind == "f" and array.size
@@ -163,27 +163,29 @@ def _array(array: Any, chance: Chance) -> Any:
         return chance.choice(changes)()
 
 
-def _npy(data: bytes, chance: Chance) -> bytes:
+def _change_npy(data: bytes, chance: Chance) -> bytes:
     file = io.BytesIO()
-    np.save(file, _array(np.load(io.BytesIO(data)), chance), allow_pickle=False)
+    np.save(file, _change_array(np.load(io.BytesIO(data)), chance), allow_pickle=False)
     return file.getvalue()
 
 
-def _npz(data: bytes, chance: Chance) -> bytes:
+def _change_npz(data: bytes, chance: Chance) -> bytes:
     held = dict(np.load(io.BytesIO(data)))
     name = chance.choice(list(held))
     if chance.random() < 0.2:
         del held[name]
     elif name == "head":
-        held[name] = np.array(_json(str(held[name]).encode(), chance).decode("utf-8", "replace"))
+        held[name] = np.array(
+            _change_json(str(held[name]).encode(), chance).decode("utf-8", "replace")
+        )
     else:
-        held[name] = _array(held[name], chance)
+        held[name] = _change_array(held[name], chance)
     file = io.BytesIO()
     np.savez(file, **held)
     return file.getvalue()
 
 
-def _parquet(data: bytes, chance: Chance) -> bytes:
+def _change_parquet(data: bytes, chance: Chance) -> bytes:
     import pyarrow as pa
     from pyarrow import parquet
 
@@ -210,17 +212,20 @@ def _parquet(data: bytes, chance: Chance) -> bytes:
         odd = chance.choice((math.nan, 1e300, -1, 2**62, "", "x", [1.0], {"a": 1}, b"x"))
         table = table.set_column(at, name, pa.array([odd] * n))
     else:
-        told = {
+        texts = {
             key: text for key, text in (table.schema.metadata or {}).items() if text[:1] == b"{"
         }
-        table = table.replace_schema_metadata({k: _json(text, chance) for k, text in told.items()})
+        table = table.replace_schema_metadata(
+            {k: _change_json(text, chance) for k, text in texts.items()}
+        )
     file = io.BytesIO()
     parquet.write_table(table, file)
     return file.getvalue()
 
 
 CHANGES: dict[str, Callable[[bytes, Chance], bytes]] = {
-    ".json": _json, ".gltf": _json, ".npy": _npy, ".npz": _npz, ".parquet": _parquet,
-    **dict.fromkeys((".csv", ".tsv", ".txt", ".trc", ".mot", ".sto"), _cells),
-    **dict.fromkeys((".bvh", ".asf", ".amc"), _words),
+    ".json": _change_json, ".gltf": _change_json, ".npy": _change_npy, ".npz": _change_npz,
+    ".parquet": _change_parquet,
+    **dict.fromkeys((".csv", ".tsv", ".txt", ".trc", ".mot", ".sto"), _change_cells),
+    **dict.fromkeys((".bvh", ".asf", ".amc"), _swap_words),
 }  # fmt: skip

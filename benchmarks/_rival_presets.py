@@ -1,10 +1,9 @@
-"""Segmenters of other packages as presets, so that they are scored as every method is.
+"""Register segmenters of other packages as presets, so that they are scored like every method.
 
-They get the channels in standard deviations, averaged to 20 samples a second, and run with
-their defaults. What has to be told a number is told the true number of classes. Where a package
-finds borders only, segments are joined to that many clusters by Ward's linkage of the means and
-deviations of their channels. Packages that are not installed are left out;
-``benchmarks/rivals/requirements.txt`` names them.
+Input: standardized channels, averaged to 20 samples per second. All run with their defaults.
+Methods that need the number of classes get the true one. If a package finds only borders, Ward's
+linkage of the means and deviations of the channels joins segments to that many clusters.
+Packages that are not installed are left out; ``benchmarks/rivals/requirements.txt`` lists them.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ RATE = 20.0
 
 @dataclass(frozen=True, kw_only=True)
 class RivalPreset(BaselinePreset):
-    """What all share: channels as they are, 20 times a second."""
+    """A segmenter of another package, at 20 samples per second."""
 
     package: ClassVar[str] = ""
 
@@ -38,7 +37,7 @@ class RivalPreset(BaselinePreset):
 
 
 class ClapPreset(RivalPreset):
-    """ClaSP's change points, and which segments are one state by CLaP."""
+    """Change points by ClaSP, states by CLaP."""
 
     package: ClassVar[str] = "claspy"
 
@@ -57,7 +56,7 @@ class ClapPreset(RivalPreset):
 
 @dataclass(frozen=True, kw_only=True)
 class KernelChangePreset(ClassCountConstants, RivalPreset):
-    """Change points of an RBF kernel, log n for each, as it is usual; clusters as said above."""
+    """Change points with an RBF kernel and the usual penalty log n; clusters by Ward's linkage."""
 
     package: ClassVar[str] = "ruptures"
 
@@ -66,12 +65,12 @@ class KernelChangePreset(ClassCountConstants, RivalPreset):
 
         search = ruptures.KernelCPD(kernel="rbf", min_size=round(RATE / 2)).fit(features)
         ends = search.predict(pen=float(np.log(len(features))))
-        return grouped(np.asarray(ends[:-1], np.int64), features, self.required_classes())
+        return cluster_segments(np.asarray(ends[:-1], np.int64), features, self.required_classes())
 
 
 @dataclass(frozen=True, kw_only=True)
 class HiddenMarkovPreset(ClassCountConstants, RivalPreset):
-    """A hidden Markov model with a Gaussian for each state, told how many there are."""
+    """A Gaussian hidden Markov model with the true number of states."""
 
     package: ClassVar[str] = "tsseg"
 
@@ -84,8 +83,8 @@ class HiddenMarkovPreset(ClassCountConstants, RivalPreset):
         return Segments(cuts, number_by_appearance(states[np.append(0, cuts)]), len(features))
 
 
-def grouped(cuts: Ints, features: Floats, n_classes: int) -> Segments:
-    """Segments between the cuts, in that many clusters at most."""
+def cluster_segments(cuts: Ints, features: Floats, n_classes: int) -> Segments:
+    """Cluster the segments between cuts into at most so many clusters."""
     from scipy.cluster.hierarchy import fcluster, linkage
 
     if not len(cuts):
@@ -104,7 +103,7 @@ RIVALS = (
 
 
 def register_rivals() -> tuple[list[str], list[str]]:
-    """Names of the presets whose packages are here, and of the packages that are not."""
+    """Register presets; return their names, and those of packages that are not installed."""
     here = [rival for rival in RIVALS if find_spec(rival.package)]
     for rival in here:
         register(rival, replace=True)

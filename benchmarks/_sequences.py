@@ -1,17 +1,9 @@
-"""Sequences of recorded exercises, of which every border and repetition is known.
+"""Join recorded exercises to sequences with known borders and repetitions.
 
-Many collections hold single exercises, each cut out by people. Joined end to
-end they make recordings as long and as varied as wanted, of
-real movement and with a known truth.
-
-At a join the second motion is turned about the vertical and moved along the floor to where the
-first one ended. What differs then is made up on both sides. Over the join every rotation goes from
-the one to the other along the sphere while both movements go on: no frame is lost, and nobody
-stops.
-
-The truth is a segmentation like any other. Between two
-repetitions of one action the border is the join's middle; between two actions
-the join is a transition.
+At a join, the second motion is turned about the vertical and moved along the floor to the end of
+the first. Rotations and translations are then blended while both motions continue, so that no
+frame is lost. Between repetitions of one action the border is the middle of the join; between two
+actions the join is a transition.
 """
 
 from __future__ import annotations
@@ -36,7 +28,7 @@ from kineme.segments.segmentation import Segmentation
 def join_recordings(
     motions: Sequence[Motion], join: float = 0.4
 ) -> tuple[Motion, NDArray[np.int64], list[int]]:
-    """One motion of all, the first frame of each and the end, and half of each join in frames.
+    """Return the joined motion, the first frame of each part and the end, and half-joins in frames.
 
     Motions need one skeleton, one frame rate, and rotations. A join is blended over ``join``
     seconds, at most a third of the shorter motion.
@@ -44,7 +36,7 @@ def join_recordings(
     fps = motions[0].fps
     placed = [motions[0]]
     for motion in motions[1:]:
-        placed.append(_placed_after(placed[-1], motion))
+        placed.append(_move_after(placed[-1], motion))
     rotations = [np.array(motion.rotations) for motion in placed]
     translations = [
         compute_local_translations(motion.skeleton, motion.positions, motion.rotations)
@@ -66,50 +58,49 @@ def join_recordings(
     return motion, np.cumsum([0, *map(len, rotations)]), halves
 
 
-def _placed_after(before: Motion, motion: Motion) -> Motion:
-    """Return the motion turned and moved so that its root goes on where the one before ends."""
+def _move_after(before: Motion, motion: Motion) -> Motion:
+    """Turn and move a motion so that its root continues where the previous one ends."""
     # Rotation of the root where the first motion ends and the second begins.
     ended, begins = np.array(before.rotations)[-1, 0], np.array(motion.rotations)[0, 0]
     q = rot.multiply(ended, rot.conjugate(begins))
     # The part of the rotation about y: twice the angle between w and y.
     turned = turn(motion, 2 * float(np.arctan2(q[2], q[0])))
     step = before.positions[-1, 0] - turned.positions[0, 0]
-    # On the floor only: heights are left to the blend.
+    # Move along the floor only; the blend corrects heights.
     return move(turned, step * [1, 0, 1])
 
 
 def _blend(a: Floats, b: Floats, a_shift: Floats, b_shift: Floats, half: int) -> None:
-    """Bends the end of a and the start of b towards each other, in place."""
+    """Blend the end of a and the start of b in place."""
     from scipy.spatial.transform import Rotation
 
     if half == 0:
         return
     x = (np.arange(2 * half) + 0.5) / (2 * half)
     share = (x * x * (3 - 2 * x))[:, None, None]
-    # A smooth step; the second motion starts bent back by what is left of it.
+    # Smooth step from 0 to 1; the second motion gets the part after the join, from -0.5 to 0.
     share[half:] -= 1
     # The rotation from the end of the first motion to the start of the second.
     vectors = Rotation.from_quat(np.roll(rot.multiply(rot.conjugate(a[-1]), b[0]), -1, -1))
     angles = share * vectors.as_rotvec()
     bends = np.roll(Rotation.from_rotvec(angles.reshape(-1, 3)).as_quat(), 1, -1)
     bends = bends.reshape(*angles.shape[:2], 4)
-    # Translations are made up in the same way, in a line.
+    # Translations are blended linearly.
     shift = share * (b_shift[0] - a_shift[-1])
     a[-half:] = rot.multiply(a[-half:], bends[:half])
     b[:half] = rot.multiply(b[:half], bends[half:])
     a_shift[-half:] += shift[:half]
-    # The same share as for the rotations.
     b_shift[:half] += shift[half:]
 
 
 @dataclass(frozen=True, eq=False)
 class Exercise:
-    """A recording of one exercise and nothing else.
+    """A recording of one exercise.
 
     Parameters
     ----------
     name : str
-        What it is; exercises of one name are one action.
+        Exercises of the same name are one action.
     motion : Motion
         With rotations.
     repetitions : int, optional
@@ -122,7 +113,7 @@ class Exercise:
 
 
 def join_exercises(parts: Sequence[Exercise], *, join: float = 0.4) -> SyntheticRecording:
-    """Exercises of one person joined in the order given, and where each begins and ends.
+    """Join exercises of one person in order, and return the motion with its truth.
 
     Parameters
     ----------
@@ -133,11 +124,11 @@ def join_exercises(parts: Sequence[Exercise], *, join: float = 0.4) -> Synthetic
     """
     motion, starts, halves = join_recordings([part.motion for part in parts], join)
     provenance = Provenance(format="sequence").noted(f"{len(parts)} exercises joined")
-    truth = _truth(list(parts), starts, halves, motion.fps)
+    truth = _make_truth(list(parts), starts, halves, motion.fps)
     return SyntheticRecording(replace(motion, provenance=provenance), truth)
 
 
-def _truth(
+def _make_truth(
     parts: list[Exercise], starts: NDArray[np.int64], halves: list[int], fps: float
 ) -> Segmentation:
     numbers = {name: i for i, name in enumerate(dict.fromkeys(part.name for part in parts))}
@@ -159,7 +150,7 @@ def _truth(
         edges[0], edges[-1] = edges[0] + before, edges[-1] - after
         add("activity", "activity", edges[0], edges[-1], name)
         for i, (start, stop) in zip(run, pairwise(edges), strict=True):
-            # Repetitions within an exercise are taken to be equally long.
+            # Assume that repetitions within an exercise have equal lengths.
             borders = np.linspace(start, stop, parts[i].repetitions + 1).astype(int).tolist()
             for a, b in pairwise(borders):
                 add("primitive", "primitive", a, b, name)

@@ -1,7 +1,7 @@
-"""Recordings of every kind that people cut, tagged or counted: one source after the other.
+"""Provide sources of recordings that people cut, tagged, labelled or counted.
 
-A source yields `Sample`s: a recording, and how a segmentation of it is judged. Figures of a
-source are those of `kineme.evaluation.score.pool_scores`: ratios are summed, numbers averaged.
+A source yields `Sample`s: a recording, and a function that scores a segmentation of it. Scores of
+a source are combined by `kineme.evaluation.score.pool_scores`: ratios are summed, numbers averaged.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 import kineme
-from _joined import Piece, clusters_of, joined, person_of, pieces
+from _joined import Piece, join_signals, list_clusters, parse_person, read_pieces
 from _options import DATA
-from _recordings import Case, by_recording, hdm05, subject_86, synthetic
-from _sparse_recordings import SparseCase, found_units, matches, sparse_events
+from _recordings import Case, join_hdm05, read_rows, read_subject_86, synthesize_cases
+from _sparse_recordings import SparseCase, make_sparse_events, match_events, select_repetitions
 from kineme.evaluation import evaluate_segmentation
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.folder import find_recordings
@@ -33,36 +33,36 @@ from kineme.segments.table import SegmentTable
 from sets import read_sensors
 
 NEAR_S = 0.5
-"""Borders this near to a true one are right."""
+"""Tolerance of borders, in seconds."""
 TAGGED_S = 0.3
-"""A gesture is found if its tag lies in an occurrence, or this near to it."""
+"""Seconds by which a tag may lie outside an occurrence of its gesture."""
 PERSON = re.compile(r"_s(\d+)")
-"""In names of takes."""
+"""Number of the person in names of takes."""
 STANDING_S = 0.5
-"""Between two exercises of a session."""
+"""Seconds between two exercises of a session."""
 ENDS = ("start_s", "stop_s")
-"""Columns of a set."""
+"""Columns with the ends of a set."""
 ANNOTATED = ("one_to_one", "border_f1", "covering", "count_exact")
-"""Scores where annotators cut."""
+"""Scores of recordings that annotators cut."""
 CONTINUOUS = ("one_to_one", "border_f1", "covering")
-"""Scores of real recordings of several activities."""
+"""Scores of recordings of several activities."""
 LABELLED = ("mof", "edit", "f1@50", "border_f1")
-"""Scores of `kineme evaluate` where people labelled what is done."""
+"""Scores of labelled recordings."""
 
 Judged = Mapping[str, float | Ratio]
-"""Scores of a recording by the name of the figure."""
+"""Scores of a recording by name."""
 
 
 class Sample(NamedTuple):
-    """A recording, and how a segmentation of it is judged."""
+    """A recording, and a function that scores a segmentation of it."""
 
     name: str
     recording: Motion | Signals
     judge: Callable[[Segmentation], Judged]
 
 
-def cases(made: Iterable[Case], every: int) -> Iterator[Sample]:
-    """Recordings that annotators cut, or whose maker knows the truth."""
+def judge_cases(made: Iterable[Case], every: int) -> Iterator[Sample]:
+    """Yield recordings that annotators cut, or that were made with a known truth."""
 
     def judge(found: Segmentation, case: Case) -> Judged:
         values = evaluate_segmentation(case.truth, found)
@@ -72,47 +72,47 @@ def cases(made: Iterable[Case], every: int) -> Iterator[Sample]:
         yield Sample(case.name, case.motion, partial(judge, case=case))
 
 
-def sparse(seeds: int, every: int) -> Iterator[Sample]:
-    """Exercises now and then, among other movement."""
+def judge_sparse_events(seeds: int, every: int) -> Iterator[Sample]:
+    """Yield recordings of exercises at irregular times among other movement."""
 
     def judge(found: Segmentation, case: SparseCase) -> Judged:
-        right, inside = matches(case, found_units(found))
+        right, inside = match_events(case, select_repetitions(found))
         return {"recall": Ratio(right, len(case.events)), "precision": Ratio(right, inside)}
 
-    for case in islice(sparse_events(seeds), None, None, every):
+    for case in islice(make_sparse_events(seeds), None, None, every):
         yield Sample(case.name, case.motion, partial(judge, case=case))
 
 
-def of_bodies(name: str, table: str) -> list[tuple[str, Path, list[dict[str, str]]]]:
-    """The recordings of a set of bodies, and their rows of a table."""
+def list_body_recordings(name: str, table: str) -> list[tuple[str, Path, list[dict[str, str]]]]:
+    """Return name, path and table rows of each recording of a set of bodies."""
     folder = DATA / "bodies" / name
-    rows = by_recording(folder / table)
+    rows = read_rows(folder / table)
     return [(key, folder / "recordings" / f"{key}.npz", rows[key]) for key in sorted(rows)]
 
 
-def takes(name: str, every: int) -> Iterator[Sample]:
-    """One exercise, ten times over, each repetition cut by people.
+def judge_takes(name: str, every: int) -> Iterator[Sample]:
+    """Yield takes of one exercise with ten repetitions, each cut by people.
 
-    The first start of either is left out: people have it where the recording begins.
+    The first start is not scored: annotators set it to the start of the recording.
     """
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
-        count = most_repeated(found)
+        count = count_most_repeated(found)
         true = sorted(float(row["start_s"]) for row in rows)[1:]
-        own = sorted({row.start_s for row in found_units(found)})[1:]
-        hits = near(true, own)
+        own = sorted({row.start_s for row in select_repetitions(found)})[1:]
+        hits = count_near(true, own)
         return {
             "exact": float(count == len(rows)),
             "within_one": float(abs(count - len(rows)) <= 1),
             "repetitions_f1": Ratio(2 * hits, len(true) + len(own)),
         }
 
-    for key, path, rows in of_bodies(name, "labels.csv")[::every]:
+    for key, path, rows in list_body_recordings(name, "labels.csv")[::every]:
         yield Sample(key, kineme.read(path), partial(judge, rows=rows))
 
 
 class Exercise(NamedTuple):
-    """A part of a session: its frames, its name, and the seconds at which repetitions start."""
+    """A part of a session: frames, label, and the seconds at which repetitions start."""
 
     start: int
     stop: int
@@ -124,29 +124,29 @@ class Exercise(NamedTuple):
         return len(self.starts)
 
 
-def sessions(name: str, every: int) -> Iterator[Sample]:
-    """All exercises of a person in random order, standing between them."""
-    for who, motion, parts in session_recordings(name, every):
-        yield Sample(who, motion, partial(judged_session, parts=parts))
+def judge_sessions(name: str, every: int) -> Iterator[Sample]:
+    """Yield all exercises of each person, joined in random order."""
+    for who, motion, parts in join_sessions(name, every):
+        yield Sample(who, motion, partial(score_session, parts=parts))
 
 
-def session_recordings(name: str, every: int) -> Iterator[tuple[str, Motion, list[Exercise]]]:
-    """Each person, the session, and its exercises."""
+def join_sessions(name: str, every: int) -> Iterator[tuple[str, Motion, list[Exercise]]]:
+    """Yield each person, the joined session, and its exercises."""
     people = defaultdict(list)
-    for key, path, rows in of_bodies(name, "labels.csv"):
+    for key, path, rows in list_body_recordings(name, "labels.csv"):
         people[PERSON.findall(key)[-1]].append((path, rows))
     rng = np.random.default_rng(0)
     for who, made in list(people.items()):
         order = rng.permutation(len(made)).tolist()
-        motion, parts = one_after_the_other([made[i] for i in order])
+        motion, parts = join_takes([made[i] for i in order])
         if list(people).index(who) % every == 0:
             yield who, motion, parts
 
 
-def one_after_the_other(
+def join_takes(
     made: list[tuple[Path, list[dict[str, str]]]],
 ) -> tuple[Motion, list[Exercise]]:
-    """A session of these takes, each from the same place on the floor."""
+    """Join takes to a session; all start at the same point on the floor."""
     motions = keep_shared_joints([kineme.read(path) for path, _ in made])
     fps, places, parts, n = motions[0].fps, [], [], 0
     for motion, (_, rows) in zip(motions, made, strict=True):
@@ -163,7 +163,7 @@ def one_after_the_other(
 
 
 def keep_shared_joints(motions: list[Motion]) -> list[Motion]:
-    """Leave out joints that some takes lack, such as markers that were not seen."""
+    """Remove joints that some takes lack, such as unseen markers."""
     first = motions[0].skeleton
     kept = [n for n in first.names if all(n in motion.skeleton.names for motion in motions)]
     parents = [first.parents[first.joint(name)] for name in kept]
@@ -178,9 +178,9 @@ def keep_shared_joints(motions: list[Motion]) -> list[Motion]:
     ]
 
 
-def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:
-    """Frames in the right class, borders between exercises, and counts of each."""
-    clusters = clusters_of(found)
+def score_session(found: Segmentation, parts: list[Exercise]) -> Judged:
+    """Score frames in the right class, borders between exercises, and counts."""
+    clusters = list_clusters(found)
     classes = {part.label: i for i, part in enumerate(parts)}
     truth = np.full(found.n_frames, -1)
     for part in parts:
@@ -191,41 +191,41 @@ def judged_session(found: Segmentation, parts: list[Exercise]) -> Judged:
     np.add.at(table, (own, truth[seen]), 1)
     true = [part.stop / found.fps + STANDING_S / 2 for part in parts[:-1]]
     starts = {row.start_s for row in found.activities if row.kind == "activity"} - {0.0}
-    right = [counted(found, part.start, part.stop) == part.count for part in parts]
+    right = [count_repetitions(found, part.start, part.stop) == part.count for part in parts]
     return {
         "one_to_one": float(table[linear_sum_assignment(-table)].sum() / seen.sum()),
-        "border_f1": 2 * near(true, sorted(starts)) / (len(true) + len(starts)),
+        "border_f1": 2 * count_near(true, sorted(starts)) / (len(true) + len(starts)),
         "counts": Ratio(sum(right), len(right)),
     }
 
 
-def counted(found: Segmentation, start: float, stop: float) -> int:
+def count_repetitions(found: Segmentation, start: float, stop: float) -> int:
     """Return the largest number of repetitions of one cluster between two frames."""
-    rows = found_units(found)
+    rows = select_repetitions(found)
     middles = (rows.start_frame + rows.stop_frame) / 2
     margin = TAGGED_S * found.fps
     inside = rows[(start - margin <= middles) & (middles <= stop + margin)]
     return max(Counter(inside.cluster.tolist()).values(), default=0)
 
 
-def gestures(every: int) -> Iterator[Sample]:
-    """One of twelve gestures now and then, each with a tag."""
+def judge_gestures(every: int) -> Iterator[Sample]:
+    """Yield recordings of one of twelve gestures at irregular times, each with a tag."""
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
         tags = sorted(float(row["time_s"]) for row in rows)
-        units = found_units(found)
+        units = select_repetitions(found)
         best = max(
-            (f1_of_tags(tags, units[units.cluster == c]) for c in np.unique(units.cluster)),
+            (score_tags(tags, units[units.cluster == c]) for c in np.unique(units.cluster)),
             default=0.0,
         )
-        return {"f1": best, "exact": float(most_repeated(found) == len(tags))}
+        return {"f1": best, "exact": float(count_most_repeated(found) == len(tags))}
 
-    for key, path, rows in of_bodies("msrc12", "events.csv")[::every]:
+    for key, path, rows in list_body_recordings("msrc12", "events.csv")[::every]:
         yield Sample(key, kineme.read(path), partial(judge, rows=rows))
 
 
-def f1_of_tags(tags: list[float], units: SegmentTable) -> float:
-    """How well occurrences and tags go together, each of the one with one of the other."""
+def score_tags(tags: list[float], units: SegmentTable) -> float:
+    """Return the F1 score of occurrences, matched one to one with tags."""
     free = [(row.start_s - TAGGED_S, row.stop_s + TAGGED_S) for row in units]
     hits = 0
     for tag in tags:
@@ -236,20 +236,20 @@ def f1_of_tags(tags: list[float], units: SegmentTable) -> float:
     return 2 * hits / (len(units) + len(tags))
 
 
-def videos(every: int) -> Iterator[Sample]:
-    """Exercises that a camera saw, counted by people."""
+def judge_videos(every: int) -> Iterator[Sample]:
+    """Yield exercises from video, counted by people."""
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
-        true, own = int(rows[0]["count"]), most_repeated(found)
+        true, own = int(rows[0]["count"]), count_most_repeated(found)
         wrong = abs(own - true)
         return {"within_one": float(wrong <= 1), "error": wrong / max(1, true)}
 
-    for key, path, rows in of_bodies("countix", "counts.csv")[::every]:
+    for key, path, rows in list_body_recordings("countix", "counts.csv")[::every]:
         yield Sample(key, kineme.read(path), partial(judge, rows=rows))
 
 
-def continuous(folder: str, every: int) -> Iterator[Sample]:
-    """Recordings of several activities without a cut between them; labelled by people."""
+def judge_continuous(folder: str, every: int) -> Iterator[Sample]:
+    """Yield uncut recordings of several activities, labelled by people."""
 
     def judge(found: Segmentation, source: LabelSource) -> Judged:
         truth = source.of(n_frames=found.n_frames, fps=found.fps)
@@ -261,12 +261,12 @@ def continuous(folder: str, every: int) -> Iterator[Sample]:
         yield Sample(path.stem, kineme.read(path), partial(judge, source=source))
 
 
-def sensors(name: str, every: int) -> Iterator[Sample]:
-    """What sensors, or the joints of a camera as channels, measured; labelled by people."""
+def judge_sensors(name: str, every: int) -> Iterator[Sample]:
+    """Yield recordings of sensors, or of joints as channels, labelled by people."""
 
     def judge(found: Segmentation, source: LabelSource) -> Judged:
         truth = source.of(n_frames=found.n_frames, fps=found.fps)
-        return judged_labels(compare(truth, found))
+        return score_labels(compare(truth, found))
 
     labels = find_labels(
         find_recordings(DATA / "sets" / name / "recordings"), DATA / "sets" / name / "labels.csv"
@@ -275,39 +275,41 @@ def sensors(name: str, every: int) -> Iterator[Sample]:
         yield Sample(path.stem, read_sensors(path), partial(judge, source=source))
 
 
-def by_person(name: str, every: int) -> Iterator[Sample]:
-    """The recordings of each person as one: does the length of a file count?"""
+def judge_people(name: str, every: int) -> Iterator[Sample]:
+    """Yield the joined recordings of each person, to test whether file length matters."""
     people = defaultdict(list)
-    for piece in pieces(DATA / "sets" / name):
-        people[person_of(piece.name)].append(piece)
+    for piece in read_pieces(DATA / "sets" / name):
+        people[parse_person(piece.name)].append(piece)
 
     def judge(found: Segmentation, parts: list[Piece]) -> Judged:
         ends = np.cumsum([len(part.truth) for part in parts])[:-1]
-        each = zip(parts, np.split(clusters_of(found), ends), strict=True)
+        each = zip(parts, np.split(list_clusters(found), ends), strict=True)
         judged = [
-            judged_labels(Comparison(part.truth[known], clusters[known], found.fps))
+            score_labels(Comparison(part.truth[known], clusters[known], found.fps))
             for part, clusters in each
             if (known := part.truth != UNLABELLED).any()
         ]
         return {name: pool_scores(one[name] for one in judged) for name in LABELLED}
 
     for who, parts in list(people.items())[::every]:
-        yield Sample(who, joined([part.recording for part in parts]), partial(judge, parts=parts))
+        yield Sample(
+            who, join_signals([part.recording for part in parts]), partial(judge, parts=parts)
+        )
 
 
-def judged_labels(compared: Comparison) -> Judged:
+def score_labels(compared: Comparison) -> Judged:
     return {name: scores()[name].function(compared) for name in LABELLED}
 
 
-def barbell(every: int) -> Iterator[Sample]:
-    """A sensor on the wrist during sets of barbell exercises; the planned number of them."""
+def judge_barbell(every: int) -> Iterator[Sample]:
+    """Yield wrist sensor recordings of barbell sets with the planned count."""
     folder = DATA / "sets" / "barbell"
     rows = [
-        row for (row,) in by_recording(folder / "counts.csv").values() if row["exercise"] != "rest"
+        row for (row,) in read_rows(folder / "counts.csv").values() if row["exercise"] != "rest"
     ]
 
     def judge(found: Segmentation, planned: int) -> Judged:
-        own = most_repeated(found)
+        own = count_most_repeated(found)
         return {"exact": float(own == planned), "within_one": float(abs(own - planned) <= 1)}
 
     for row in rows[::every]:
@@ -315,13 +317,16 @@ def barbell(every: int) -> Iterator[Sample]:
         yield Sample(row["recording"], recording, partial(judge, planned=int(row["nominal_count"])))
 
 
-def counted_sets(name: str, every: int) -> Iterator[Sample]:
-    """What sensors measured during sets of repetitions, counted by people, and between them."""
+def judge_counted_sets(name: str, every: int) -> Iterator[Sample]:
+    """Yield sensor recordings with several sets of repetitions, counted by people."""
     folder = DATA / "sets" / name
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
         wrong = [
-            abs(counted(found, *(found.fps * float(row[end]) for end in ENDS)) - int(row["count"]))
+            abs(
+                count_repetitions(found, *(found.fps * float(row[end]) for end in ENDS))
+                - int(row["count"])
+            )
             for row in rows
         ]
         return {
@@ -330,19 +335,19 @@ def counted_sets(name: str, every: int) -> Iterator[Sample]:
         }
 
     files = {path.stem: path for path in find_recordings(folder / "recordings")}
-    for key, rows in list(by_recording(folder / "counts.csv").items())[::every]:
+    for key, rows in list(read_rows(folder / "counts.csv").items())[::every]:
         yield Sample(key, kineme.read(files[key]), partial(judge, rows=rows))
 
 
-def most_repeated(found: Segmentation) -> int:
-    """Repetitions of the cluster that has most of them; 0 where none has two."""
-    counts = Counter(found_units(found).cluster.tolist())
+def count_most_repeated(found: Segmentation) -> int:
+    """Return the repetitions of the largest cluster; 0 if it has only one."""
+    counts = Counter(select_repetitions(found).cluster.tolist())
     most = max(counts.values(), default=0)
     return most if most > 1 else 0
 
 
-def near(true: list[float], found: list[float]) -> int:
-    """How many true borders have a found one of their own near them."""
+def count_near(true: list[float], found: list[float]) -> int:
+    """Count true borders that match a found border of their own."""
     free, hits = list(found), 0
     for border in true:
         nearest = min(free, key=lambda other: abs(other - border), default=None)
@@ -353,28 +358,28 @@ def near(true: list[float], found: list[float]) -> int:
 
 
 SOURCES: Mapping[str, Callable[[int], Iterator[Sample]]] = {
-    "subject_86": lambda every: cases(subject_86(), every),
-    "mocap6": partial(continuous, "mocap6"),
-    "takes": partial(continuous, "rigs/takes"),
-    "tug": partial(continuous, "bodies/tug"),
-    "hdm05": lambda every: cases(hdm05(50), every),
-    "synthetic": lambda every: cases(synthetic("all", 20), every),
-    "uiprmd": partial(takes, "uiprmd"),
-    "uiprmd_sessions": partial(sessions, "uiprmd"),
-    "uiprmd_incorrect": partial(takes, "uiprmd_incorrect"),
-    "uiprmd_incorrect_sessions": partial(sessions, "uiprmd_incorrect"),
-    "msrc12": gestures,
-    "countix": videos,
-    "sparse_events": partial(sparse, 50),
-    "hugadb": partial(sensors, "hugadb"),
-    "hapt": partial(sensors, "hapt"),
-    "ipolgait": partial(sensors, "ipolgait"),
-    "utkinect": partial(sensors, "utkinect"),
-    "hugadb_by_person": partial(by_person, "hugadb"),
-    "barbell": barbell,
-    "swimming": partial(sensors, "swimming"),
-    "ptex": partial(counted_sets, "ptex"),
-    "gym_watch": partial(counted_sets, "gym_watch"),
-    "moca": partial(counted_sets, "moca"),
+    "subject_86": lambda every: judge_cases(read_subject_86(), every),
+    "mocap6": partial(judge_continuous, "mocap6"),
+    "takes": partial(judge_continuous, "rigs/takes"),
+    "tug": partial(judge_continuous, "bodies/tug"),
+    "hdm05": lambda every: judge_cases(join_hdm05(50), every),
+    "synthetic": lambda every: judge_cases(synthesize_cases("all", 20), every),
+    "uiprmd": partial(judge_takes, "uiprmd"),
+    "uiprmd_sessions": partial(judge_sessions, "uiprmd"),
+    "uiprmd_incorrect": partial(judge_takes, "uiprmd_incorrect"),
+    "uiprmd_incorrect_sessions": partial(judge_sessions, "uiprmd_incorrect"),
+    "msrc12": judge_gestures,
+    "countix": judge_videos,
+    "sparse_events": partial(judge_sparse_events, 50),
+    "hugadb": partial(judge_sensors, "hugadb"),
+    "hapt": partial(judge_sensors, "hapt"),
+    "ipolgait": partial(judge_sensors, "ipolgait"),
+    "utkinect": partial(judge_sensors, "utkinect"),
+    "hugadb_by_person": partial(judge_people, "hugadb"),
+    "barbell": judge_barbell,
+    "swimming": partial(judge_sensors, "swimming"),
+    "ptex": partial(judge_counted_sets, "ptex"),
+    "gym_watch": partial(judge_counted_sets, "gym_watch"),
+    "moca": partial(judge_counted_sets, "moca"),
 }
-"""By name: what yields every n-th of its recordings."""
+"""Functions by name that yield every n-th recording of a source."""

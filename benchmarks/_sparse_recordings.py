@@ -1,10 +1,8 @@
-"""Sparse events: exercises of HDM05 at irregular times among walking and other movement.
+"""Make recordings of exercises of HDM05 at irregular times among other movement.
 
-What people do now and then and never twice in a row: three exercises of one
-actor, four to six times each, every time another take of it as far as there
-are takes. Between two of them lies one second to five of other movement: walking
-(of subject 86, on the actor's skeleton), standing, or an exercise or activity
-that comes once in the whole recording.
+Three exercises of one actor occur four to six times each, if possible in different takes. Between
+them lie one to five seconds of other movement: walking (of subject 86, on the actor's skeleton),
+standing, or a movement that occurs only once in the recording.
 """
 
 from __future__ import annotations
@@ -16,8 +14,8 @@ from functools import cache
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from _options import few
-from _recordings import ACTORS, exercises, subject_86
+from _options import choose_size
+from _recordings import ACTORS, read_exercises, read_subject_86
 from _sequences import join_recordings
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
@@ -29,16 +27,16 @@ TARGETS = 3
 OCCURRENCES = (4, 6)
 BETWEEN_S = (1.0, 5.0)
 WALKING, STANDING = 0.5, 0.2
-"""Shares of what lies between events; the rest is movement that comes once."""
+"""Shares of the movement between events; the rest occurs only once."""
 SWAY = 0.02
-"""Radians by which somebody who stands sways."""
+"""Amplitude of swaying while standing, in radians."""
 OVERLAP = 0.5
 """Intersection over union at which a primitive and an event count as the same."""
 
 
 @dataclass(frozen=True)
 class Event:
-    """One target: what it is, and its frames [start, stop)."""
+    """One occurrence of a target exercise: its name and frames [start, stop)."""
 
     name: str
     start: int
@@ -47,64 +45,68 @@ class Event:
 
 @dataclass(frozen=True)
 class SparseCase:
-    """A recording and its targets."""
+    """A recording and its events."""
 
     name: str
     motion: Motion
     events: tuple[Event, ...]
 
 
-def sparse_events(seeds: int) -> Iterator[SparseCase]:
-    """Recordings with sparse events, actors in turn; one, where it shall be quick."""
-    for seed in range(few(seeds, 1)):
+def make_sparse_events(seeds: int) -> Iterator[SparseCase]:
+    """Yield recordings with sparse events, actors in turn (quick: one)."""
+    for seed in range(choose_size(seeds, 1)):
         actor = ACTORS[seed % len(ACTORS)]
-        motion, events = _recording(actor, np.random.default_rng(seed))
+        motion, events = _make_recording(actor, np.random.default_rng(seed))
         yield SparseCase(f"{actor} {seed}", motion, events)
 
 
-def _recording(actor: str, rng: np.random.Generator) -> tuple[Motion, tuple[Event, ...]]:
-    takes = _takes(actor)
+def _make_recording(actor: str, rng: np.random.Generator) -> tuple[Motion, tuple[Event, ...]]:
+    takes = _read_takes(actor)
     names = [name for name in sorted(takes) if name not in LOCOMOTION]
     targets = rng.permutation(names)[:TARGETS].tolist()
     order = [
         (name, take)
         for name in targets
-        for take in _draw(takes[name], int(rng.integers(OCCURRENCES[0], OCCURRENCES[1] + 1)), rng)
+        for take in _draw_takes(
+            takes[name], int(rng.integers(OCCURRENCES[0], OCCURRENCES[1] + 1)), rng
+        )
     ]
     singles = [takes[name][0] for name in sorted(takes) if name not in targets]
     singles = [singles[i] for i in rng.permutation(len(singles))] + [
-        _others(actor)[i] for i in rng.permutation(len(_others(actor)))
+        _list_others(actor)[i] for i in rng.permutation(len(_list_others(actor)))
     ]
-    parts = [_between(actor, singles, rng)]
+    parts = [_make_filler(actor, singles, rng)]
     marked = []
     for i in rng.permutation(len(order)).tolist():
         name, take = order[i]
         marked.append((len(parts), name))
-        parts += [take, _between(actor, singles, rng)]
+        parts += [take, _make_filler(actor, singles, rng)]
     motion, starts, _ = join_recordings(parts)
     events = (Event(name, int(starts[i]), int(starts[i + 1])) for i, name in marked)
     return motion, tuple(events)
 
 
-def _between(actor: str, singles: list[Motion], rng: np.random.Generator) -> Motion:
-    """Movement that is no target; what comes once is taken from the list."""
+def _make_filler(actor: str, singles: list[Motion], rng: np.random.Generator) -> Motion:
+    """Return movement between events; movements that occur once are popped from the list."""
     kind, seconds = rng.random(), float(rng.uniform(*BETWEEN_S))
     if kind < WALKING or (kind >= WALKING + STANDING and not singles):
-        return _piece(_walks(actor)[int(rng.integers(len(_walks(actor))))], seconds, rng)
+        return _cut_randomly(
+            _list_walks(actor)[int(rng.integers(len(_list_walks(actor))))], seconds, rng
+        )
     if kind < WALKING + STANDING:
-        stood = _takes(actor)["squat1Reps"]
-        return _standing(stood[int(rng.integers(len(stood)))], seconds, rng)
-    return _piece(singles.pop(), BETWEEN_S[1], rng)
+        stood = _read_takes(actor)["squat1Reps"]
+        return _make_standing(stood[int(rng.integers(len(stood)))], seconds, rng)
+    return _cut_randomly(singles.pop(), BETWEEN_S[1], rng)
 
 
-def _piece(motion: Motion, seconds: float, rng: np.random.Generator) -> Motion:
+def _cut_randomly(motion: Motion, seconds: float, rng: np.random.Generator) -> Motion:
     length = min(round(seconds * motion.fps), motion.n_frames)
     start = int(rng.integers(motion.n_frames - length + 1))
     return cut(motion, start, start + length)
 
 
-def _standing(motion: Motion, seconds: float, rng: np.random.Generator) -> Motion:
-    """The first pose of a motion held, swaying."""
+def _make_standing(motion: Motion, seconds: float, rng: np.random.Generator) -> Motion:
+    """Hold the first pose of a motion, with some swaying."""
     from scipy.spatial.transform import Rotation
 
     n = round(seconds * motion.fps)
@@ -118,61 +120,63 @@ def _standing(motion: Motion, seconds: float, rng: np.random.Generator) -> Motio
     return Motion.from_rotations(motion.skeleton, rotations, motion.fps, root)
 
 
-def _draw(takes: list[Motion], count: int, rng: np.random.Generator) -> list[Motion]:
-    """So many of the takes, none twice before each came once."""
+def _draw_takes(takes: list[Motion], count: int, rng: np.random.Generator) -> list[Motion]:
+    """Draw takes; each is used once before any is used again."""
     order = rng.permutation(len(takes))
     return [takes[order[i % len(takes)]] for i in range(count)]
 
 
 @cache
-def _takes(actor: str) -> dict[str, list[Motion]]:
+def _read_takes(actor: str) -> dict[str, list[Motion]]:
     takes: dict[str, list[Motion]] = {}
-    for exercise in exercises(actor):
+    for exercise in read_exercises(actor):
         takes.setdefault(exercise.name, []).append(exercise.motion)
     return takes
 
 
 @cache
-def _walks(actor: str) -> list[Motion]:
-    return [motion for name, motion in _retold(actor) if name == "walk"]
+def _list_walks(actor: str) -> list[Motion]:
+    return [motion for name, motion in _retarget_activities(actor) if name == "walk"]
 
 
 @cache
-def _others(actor: str) -> list[Motion]:
-    """One stretch of each activity of subject 86 but walking."""
-    return list({name: motion for name, motion in _retold(actor) if name != "walk"}.values())
+def _list_others(actor: str) -> list[Motion]:
+    """Return one part of each activity of subject 86 except walking."""
+    return list(
+        {name: motion for name, motion in _retarget_activities(actor) if name != "walk"}.values()
+    )
 
 
 @cache
-def _retold(actor: str) -> list[tuple[str, Motion]]:
-    """The activities of subject 86, by name, on the skeleton of an actor."""
-    skeleton = next(iter(_takes(actor).values()))[0].skeleton
-    height = skeleton_height(next(iter(_takes(actor).values()))[0])
+def _retarget_activities(actor: str) -> list[tuple[str, Motion]]:
+    """Return names and motions of the activities of subject 86 on the skeleton of an actor."""
+    skeleton = next(iter(_read_takes(actor).values()))[0].skeleton
+    height = measure_root_height(next(iter(_read_takes(actor).values()))[0])
     found = []
-    for case in subject_86():
+    for case in read_subject_86():
         motion, truth = case.motion, case.truth
         ratio = motion.fps / truth.fps
         starts = np.append(0, truth.latest) * ratio
         stops = np.append(truth.earliest, truth.frames) * ratio
-        root = motion.positions[:, 0] * height / skeleton_height(motion)
-        told = Motion.from_rotations(skeleton, motion.rotations, motion.fps, root)
+        root = motion.positions[:, 0] * height / measure_root_height(motion)
+        retargeted = Motion.from_rotations(skeleton, motion.rotations, motion.fps, root)
         for name, start, stop in zip(truth.labels, starts, stops, strict=True):
-            found.append((name, cut(told, int(start), min(int(stop), told.n_frames))))
+            found.append((name, cut(retargeted, int(start), min(int(stop), retargeted.n_frames))))
     return found
 
 
-def skeleton_height(motion: Motion) -> float:
-    """How high the root is most of the time."""
+def measure_root_height(motion: Motion) -> float:
+    """Return the median height of the root in metres."""
     return float(np.median(motion.positions[:, 0, 1]))
 
 
-def found_units(found: Segmentation) -> SegmentTable:
+def select_repetitions(found: Segmentation) -> SegmentTable:
     """Return the primitives that belong to a cluster."""
     rows = found.primitives
     return rows[(rows.kind == "primitive") & (rows.cluster >= 0)]
 
 
-def matches(case: SparseCase, rows: SegmentTable) -> tuple[int, int]:
+def match_events(case: SparseCase, rows: SegmentTable) -> tuple[int, int]:
     """Count the events that are found, and the primitives that lie mostly in events.
 
     Each exercise has the cluster that holds most of its events.

@@ -1,4 +1,4 @@
-"""Blender, three.js and the glTF validator as benchmarks and tests ask them, where they are.
+"""Read clips in Blender, three.js and the glTF validator, if these are installed.
 
 ``KINEME_BPY`` names a Python that has the package ``bpy`` (5.0), ``KINEME_NODE`` a folder
 ``node_modules`` with ``three`` and ``gltf-validator``.
@@ -19,7 +19,7 @@ NODE = shutil.which("node") or ""
 MODULES = Path(os.environ.get("KINEME_NODE", "node_modules"))
 THREE, VALIDATOR = MODULES / "three", MODULES / "gltf-validator"
 FRAMES = (1, 5, 9, 14)
-"""Of 30 in a second, at which poses are compared."""
+"""Frames at 30 Hz at which poses are compared."""
 
 IN_BLENDER = """
 import bpy, json, sys
@@ -85,8 +85,8 @@ const { validateBytes } = require(folder);
 Pose = dict[str, list[float]]
 
 
-def in_blender(path: Path, folder: Path, action: str = "") -> list[Pose]:
-    """Heads of the bones at rest and in `FRAMES`, metres."""
+def read_in_blender(path: Path, folder: Path, action: str = "") -> list[Pose]:
+    """Return the heads of the bones at rest and in `FRAMES`, in metres."""
     target = folder / f"{path.name}.json"
     arguments = ["-c", IN_BLENDER, str(path), action, json.dumps(FRAMES), str(target)]
     subprocess.run([BPY, *arguments], check=True, capture_output=True, timeout=300)
@@ -94,24 +94,24 @@ def in_blender(path: Path, folder: Path, action: str = "") -> list[Pose]:
     return found
 
 
-def in_three(path: Path, animation: str) -> list[Pose]:
-    """Where bones are in `FRAMES` of an animation, metres."""
-    found: list[Pose] = _node(IN_THREE, THREE, path, animation, json.dumps(FRAMES))
+def read_in_three(path: Path, animation: str) -> list[Pose]:
+    """Return the positions of bones in `FRAMES` of an animation, in metres."""
+    found: list[Pose] = _run_node(IN_THREE, THREE, path, animation, json.dumps(FRAMES))
     return found
 
 
 def count_errors(paths: Sequence[Path]) -> int:
-    """How many errors the validator of Khronos finds in glTF files."""
-    return int(_node(VALIDATE, VALIDATOR, *paths))
+    """Count the errors that the Khronos validator finds in glTF files."""
+    return int(_run_node(VALIDATE, VALIDATOR, *paths))
 
 
-def missing() -> list[str]:
-    """What is not here, and how to bring it."""
+def list_missing() -> list[str]:
+    """Return missing programs and the variable that names each."""
     found = [] if BPY else ["Blender (KINEME_BPY)"]
     found += [] if NODE and THREE.exists() else ["three.js (KINEME_NODE)"]
     return found + ([] if NODE and VALIDATOR.exists() else ["gltf-validator (KINEME_NODE)"])
 
 
-def _node(program: str, module: Path, *arguments: object) -> Any:
+def _run_node(program: str, module: Path, *arguments: object) -> Any:
     command = [NODE, "-e", program, str(module.resolve()), *map(str, arguments)]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)

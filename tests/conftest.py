@@ -1,4 +1,4 @@
-"""For all tests: where recordings are, real ones and made ones, and how laws are tried."""
+"""Provide fixtures for all tests, and profiles for hypothesis."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from hypothesis import HealthCheck, settings
 from kineme._util import parallel
 from labelled_corpus import make_corpus
 
-# How long an example takes is the machine's affair. All else is as hypothesis has it here;
-# ``pytest --hypothesis-profile=thorough`` tries each law on ten times as many examples.
+# No deadline, as run times vary. ``pytest --hypothesis-profile=thorough`` tries ten
+# times as many examples.
 for profile, examples in (("kineme", 50), ("thorough", 500)):
     settings.register_profile(
         profile,
@@ -31,7 +31,7 @@ HERE = Path(__file__).parent
 
 
 SLOWEST_FIRST = ("fuzz", "browser", "test_one_place.py", "test_docs.py", "cli", "studio", "methods")
-"""Files and folders of these tests; else two workers would wait for the last file of one."""
+"""Slow tests, started first so that parallel workers end at about the same time."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -47,7 +47,7 @@ COMPILE = "import importlib, sys; [importlib.import_module(name) for name in sys
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_setupnodes() -> None:
-    """Compile all kernels before workers, and the servers they start, do it each for itself."""
+    """Compile all kernels once, before workers and their servers start."""
     files = [
         path.relative_to(sources)
         for sources in (HERE.parent / "src", HERE.parent / "reproduction")
@@ -56,11 +56,11 @@ def pytest_xdist_setupnodes() -> None:
     names = [".".join(path.with_suffix("").parts) for path in files]
     halves = [[sys.executable, "-c", COMPILE, *names[i::2]] for i in range(2)]
     for half in [subprocess.Popen(command) for command in halves]:
-        half.wait()  # what cannot be compiled fails where it is tested
+        half.wait()  # kernels that fail to compile fail in their tests
 
 
 def find_data_dir() -> Path | None:
-    """The folder of recordings: ``KINEME_DATA``, else ``../shared/data``, else None."""
+    """Return the folder of recordings: ``KINEME_DATA``, else ``../shared/data``, else None."""
     named = os.environ.get("KINEME_DATA")
     folder = Path(named) if named else Path(__file__).resolve().parents[2] / "shared" / "data"
     return folder if folder.is_dir() else None
@@ -76,13 +76,13 @@ def data_dir() -> Path:
 
 @pytest.fixture(scope="module")
 def corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of recordings with labels, which tests only read."""
+    """Return a folder of labelled recordings that tests must not change."""
     return make_corpus(tmp_path_factory.mktemp("corpus"))
 
 
 @pytest.fixture
 def set_threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
-    """Set how many threads compute what follows in this test."""
+    """Return a function that sets the number of threads for the rest of the test."""
 
     def change(threads: int) -> None:
         monkeypatch.setattr(parallel, "_get_pool", cache(parallel._get_pool.__wrapped__))

@@ -1,8 +1,7 @@
-"""Arrows between the rooms of the package point one way; the way of the data is downhill.
+"""Check that folders of the package import each other in one direction only.
 
-`ROOMS` is the plan: every room, what comes out of it, and which others it may
-import. ``python tests/test_architecture.py`` writes it into
-``docs/architecture.md``; a test holds the page to it.
+`ROOMS` is the plan: each folder (room), what it provides, and which others it may import.
+``python tests/test_architecture.py`` writes it into ``docs/architecture.md``.
 """
 
 from __future__ import annotations
@@ -35,24 +34,23 @@ class Room(NamedTuple):
     imports: str
 
 
-# From the ground up: no room imports one that stands below it here.
+# In order of dependency: no room imports one that is listed below it.
 ROOMS = {
-    "errors": Room("every exception and warning, on one page", ""),
+    "errors": Room("all exceptions and warnings", ""),
     "recordings": Room(
-        "`Motion` and `Signals` behind one protocol; kinematics; motions from motions", "errors"
+        "`Motion` and `Signals` with one protocol; kinematics; operations on motions", "errors"
     ),
     "segments": Room(
-        "the segment table, `Segmentation`, its editing and history, whoever found it",
+        "the segment table, `Segmentation`, its editing and history",
         "recordings",
     ),
     "features": Room(
         "arrays from recordings: poses in the body's own frame, rotations, distances of points, "
-        "stacking, mirroring, bundling, envelopes of muscles; directions in which movements of "
-        "different people match",
+        "stacking, mirroring, bundling, envelopes of muscles; features for matching people",
         "recordings",
     ),
     "formats": Room(
-        "recordings from files and back: one registry, one `read`", "features recordings"
+        "reading and writing recordings: one registry, one `read`", "features recordings"
     ),
     "pose": Room(
         "poses of people in videos: estimators, and videos as recordings", "formats recordings"
@@ -62,64 +60,63 @@ ROOMS = {
         "features formats recordings segments",
     ),
     "methods": Room(
-        "`segment()` and `Segmenter`: recording → features → method → `Segmentation`; presets, "
-        "and what their methods find in arrays: `kineme`, `region_growing`",
+        "`segment()` and `Segmenter`: recording → features → method → `Segmentation`; presets and "
+        "their methods: `kineme`, `region_growing`",
         "features recordings segments transfer",
     ),
     "live": Room(
-        "`Stream`: recordings segmented while they are made; journals, and where rows come from",
+        "`Stream`: segmentation during recording; journals and sources of rows",
         "methods recordings segments transfer",
     ),
     "labels": Room(
-        "segment tables from files and back: one registry", "formats recordings segments"
+        "reading and writing segment tables: one registry", "formats recordings segments"
     ),
     "cycles": Room(
-        "`cycles()`: each repetition measured, mean curves, foot contacts",
+        "`cycles()`: measures of repetitions, mean curves, foot contacts",
         "features labels recordings segments",
     ),
     "interop": Room(
-        "segments and recordings as other libraries have them",
+        "segments and recordings as objects of other libraries",
         "formats labels methods recordings segments",
     ),
     "synthesis": Room(
-        "`MotionGraph`, routes through it, new motion from them",
+        "`MotionGraph`, routes through it, new motion",
         "features formats methods recordings segments transfer",
     ),
-    "plot": Room("pictures, each on given axes", "cycles features recordings segments synthesis"),
+    "plot": Room("plots on given axes", "cycles features recordings segments synthesis"),
     "clips": Room(
-        "a file per segment, loops that close, ranked; manifests, contact sheets and databases for "
-        "motion matching",
+        "a file per segment, ranked loops; manifests, contact sheets, motion matching",
         "cycles features formats labels plot recordings segments",
     ),
     "library": Room(
-        "collections of recordings, segmented once, with clusters in common, searched by example",
+        "collections of recordings with common clusters; search by example",
         "clips features formats labels methods plot recordings segments transfer",
     ),
     "datasets": Room(
-        "recordings with known truth, the bundled one among them; CMU's, fetched",
+        "recordings with known truth, also bundled; download of CMU's",
         "formats recordings segments",
     ),
     "evaluation": Room(
-        "scores of any result against any truth, and of methods over a folder",
+        "scores of results against truth, and of methods over a folder",
         "datasets formats labels methods recordings segments transfer",
     ),
     "web": Room(
-        "sources of the pages, the built pages, and what they are told",
+        "sources of the pages, the built pages, and their data",
         "cycles features formats labels recordings segments",
     ),
     "report": Room(
-        "one page of HTML that shows a recording, or compares two sessions",
+        "an HTML page that shows a recording or compares two sessions",
         "cycles features plot recordings segments web",
     ),
     "studio": Room(
-        "a local server and its page: recordings looked at, tables corrected and kept",
+        "a local server and its page to view recordings and correct tables",
         "clips datasets evaluation formats labels library methods pose recordings report "
         "segments transfer web",
     ),
-    "cli": Room("commands, each imported when it is asked for", "*"),
+    "cli": Room("commands, imported when used", "*"),
 }
 UTIL = {"_util", "_version"}
-"""What any room may import; `_util` itself imports errors alone."""
+"""Modules that any room may import; `_util` itself imports errors only."""
 KNOW_RECORDINGS = {"prepare", "segmenter", "estimator"}
 """Modules of `methods` that take recordings; the others take arrays. Bundling takes any curve."""
 ON_ARRAYS = ("kineme.features.bundling", "kineme.features.channels")
@@ -164,7 +161,7 @@ def allowed(name: str) -> set[str]:
 
 def table() -> str:
     """The plan as the page has it."""
-    lines = ["| room | what comes out of it | imports |", "|---|---|---|"]
+    lines = ["| folder | provides | imports |", "|---|---|---|"]
     for name, (gives, imports) in ROOMS.items():
         shown = {"": "–", "*": "everything; nobody imports it"}.get(imports)
         names = ", ".join(f"`{word}`" for word in imports.split())

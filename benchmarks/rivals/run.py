@@ -1,10 +1,9 @@
-"""Our methods and outside packages, as they are, on the same recordings in one run.
+"""Run our methods and other packages on the same recordings.
 
-    python benchmarks/rivals/run.py [--trials 86_01 …] [--methods claspy_clasp …] [--json FILE]
+    python benchmarks/rivals/run.py [--trials 86_01 …] [--methods claspy_clasp …]
 
-Makes an environment of its own in ``benchmarks/rivals/.venv`` (about 800 MB),
-installs ``requirements.txt`` and this checkout there, and runs ``rivals.py`` in
-it. Needs nothing but Python; the recordings are found as by ``kineme evaluate``.
+Creates an environment in ``benchmarks/rivals/.venv`` (about 800 MB), installs
+``requirements.txt`` and this checkout there, and runs ``rivals.py`` in it, which prints JSON.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ PYTHON = ENVIRONMENT / ("Scripts/python.exe" if os.name == "nt" else "bin/python
 
 
 def prepare() -> None:
-    """Make the environment, anew when the requirements have changed."""
+    """Create the environment; replace it if the requirements changed."""
     installed = ENVIRONMENT / "installed.txt"
     if installed.is_file() and installed.read_text() == REQUIREMENTS.read_text():
         return

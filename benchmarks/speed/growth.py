@@ -1,13 +1,11 @@
-"""How time and memory grow with the length of a recording.
+"""Measure how time and memory grow with the length of a recording.
 
-    python -m benchmarks growth [--hours 1 4] [--presets kineme ...] [--everywhere] [--record]
+    python -m benchmarks growth [--hours 1 4] [--presets kineme ...] [--record]
 
-Features of the five trials, end to end over and over with a little noise, so
-that no hour is like another. The published methods with ``max_lag`` 10 s unless
-``--everywhere``; `kineme` as it is.
-Every size runs in a process of its own, first on a minute so that compiled
-code is loaded; peak memory is the whole process's. docs/results.md shows what
-``--record`` keeps: seconds by the clock, so let nothing else run.
+The input is the features of the five trials, repeated with some noise, so that no two hours are
+equal. The published methods with ``max_lag`` 10 s; `kineme` as it is.
+Each length runs in its own process, first on one minute to load compiled code; peak memory is
+that of the process. Seconds are wall time, so stop other programs before ``--record``.
 
 Limits: an hour by `kineme` in 3 s and 0.5 GB, four in 4.2 times that.
 """
@@ -27,24 +25,24 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
-from _measure import verdict
-from _options import QUICK, command_line, few, needed
+from _measure import judge
+from _options import QUICK, choose_size, find_data, make_parser
 from kineme.methods.base import Preset
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
-NOISE = 0.02  # of the spread of the features
+NOISE = 0.02  # share of the standard deviation of the features
 MAX_LAG_S = 10.0
 
 
-def features_of(preset: Preset, hours: float) -> NDArray[np.float64]:
-    """So many hours of the trials, no repetition of them like another."""
-    folder = needed("cmu86")
+def make_features(preset: Preset, hours: float) -> NDArray[np.float64]:
+    """Repeat the features of the trials for so many hours, with noise."""
+    folder = find_data("cmu86")
     once = np.concatenate(
         [
             compute_motion_features(kineme.read(folder / f"{trial}.amc"), preset)
-            for trial in few(TRIALS, TRIALS[:1])
+            for trial in choose_size(TRIALS, TRIALS[:1])
         ]
     )
     frames = round(hours * 3600 * preset.working_fps)
@@ -55,9 +53,9 @@ def features_of(preset: Preset, hours: float) -> NDArray[np.float64]:
     return features
 
 
-def one(preset: Preset, hours: float) -> None:
-    """Prints seconds and peak memory in GB of one run; meant for a process of its own."""
-    features = features_of(preset, hours)
+def run_here(preset: Preset, hours: float) -> None:
+    """Print seconds and peak memory in GB of one run in this process."""
+    features = make_features(preset, hours)
     preset.analyze(features[: round(60 * preset.working_fps)])
     start = perf_counter()
     found = preset.analyze(features)
@@ -68,12 +66,11 @@ def one(preset: Preset, hours: float) -> None:
     print(stages, file=sys.stderr)
 
 
-def run(name: str, hours: float, *, near: bool) -> tuple[float, float, str]:
-    """Seconds, gigabytes and stages of one run in a process of its own."""
+def run_in_process(name: str, hours: float) -> tuple[float, float, str]:
+    """Return seconds, gigabytes and stages of one run in a new process."""
     command = [sys.executable, __file__, "--one", "--presets", name, "--hours", str(hours)]
-    command += [] if near else ["--everywhere"]
     done = subprocess.run(
-        [*command, *few([], [QUICK])], check=False, capture_output=True, text=True
+        [*command, *choose_size([], [QUICK])], check=False, capture_output=True, text=True
     )
     if done.returncode:
         sys.stderr.write(done.stderr)
@@ -82,12 +79,12 @@ def run(name: str, hours: float, *, near: bool) -> tuple[float, float, str]:
     return seconds, gigabytes, done.stderr.strip()
 
 
-def show(name: str, lengths: Sequence[float], *, near: bool) -> None:
-    """A line for each length, and what was promised of it."""
-    how = ".max_lag" if near else ""
+def show(name: str, lengths: Sequence[float]) -> None:
+    """Print a line for each length, with its promised limits."""
+    how = ".max_lag" if name != DEFAULT else ""
     first: tuple[float, float, float] | None = None
     for hours in lengths:
-        seconds, gigabytes, stages = run(name, hours, near=near)
+        seconds, gigabytes, stages = run_in_process(name, hours)
         line = f"{name}{how.replace('.', ', ')}, {hours:g} h: {seconds:.1f} s, {gigabytes:.2f} GB"
         key = f"growth.{name}{how}.{hours:g}_h"
         record(f"{key}.seconds", round(seconds, 2), unit="s")
@@ -98,30 +95,28 @@ def show(name: str, lengths: Sequence[float], *, near: bool) -> None:
             record(f"{key}.times_{first[0]:g}_h", round(times[0], 2), unit="times")
             record(f"{key}.memory_times_{first[0]:g}_h", round(times[1], 2), unit="times")
         if name == DEFAULT and hours == 1:
-            line += f"; s {verdict(seconds, 3)}, GB {verdict(gigabytes, 0.5)}"
+            line += f"; s {judge(seconds, 3)}, GB {judge(gigabytes, 0.5)}"
         if name == DEFAULT and (first or (0,))[0] == 1 and hours == 4:
-            line += f", {verdict(max(times), 4.2)}"
+            line += f", {judge(max(times), 4.2)}"
         first = first or (hours, seconds, gigabytes)
         print(f"{line}\n  of which {stages}", flush=True)
 
 
 def main() -> None:
-    parser = command_line(__doc__)
-    parser.add_argument("--hours", type=float, nargs="+", default=few([1, 4], [0.01, 0.04]))
+    parser = make_parser(__doc__)
+    parser.add_argument("--hours", type=float, nargs="+", default=choose_size([1, 4], [0.01, 0.04]))
     parser.add_argument("--presets", nargs="+", choices=PRESETS, default=[DEFAULT, *PUBLISHED])
-    parser.add_argument("--everywhere", action="store_true", help="without max_lag alone")
     parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
     add_option(parser)
     options = parser.parse_args()
     if options.one:
-        max_lag = None if options.everywhere else MAX_LAG_S
         preset = PRESETS[options.presets[0]]
         if hasattr(preset, "max_lag"):
-            preset = preset.replace(max_lag=max_lag)
-        one(preset, options.hours[0])
+            preset = preset.replace(max_lag=MAX_LAG_S)
+        run_here(preset, options.hours[0])
         return
     for name in options.presets:
-        show(name, options.hours, near=not options.everywhere and name != DEFAULT)
+        show(name, options.hours)
 
 
 if __name__ == "__main__":

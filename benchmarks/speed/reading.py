@@ -1,11 +1,10 @@
-"""How long reading takes, kinematics included, beside the bare split into words.
+"""Measure how long reading takes, with kinematics, relative to splitting the bytes into words.
 
-    python -m benchmarks reading [FOLDER OF RECORDINGS] [--hour] [--record]
+    python -m benchmarks reading [--hour] [--record]
 
-Prints the median of nine runs per file. The last column is the ratio to
-``bytes.split`` on the same data in the same run, which does not depend on the
-machine as seconds do. ``--hour`` reads, in place of that, an hour at 120 Hz of 38 joints (the
-BVH of FILES, again and again) and prints the most memory that the process held.
+Prints the median of nine runs per file. The last column is the ratio to ``bytes.split`` on the
+same data, which depends less on the machine than seconds. ``--hour`` reads instead an hour of 38
+joints at 120 Hz (a repeated BVH) and prints the peak memory.
 
 Promises: the hour in less than 1.5 GB.
 """
@@ -22,11 +21,11 @@ from statistics import median
 from time import perf_counter
 
 from _figures import add_option, record
-from _measure import verdict
-from _options import DATA, command_line, few, needed
+from _measure import judge
+from _options import choose_size, find_data, make_parser
 from kineme.formats import read
 
-HOUR = 120 * few(3600, 60)
+HOUR = 120 * choose_size(3600, 60)
 HELD = """
 import resource, sys, time, kineme
 motion = kineme.read(sys.argv[1])
@@ -37,10 +36,10 @@ print(size / 1e9, held / 1e9, time.process_time())
 
 FILES = ("cmu86/86_10.amc", "cmu_formats/49_02.bvh", "formats/aitviewer_sample.bvh")
 MOST_GB = 1.5
-RUNS = few(9, 1)
+RUNS = choose_size(9, 1)
 
 
-def seconds(work: Callable[[], object]) -> float:
+def measure_seconds(work: Callable[[], object]) -> float:
     def once() -> float:
         start = perf_counter()
         work()
@@ -51,7 +50,7 @@ def seconds(work: Callable[[], object]) -> float:
 
 
 def write_hour(sample: Path, path: Path) -> None:
-    """The frames of a BVH again and again, until it is an hour."""
+    """Write a BVH whose frames are repeated to an hour."""
     head, _, rest = sample.read_bytes().partition(b"Frames:")
     _, _, body = rest.partition(b"Frame Time:")
     lines = body.rstrip().splitlines()[1:]
@@ -61,38 +60,36 @@ def write_hour(sample: Path, path: Path) -> None:
             file.write(b"\n".join(lines[: HOUR - first]) + b"\n")
 
 
-def hour(folder: Path) -> int:
-    """What a process holds that reads an hour; 1 where it is too much."""
+def measure_hour() -> int:
+    """Print the peak memory of a process that reads an hour; return 1 if it is too high."""
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "hour.bvh"
-        write_hour(folder / FILES[1], path)
+        write_hour(find_data(FILES[1]), path)
         text = path.stat().st_size / 1e6
         command = [sys.executable, "-W", "ignore", "-c", HELD, str(path)]
         done = subprocess.run(command, check=True, capture_output=True, text=True)
     size, held, spent = map(float, done.stdout.split())
     print(f"an hour of BVH, {text:.0f} MB of text and {size:.2f} GB of positions and rotations")
-    print(f"{spent:.1f} s of processor time; GB held {verdict(held, MOST_GB)}: {held:.2f}")
-    record("reading.hour.text", round(text), unit="MB")
-    record("reading.hour.arrays", round(size, 2), unit="GB")
-    record("reading.hour.held", round(held, 2), unit="GB")
+    print(f"{spent:.1f} s of processor time; GB held {judge(held, MOST_GB)}: {held:.2f}")
+    record("reading.measure_hour.text", round(text), unit="MB")
+    record("reading.measure_hour.arrays", round(size, 2), unit="GB")
+    record("reading.measure_hour.held", round(held, 2), unit="GB")
     return int(held > MOST_GB)
 
 
 def main() -> int:
-    parser = command_line(__doc__)
-    parser.add_argument("folder", nargs="?", type=Path, default=DATA)
+    parser = make_parser(__doc__)
     parser.add_argument("--hour", action="store_true")
     add_option(parser)
     given = parser.parse_args()
-    folder = given.folder
     if given.hour:
-        return hour(folder)
+        return measure_hour()
     print(f"{'file':30} {'MB':>5} {'frames':>7} {'seconds':>8} {'MB/s':>6} {'x split':>8}")
     for name in FILES:
-        path = needed(name, folder)
+        path = find_data(name)
         data = path.read_bytes()
         size = len(data) / 1e6
-        took, bare = seconds(lambda path=path: read(path)), seconds(data.split)
+        took, bare = measure_seconds(lambda path=path: read(path)), measure_seconds(data.split)
         frames = read(path).n_frames
         print(
             f"{name:30} {size:5.1f} {frames:7d} {took:8.3f} {size / took:6.1f} {took / bare:8.1f}"
@@ -102,7 +99,7 @@ def main() -> int:
         record(f"{key}.frames", frames)
         record(f"{key}.seconds", round(took, 3), unit="s")
         record(f"{key}.times_split", round(took / bare, 1), unit="times")
-    return hour(folder) if given.quick else 0
+    return measure_hour() if given.quick else 0
 
 
 if __name__ == "__main__":

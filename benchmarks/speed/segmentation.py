@@ -1,12 +1,11 @@
-"""How long segmenting 86_10 takes, features to clusters, warm, beside a bare matrix product.
+"""Measure how long segmenting 86_10 takes, relative to a matrix product.
 
     python -m benchmarks segmentation [--runs 21] [--record]
 
-The yardstick is the float32 product X Y' of the search vectors with a copy of
-themselves (1896 × 45 and up), as a naive self-similarity matrix needs it. Of
-X X' numpy computes one half only and takes about half the time; it stands
-beside. All are medians of runs taken in turn. The authors' program took the
-seconds beside it under GNU Octave, on two cores of another machine.
+The reference is the float32 product X Y' of the features with a copy of themselves, as a naive
+self-similarity matrix needs it. For X X' numpy computes only one half. All times are medians of
+runs in turn, after one that is not counted. The authors' program ran under GNU Octave on two cores
+of another machine.
 """
 
 from __future__ import annotations
@@ -21,8 +20,8 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _measure import interleaved, verdict
-from _options import DATA, command_line, few, needed
+from _measure import judge, time_in_turn
+from _options import DATA, choose_size, find_data, make_parser
 from kineme.methods.base import Preset
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
@@ -38,11 +37,11 @@ REFERENCES = {
 
 
 def main() -> None:
-    parser = command_line(__doc__)
-    parser.add_argument("--runs", type=int, default=few(21, 1))
+    parser = make_parser(__doc__)
+    parser.add_argument("--runs", type=int, default=choose_size(21, 1))
     add_option(parser)
     runs = parser.parse_args().runs
-    motion = kineme.read(needed("cmu86/86_10.amc"))
+    motion = kineme.read(find_data("cmu86/86_10.amc"))
     stages: dict[str, dict[str, list[float]]] = {name: defaultdict(list) for name in MEASURED}
     works = {}
     for name, preset in MEASURED.items():
@@ -56,7 +55,7 @@ def main() -> None:
         works[name] = whole
         works[f"{name} X Y'"] = lambda x=features, y=copy: x @ y.T
         works[f"{name} X X'"] = lambda x=features: x @ x.T
-    seconds = interleaved(works, runs=runs)
+    seconds = time_in_turn(works, runs=runs)
     for name in MEASURED:
         took, product, half = (seconds[f"{name}{what}"] for what in ("", " X Y'", " X X'"))
         print(f"{name}: {1000 * took:.1f} ms")
@@ -71,13 +70,13 @@ def main() -> None:
         print(f"  X Y' {1000 * product:.1f} ms: {took / product:.1f} times", end="")
         print(f"; X X' {1000 * half:.1f} ms: {took / half:.1f} times")
         if name in REFERENCES:
-            print(f"  seconds: {verdict(took, 0.1)}; times X Y': {verdict(took / product, 8)}")
+            print(f"  seconds: {judge(took, 0.1)}; times X Y': {judge(took / product, 8)}")
             path = DATA / "cmu86" / "reference" / f"{REFERENCES[name]}_86_10.json"
             octave = sum(json.loads(path.read_text())["seconds_in_octave"].values())
             record(f"{key}.octave", round(octave, 1), unit="s")
             print(f"  the authors' program in Octave: {octave:.1f} s, {octave / took:.0f} times")
     ratio = seconds["kineme"] / seconds["voegele2014"]
-    print(f"kineme: {ratio:.2f} times voegele2014; {verdict(ratio, 2)}")
+    print(f"kineme: {ratio:.2f} times voegele2014; {judge(ratio, 2)}")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,10 @@
-"""What an edit of an hour takes in the studio: seconds of the server and the page, bytes.
+"""Measure edits of an hour-long recording in the studio: time of server and page, bytes sent.
 
     python -m benchmarks studio_edits [--segments 5000 20000] [--record]
 
-The bundled recording, repeated to an hour, has a table of so many primitives, as if of a work-out.
-Edits of each kind are asked for over HTTP. Then keys are pressed in Chromium, which draws with the
-processor: until an edit is seen, until it is on the disk, what the page computes for it, and what
-it is sent meanwhile. What else the machine does falls on all of them but the processor time.
+The bundled recording, repeated to an hour, gets a table with so many primitives. Edits of each
+kind are sent over HTTP. Then keys are pressed in Chromium, which measures the time until an edit
+is saved, the computing time of the page, and the bytes that it receives.
 """
 
 from __future__ import annotations
@@ -22,23 +21,23 @@ from typing import Any
 import numpy as np
 
 import kineme
-from _browser import DRAWN, FLAGS, SIZE, chromium, wait
+from _browser import DRAWN, FLAGS, SIZE, open_chromium, wait
 from _figures import add_option, record
-from _measure import verdict
-from _options import command_line, few
+from _measure import judge, take_medians
+from _options import choose_size, make_parser
 from kineme.datasets import bundled_recording
 from kineme.segments import editing
-from studio import Studio, middle, start, timed
+from studio import Studio, start_studio, time_request
 
-MINUTES, SEGMENTS, ROUNDS = few((60, (5000, 20000), 7), (1, (100,), 1))
+MINUTES, SEGMENTS, ROUNDS = choose_size((60, (5000, 20000), 7), (1, (100,), 1))
 MOST_S, MOST_BYTES = 0.1, 20_000
 EACH = 20
-"""Primitives of an activity."""
+"""Primitives per activity."""
 KEYS = {"a border": "Alt+ArrowRight", "a split": "s", "a check": "k", "an undo": "Control+z"}
 
 
-def repeated(bvh: str, n_frames: int) -> str:
-    """Return a BVH with so many frames, from the start again where it ends."""
+def repeat_bvh(bvh: str, n_frames: int) -> str:
+    """Repeat the frames of a BVH to so many frames."""
     head, motion = bvh.split("MOTION\n")
     _, frame_time, *frames = motion.strip().split("\n")
     lines = [frames[i % len(frames)] for i in range(n_frames)]
@@ -46,26 +45,26 @@ def repeated(bvh: str, n_frames: int) -> str:
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("--segments", type=int, nargs="+", default=SEGMENTS)
     add_option(parser)
     lengths = parser.parse_args().segments
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     n_frames = MINUTES * 60 * 60
-    with tempfile.TemporaryDirectory() as name, chromium(*FLAGS) as browser:
+    with tempfile.TemporaryDirectory() as name, open_chromium(*FLAGS) as browser:
         path = Path(name) / "hour.bvh"
-        path.write_text(repeated(bundled_recording().read_text(), n_frames))
+        path.write_text(repeat_bvh(bundled_recording().read_text(), n_frames))
         for n in lengths:
             print(f"{MINUTES} minutes, {n} primitives")
-            kineme.write_segments(table_of(n, n_frames), path.with_suffix(".segments.json"))
-            studio = start(Path(name))
-            asked(studio, n, n_frames)
-            pressed(browser.new_page(viewport=SIZE), studio, n)
+            kineme.write_segments(make_table(n, n_frames), path.with_suffix(".segments.json"))
+            studio = start_studio(Path(name))
+            time_requests(studio, n, n_frames)
+            time_keys(browser.new_page(viewport=SIZE), studio, n)
             studio.end()
 
 
-def table_of(n: int, n_frames: int) -> kineme.Segmentation:
-    """Activities of as many primitives each, in eight clusters, half of them checked."""
+def make_table(n: int, n_frames: int) -> kineme.Segmentation:
+    """Make a table of equally long primitives in eight clusters, half of them checked."""
     random = np.random.default_rng(0)
     edges = np.linspace(0, n_frames, n + 1).astype(int)
     wide = np.append(edges[:-1:EACH], n_frames)
@@ -83,28 +82,28 @@ def table_of(n: int, n_frames: int) -> kineme.Segmentation:
     return editing.check(table, "primitive", edges[1:-1:2].tolist(), checked=True)
 
 
-def asked(studio: Studio, n: int, n_frames: int) -> None:
-    """Edits over HTTP, each kind some times."""
+def time_requests(studio: Studio, n: int, n_frames: int) -> None:
+    """Send edits of each kind over HTTP and print their times."""
     one = f"/api/recordings/{json.loads(studio.ask('/api/state'))['recordings'][0]['id']}"
     while (message := json.loads(studio.ask(one))).get("finding"):
         pass
     revision = message["revision"]
-    for kind, edits in edits_of(n, n_frames).items():
+    for kind, edits in make_edits(n, n_frames).items():
         rows, sizes = [], []
         for edit in edits:
             sent = {"revision": revision, "edit": edit}
-            took, answer = timed(studio, f"{one}/edits", sent)
+            took, answer = time_request(studio, f"{one}/edits", sent)
             revision = json.loads(answer)["revision"]
             rows.append(took)
             sizes.append(len(answer))
-        took, size = middle(rows[1:] or rows), median(sizes)
-        print(f"  {kind}: {took}, {size:.0f} bytes; {verdict(size, MOST_BYTES)}")
+        took, size = take_medians(rows[1:] or rows), median(sizes)
+        print(f"  {kind}: {took}, {size:.0f} bytes; {judge(size, MOST_BYTES)}")
         record(f"studio_edits.{n}.{kind}.processor", round(took.processor, 3), unit="s")
         record(f"studio_edits.{n}.{kind}.bytes", size)
 
 
-def edits_of(n: int, n_frames: int) -> dict[str, Iterator[dict[str, Any]]]:
-    """By kind; each is of another segment, and can be made once those of the kind before are."""
+def make_edits(n: int, n_frames: int) -> dict[str, Iterator[dict[str, Any]]]:
+    """Return edits by kind, each of another segment; kinds must be sent in this order."""
     edges = np.linspace(0, n_frames, n + 1).astype(int).tolist()
     level = {"level": "primitive"}
     places = [5 + 3 * i for i in range(ROUNDS + 1)]
@@ -121,8 +120,8 @@ def edits_of(n: int, n_frames: int) -> dict[str, Iterator[dict[str, Any]]]:
     }  # fmt: skip
 
 
-def pressed(tab: Any, studio: Studio, n: int) -> None:
-    """Edits as a person makes them."""
+def time_keys(tab: Any, studio: Studio, n: int) -> None:
+    """Press keys in the page and print the times of edits."""
     line = tab.context.new_cdp_session(tab)
     line.send("Network.enable")
     line.send("Performance.enable")
@@ -131,7 +130,7 @@ def pressed(tab: Any, studio: Studio, n: int) -> None:
     tab.goto(f"{studio.base}/?token={studio.token}")
     wait(tab, DRAWN)
     tab.keyboard.press("End")
-    tab.wait_for_timeout(few(3000, 500))
+    tab.wait_for_timeout(choose_size(3000, 500))
     for what, key in KEYS.items():
         rows = []
         for _ in range(ROUNDS + 1):
@@ -139,23 +138,23 @@ def pressed(tab: Any, studio: Studio, n: int) -> None:
                 tab.keyboard.press("ArrowLeft")
             tab.wait_for_timeout(300)
             received.clear()
-            begun, busy = perf_counter(), computed(line)
+            begun, busy = perf_counter(), read_busy_seconds(line)
             tab.keyboard.press(key)
             wait(tab, "window.kineme.unsent.length === 0")
             saved = perf_counter() - begun
             tab.wait_for_timeout(500)
-            rows.append((saved, computed(line) - busy, float(sum(received))))
+            rows.append((saved, read_busy_seconds(line) - busy, float(sum(received))))
         saved, busy, size = (median(column) for column in zip(*rows[1:], strict=True))
         print(
-            f"  {what} in the page: {saved:.3f} s until it is saved, {verdict(saved, MOST_S)}; "
+            f"  {what} in the page: {saved:.3f} s until it is saved, {judge(saved, MOST_S)}; "
             f"the page computes {busy:.3f} s, is sent {size:.0f} bytes"
         )
         record(f"studio_edits.{n}.{what.split()[1]}.page", round(busy, 3), unit="s")
         record(f"studio_edits.{n}.{what.split()[1]}.saved", round(saved, 3), unit="s")
 
 
-def computed(line: Any) -> float:
-    """Seconds that the page has computed."""
+def read_busy_seconds(line: Any) -> float:
+    """Return the seconds that the page has computed so far."""
     metrics = line.send("Performance.getMetrics")["metrics"]
     return next(each["value"] for each in metrics if each["name"] == "TaskDuration")
 

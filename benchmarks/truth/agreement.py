@@ -1,18 +1,16 @@
-"""Agreement with the authors' own program on five trials, every difference listed.
+"""Compare with the authors' own program on five trials and list every difference.
 
-    python -m benchmarks agreement [--data ../shared/data] [--record]
+    python -m benchmarks agreement [--record]
 
-The reference files (``cmu86/reference``) count frames from 1 at 30 Hz, and so
-does this table. A cut agrees if the program has one at the very same frame.
-Clusters are compared on the segments that both have: a segment disagrees if it
-would have to change its cluster for the two partitions to be the same.
+Frames are counted from 1 at 30 Hz, as in the reference files (``cmu86/reference``). A cut agrees
+if the program has one at the same frame. Clusters are compared on segments that both have: a
+segment differs if it must change its cluster to make the partitions equal.
 
-With bundling of our own cuts may lie a frame apart (ours minimises outright what
-the program minimises to some precision); "as stored" takes the program's own
-bundled features.
+With our bundling, cuts may lie a frame apart, because the program stops its minimisation early;
+"as stored" uses the program's own bundled features.
 
-Of ``2014_paper`` only the activities are the authors' code; its primitives and
-clusters are one reading of lost functions, so there a difference is no error.
+In ``2014_paper`` only the activities come from the authors' code. Its primitives and clusters
+reimplement lost functions, so a difference there is no error.
 """
 
 from __future__ import annotations
@@ -30,7 +28,7 @@ from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, command_line, few, needed
+from _options import DATA, choose_size, find_data, make_parser
 from kineme.features import mirror_features
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.analysis import analyze_regions
@@ -41,10 +39,10 @@ TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 LEVELS = ("activities", "primitives", "clusters")
 
 
-def _program(
+def _make_preset(
     offsets: range, radius: float, growth_radius: float, neighbors: int, **parts: Any
 ) -> RegionGrowingPreset:
-    """The 2017 program with frames at 30 Hz and radii per stacked block in metres."""
+    """Return the preset of the 2017 program, from frames at 30 Hz and radii in metres per block."""
     parts = {"bundling": None, **parts}
     return KRUEGER2017.replace(
         offsets=tuple(offset / 30 for offset in offsets),
@@ -57,23 +55,23 @@ def _program(
 
 FIVE, NINE = range(-10, 11, 5), range(-8, 9, 2)  # offsets of the stacked frames
 
-# Reference configuration and our preset. The 2014 reference was run with one warping step more
-# than the paper names.
+# Reference configuration and our preset. The 2014 reference was run with one more warping step
+# than the paper gives.
 CONFIGURATIONS = {
     "voegele2014": ("2014_paper", VOEGELE2014),
     "voegele2014 as run": (
         "2014_paper",
         VOEGELE2014.replace(steps=(*VOEGELE2014.steps, (10, 10))),
     ),
-    "2017_plain": ("2017_plain", _program(FIVE, 0.302, 0.27, 600)),
-    "2017_evaluation_1": ("2017_evaluation_1", _program(NINE, 0.296, 0.25, 800)),
-    "2017_evaluation_2": ("2017_evaluation_2", _program(range(-6, 7, 2), 0.296, 0.32, 800)),
-    "2017_mirrored": ("2017_mirrored", _program(FIVE, 0.30, 0.25, 800, mirror=True)),
-    "2017_bundled": ("2017_bundled", _program(FIVE, 0.21, 0.11, 800, bundling=32)),
-    "2017_bundled as stored": ("2017_bundled", _program(FIVE, 0.21, 0.11, 800)),
+    "2017_plain": ("2017_plain", _make_preset(FIVE, 0.302, 0.27, 600)),
+    "2017_evaluation_1": ("2017_evaluation_1", _make_preset(NINE, 0.296, 0.25, 800)),
+    "2017_evaluation_2": ("2017_evaluation_2", _make_preset(range(-6, 7, 2), 0.296, 0.32, 800)),
+    "2017_mirrored": ("2017_mirrored", _make_preset(FIVE, 0.30, 0.25, 800, mirror=True)),
+    "2017_bundled": ("2017_bundled", _make_preset(FIVE, 0.21, 0.11, 800, bundling=32)),
+    "2017_bundled as stored": ("2017_bundled", _make_preset(FIVE, 0.21, 0.11, 800)),
     "2017_bundled_mirrored": (
         "2017_bundled_mirrored",
-        _program(NINE, 0.25, 0.11, 800, bundling=32, mirror=True),
+        _make_preset(NINE, 0.25, 0.11, 800, bundling=32, mirror=True),
     ),
     "krueger2017": ("2017_program_defaults", KRUEGER2017),
     "krueger2017 as stored": ("2017_program_defaults", KRUEGER2017.replace(bundling=None)),
@@ -82,7 +80,7 @@ CONFIGURATIONS = {
 
 @dataclass(frozen=True)
 class Agreement:
-    """What one level has in common with the reference, and each difference in words.
+    """Agreement of one level with the reference, and a text for each difference.
 
     ``far`` counts the cuts, ours and theirs, farther than a frame from all of the other side.
     """
@@ -93,7 +91,7 @@ class Agreement:
 
 
 def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
-    """Agreement per level of one configuration on one trial."""
+    """Compare one configuration on one trial, by level."""
     name, preset = CONFIGURATIONS[configuration]
     path = data / "cmu86" / "reference" / f"{name}_{trial}.json"
     reference = json.loads(path.read_text())
@@ -106,13 +104,15 @@ def compare(data: Path, configuration: str, trial: str) -> dict[str, Agreement]:
     activities = set((found.activity_cuts.all + 1).tolist())
     inner = set((found.primitives[1:-1] + 1).tolist()) - activities
     return {
-        "activities": _cuts(activities, set(reference["activity_cuts"])),
-        "primitives": _cuts(inner, {*reference["all_cuts"]} - {*reference["activity_cuts"]}),
-        "clusters": _clusters(found, reference),
+        "activities": _compare_cuts(activities, set(reference["activity_cuts"])),
+        "primitives": _compare_cuts(
+            inner, {*reference["all_cuts"]} - {*reference["activity_cuts"]}
+        ),
+        "clusters": _compare_clusters(found, reference),
     }
 
 
-def _cuts(ours: set[int], theirs: set[int]) -> Agreement:
+def _compare_cuts(ours: set[int], theirs: set[int]) -> Agreement:
     differences = [f"{cut} (ours only)" for cut in sorted(ours - theirs)]
     differences += [f"{cut} (theirs only)" for cut in sorted(theirs - ours)]
     far = [cut for cut in ours if theirs.isdisjoint(range(cut - 1, cut + 2))]
@@ -120,14 +120,17 @@ def _cuts(ours: set[int], theirs: set[int]) -> Agreement:
     return Agreement(len(theirs), tuple(differences), len(far))
 
 
-def _clusters(found: RegionsFound, reference: dict[str, Any]) -> Agreement:
+def _compare_clusters(found: RegionsFound, reference: dict[str, Any]) -> Agreement:
     borders = (found.primitives + 1).tolist()
     borders[-1] = reference["frames"]
     ours = dict(zip(pairwise(borders), found.clustering.labels.tolist(), strict=True))
     spans = pairwise([1, *reference["all_cuts"], reference["frames"]])
     theirs = dict(zip(spans, reference["clusters"], strict=True))
     common = [span for span in theirs if span in ours]
-    a, b = _partition([ours[span] for span in common]), _partition([theirs[s] for s in common])
+    a, b = (
+        _number_labels([ours[span] for span in common]),
+        _number_labels([theirs[s] for s in common]),
+    )
     shared = np.zeros((a.max() + 1, b.max() + 1), int)
     np.add.at(shared, (a, b), 1)
     matched = np.zeros(shared.shape, bool)
@@ -140,22 +143,21 @@ def _clusters(found: RegionsFound, reference: dict[str, Any]) -> Agreement:
     return Agreement(len(common), tuple(differences))
 
 
-def _partition(labels: list[int]) -> NDArray[np.intp]:
+def _number_labels(labels: list[int]) -> NDArray[np.intp]:
     return np.unique(labels, return_inverse=True)[1]
 
 
 def main() -> None:
-    parser = command_line(__doc__)
-    parser.add_argument("--data", type=Path, default=DATA)
+    parser = make_parser(__doc__)
     add_option(parser)
-    data = parser.parse_args().data
-    needed("cmu86", data)
+    parser.parse_args()
+    find_data("cmu86")
     for configuration in CONFIGURATIONS:
         print(f"{configuration:24}" + "".join(f"{level:>14}" for level in LEVELS))
         sums = dict.fromkeys(LEVELS, (0, 0))
         notes = []
-        for trial in few(TRIALS, TRIALS[:1]):
-            found = compare(data, configuration, trial)
+        for trial in choose_size(TRIALS, TRIALS[:1]):
+            found = compare(DATA, configuration, trial)
             line = f"  {trial:22}"
             for level, agreement in found.items():
                 agreeing = agreement.total - len(agreement.differences)

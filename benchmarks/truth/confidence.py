@@ -1,14 +1,12 @@
-"""Are probabilities right? On recordings of sources that they were not learnt from.
+"""Check the confidence on sources that it was not learnt from, and learn its constants.
 
     python -m benchmarks confidence [--every N] [--near S] [--record]
 
-A link, a border, a count and a cut between two repetitions are each right or wrong, as people or
-the maker of the recording say. One statistic of each (``methods/kineme/confidence.py``) and two
-numbers tell how probable it is that it is right. Each source is left out in turn: its
-probabilities are those learnt from all others, each source of the same weight. Of every statistic
-alone is shown how it does so; of those that part right from wrong, the one of least squared error
-in the mean over sources is what a kind is told by. The numbers learnt from all sources are printed
-last; they are constants of the preset.
+The truth says whether a cluster (link), a border, a count and a cut between two repetitions is
+right. A logistic function of one statistic (``methods/kineme/confidence.py``) predicts the
+probability. Each source is predicted from all others, with equal weight for each source. The
+script compares the candidate statistics, chooses the one with the least mean squared error over
+sources, and prints the constants learnt from all sources, which the preset contains.
 """
 
 from __future__ import annotations
@@ -30,18 +28,18 @@ from scipy.stats import rankdata
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, command_line, few, needed
+from _options import choose_size, find_data, make_parser
 from _recordings import (
     ACTORS,
     CONDITIONS,
     Case,
-    by_recording,
-    exercises,
-    hdm05,
-    subject_86,
-    synthetic,
+    join_hdm05,
+    read_exercises,
+    read_rows,
+    read_subject_86,
+    synthesize_cases,
 )
-from _sources import NEAR_S, session_recordings
+from _sources import NEAR_S, join_sessions
 from kineme.evaluation.folder import find_recordings
 from kineme.methods.base import Columns
 from kineme.methods.kineme.found import KinemeFound
@@ -54,41 +52,41 @@ Bools = NDArray[np.bool_]
 Numbers = tuple[float, float]
 
 PREFERRED = "seconds preferred"
-"""Logarithm of the seconds of an activity times how much it prefers its own cluster; of a border
-the lesser of both sides."""
+"""Logarithm of an activity's seconds times its preference for its cluster; for a border, the
+smaller value of both sides."""
 SHARPNESS = "sharpness"
-"""Logarithm of how much more the recording changes at a border than nearby."""
+"""Logarithm of the change at a border relative to its surroundings."""
 STATISTICS = {
     "link": (PREFERRED,),
     "border": (SHARPNESS, PREFERRED),
     "count": ("correlation", "evenness"),
     "cut": ("correlation",),
 }
-"""By kind: those of ``Evidence``, and one that could be."""
+"""Candidate statistics by kind."""
 PROMISED = {"count": 0.85, "border": 0.80}
-"""Area under the curve."""
+"""Minimum area under the ROC curve (AUC)."""
 MOST_BRIER, SURE = 0.07, 0.9
 CUT_TOLERANCE = 0.25
-"""Of the longer repetition next to it."""
+"""Tolerance of a cut, as a share of the longer adjacent repetition."""
 RIDGE = 1.0
 FEW = 8
-"""A source with fewer right ones, or wrong ones, does not tell what parts them."""
+"""Minimum number of right and of wrong rows for the AUC of a source."""
 
 
 @dataclass(frozen=True)
 class Truth:
-    """What is known of a recording, in seconds.
+    """Known truth of a recording, in seconds.
 
     Attributes
     ----------
     actions : list of (start, stop, label)
     counts : list of int or None
-        Repetitions of each action; none where nobody knows.
+        Repetitions of each action; None if unknown.
     borders : list of (earliest, latest)
     cuts : array, optional
         Where repetitions begin.
     strides : pair of arrays, optional
-        When each foot swings.
+        Middles of the swings of each foot.
     """
 
     actions: list[tuple[float, float, str]] = field(default_factory=list)
@@ -99,7 +97,7 @@ class Truth:
 
 
 class Row(NamedTuple):
-    """The statistics of a thing that was found, and whether it is right."""
+    """Statistics of a found link, border, count or cut, and whether it is right."""
 
     kind: str
     source: str
@@ -108,24 +106,24 @@ class Row(NamedTuple):
 
 
 class Table(NamedTuple):
-    """All things of a kind."""
+    """All rows of one kind."""
 
     sources: NDArray[np.str_]
     statistics: Floats
     right: Bools
 
 
-# --- recordings whose truth is known ----------------------------------------------------------
+# --- recordings with known truth --------------------------------------------------------------
 
 Known = Iterator[tuple[Motion | Signals, Truth]]
 
 
-def cases(made: Iterator[Case]) -> Known:
+def read_cases(made: Iterator[Case]) -> Known:
     for case in made:
-        yield case.motion, truth_of(case)
+        yield case.motion, convert_truth(case)
 
 
-def truth_of(case: Case) -> Truth:
+def convert_truth(case: Case) -> Truth:
     known, fps = case.truth, case.truth.fps
     edges = (known.at_means().borders / fps).tolist()
     return Truth(
@@ -136,28 +134,30 @@ def truth_of(case: Case) -> Truth:
     )
 
 
-def single_exercises(every: int) -> Known:
-    """One exercise, once or a few times."""
-    for one in chain.from_iterable(exercises(actor)[:: few(every, 100)] for actor in ACTORS):
+def read_single_exercises(every: int) -> Known:
+    """Yield recordings of a single exercise."""
+    for one in chain.from_iterable(
+        read_exercises(actor)[:: choose_size(every, 100)] for actor in ACTORS
+    ):
         whole = [(0.0, one.motion.n_frames / one.motion.fps, one.name)]
         yield one.motion, Truth(whole, [one.repetitions])
 
 
-def hdm05_all(every: int) -> Known:
-    yield from cases(hdm05(60 // every))
-    yield from cases(hdm05(45 // every, runs=10, repeats=(2, 3)))
-    yield from single_exercises(every)
+def read_all_hdm05(every: int) -> Known:
+    yield from read_cases(join_hdm05(60 // every))
+    yield from read_cases(join_hdm05(45 // every, runs=10, repeats=(2, 3)))
+    yield from read_single_exercises(every)
 
 
-def synthetic_all(every: int) -> Known:
+def make_all_synthetic(every: int) -> Known:
     for condition in CONDITIONS:
-        yield from cases(synthetic(condition, max(1, 10 // every)))
+        yield from read_cases(synthesize_cases(condition, max(1, 10 // every)))
 
 
-def ui_prmd(every: int) -> Known:
-    """Sessions of exercises as they should be done, and as they should not."""
+def join_all_sessions(every: int) -> Known:
+    """Yield sessions of exercises, done correctly and incorrectly."""
     for name in ("uiprmd", "uiprmd_incorrect"):
-        for _, motion, parts in session_recordings(name, few(every, 10)):
+        for _, motion, parts in join_sessions(name, choose_size(every, 10)):
             fps = motion.fps
             spans = [(part.start / fps, part.stop / fps, part.label) for part in parts]
             yield (
@@ -171,32 +171,32 @@ def ui_prmd(every: int) -> Known:
             )
 
 
-def sensors(name: str, most: int, every: int) -> Known:
-    """Recordings of a set, evenly chosen; what lies between two labels is an uncertain border."""
-    folder = needed(f"sets/{name}")
-    tables = {table: by_recording(folder / f"{table}.csv") for table in ("labels", "events")}
-    counts = by_recording(folder / "counts.csv")
+def read_sensor_set(name: str, most: int, every: int) -> Known:
+    """Yield evenly chosen recordings; gaps between labels are uncertain borders."""
+    folder = find_data(f"sets/{name}")
+    tables = {table: read_rows(folder / f"{table}.csv") for table in ("labels", "events")}
+    counts = read_rows(folder / "counts.csv")
     paths = sorted((folder / "recordings").glob("*.parquet"))
-    for at in np.unique(np.linspace(0, len(paths) - 1, few(most // every, 2)).astype(int)):
+    for at in np.unique(np.linspace(0, len(paths) - 1, choose_size(most // every, 2)).astype(int)):
         signals, stem = read_sensors(paths[at]), paths[at].stem
         stop = signals.n_frames / signals.fps
         if name == "barbell":
             yield signals, Truth([(0.0, stop, "")], [int(counts[stem][0]["nominal_count"])])
         else:
-            yield signals, truth_of_labels(tables["labels"][stem], tables["events"][stem], stop)
+            yield signals, convert_labels(tables["labels"][stem], tables["events"][stem], stop)
 
 
-def continuous(name: str, every: int) -> Known:
-    """Recordings of several activities without a cut between them."""
-    folder = needed(name)
-    labels = by_recording(folder / "labels.csv")
+def read_continuous(name: str, every: int) -> Known:
+    """Yield uncut recordings of several activities."""
+    folder = find_data(name)
+    labels = read_rows(folder / "labels.csv")
     paths = [path for path in find_recordings(folder) if path.stem in labels]
-    for path in paths[:: few(every, 4)]:
+    for path in paths[:: choose_size(every, 4)]:
         motion = kineme.read(path)
-        yield motion, truth_of_labels(labels[path.stem], [], motion.n_frames / motion.fps)
+        yield motion, convert_labels(labels[path.stem], [], motion.n_frames / motion.fps)
 
 
-def truth_of_labels(labels: list[Any], events: list[Any], stop: float) -> Truth:
+def convert_labels(labels: list[Any], events: list[Any], stop: float) -> Truth:
     actions = [(float(row["start_s"]), float(row["stop_s"]), row["label"]) for row in labels]
     borders = [(one[1], other[0]) for one, other in pairwise(actions) if one[2] != other[2]]
     feet: dict[str, list[float]] = {"left": [], "right": []}
@@ -211,28 +211,28 @@ def truth_of_labels(labels: list[Any], events: list[Any], stop: float) -> Truth:
 
 
 KNOWN: Mapping[str, Callable[[int], Known]] = {
-    "HDM05": hdm05_all,
-    "hapt": partial(sensors, "hapt", 20),
-    "hugadb": partial(sensors, "hugadb", 60),
-    "UI-PRMD": ui_prmd,
-    "swimming": partial(sensors, "swimming", 20),
-    "tug": partial(continuous, "bodies/tug"),
-    "takes": partial(continuous, "rigs/takes"),
-    "synthetic": synthetic_all,
-    "utkinect": partial(sensors, "utkinect", 20),
-    "ipolgait": partial(sensors, "ipolgait", 60),
-    "mocap6": partial(continuous, "mocap6"),
-    "subject 86": lambda _: cases(iter(subject_86())),
-    "barbell": partial(sensors, "barbell", 40),
+    "HDM05": read_all_hdm05,
+    "hapt": partial(read_sensor_set, "hapt", 20),
+    "hugadb": partial(read_sensor_set, "hugadb", 60),
+    "UI-PRMD": join_all_sessions,
+    "swimming": partial(read_sensor_set, "swimming", 20),
+    "tug": partial(read_continuous, "bodies/tug"),
+    "takes": partial(read_continuous, "rigs/takes"),
+    "synthetic": make_all_synthetic,
+    "utkinect": partial(read_sensor_set, "utkinect", 20),
+    "ipolgait": partial(read_sensor_set, "ipolgait", 60),
+    "mocap6": partial(read_continuous, "mocap6"),
+    "subject 86": lambda _: read_cases(iter(read_subject_86())),
+    "barbell": partial(read_sensor_set, "barbell", 40),
 }
-"""By source, of the same people and devices, the longest first."""
+"""Sources of different people and devices, slowest first."""
 
 
-# --- what is right ----------------------------------------------------------------------------
+# --- judging a segmentation-------------------------------------------------------------------
 
 
 class Segments(NamedTuple):
-    """What was found, in seconds.
+    """A segmentation in seconds.
 
     Attributes
     ----------
@@ -243,7 +243,7 @@ class Segments(NamedTuple):
     repeats : (primitives,) array of bool
         Whether each is a repetition or an event.
     parents : (primitives,) array
-        The segment that it lies in.
+        Segment that contains each primitive.
     """
 
     edges: Floats
@@ -254,26 +254,26 @@ class Segments(NamedTuple):
 
     @property
     def counts(self) -> NDArray[np.int64]:
-        """Repetitions of each segment."""
+        """Return the repetitions of each segment."""
         return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
 
     @property
     def evenness(self) -> Floats:
-        """Of each segment: how little the logarithms of its repetitions' lengths deviate."""
+        """Return the negative deviation of logarithmic repetition lengths, per segment."""
         lengths = np.log(np.diff(self.cuts))
         own = [lengths[(self.parents == g) & self.repeats] for g in range(len(self.labels))]
         return np.array([-float(of.std()) if len(of) else 0.0 for of in own])
 
     def overlaps(self, truth: Truth) -> Floats:
-        """Seconds that each segment (rows) and each true action share."""
+        """Return the shared seconds of each segment (row) and each true action (column)."""
         spans = np.array([(start, stop) for start, stop, _ in truth.actions])
         inner = np.minimum.outer(self.edges[1:], spans[:, 1])
         inner -= np.maximum.outer(self.edges[:-1], spans[:, 0])
         return np.maximum(inner, 0)
 
 
-def in_seconds(columns: Columns, fps: float) -> Segments:
-    """The segments of a table of so many frames per second."""
+def convert_columns(columns: Columns, fps: float) -> Segments:
+    """Convert segment columns to seconds."""
     levels = [columns["level"] == level for level in ("activity", "primitive")]
     edges, cuts = (
         np.append(columns["start_frame"][rows], columns["stop_frame"][rows][-1]) / fps
@@ -286,22 +286,22 @@ def in_seconds(columns: Columns, fps: float) -> Segments:
 
 
 def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float) -> list[Row]:
-    """Segment a recording, and say of each thing found whether it is right."""
+    """Segment a recording and judge its links, borders, counts and cuts."""
     _, found = segment_and_found(recording)
     assert isinstance(found, KinemeFound)
-    segments = in_seconds(found.columns(), found.preset.working_fps)
+    segments = convert_columns(found.columns(), found.preset.working_fps)
     shown = found.evidence
     preferred, repeated = shown.preferred[:, None], shown.repeated[:, None]
     lesser = np.fmin(shown.preferred, np.roll(shown.preferred, 1))
     of_borders = np.column_stack([shown.sharpness, lesser])
     of_counts = np.column_stack([repeated, segments.evenness])
-    of_counts[segments.counts < 2] = np.nan  # of one there is nothing to count
+    of_counts[segments.counts < 2] = np.nan  # one repetition is not a count
     of_cuts = repeated[shown.parents]
     judged = (
-        ("link", preferred, right_links(truth, segments)),
-        ("border", of_borders, right_borders(truth, segments, near_s)),
-        ("count", of_counts, right_counts(truth, segments)),
-        ("cut", of_cuts, right_cuts(truth, segments)),
+        ("link", preferred, judge_links(truth, segments)),
+        ("border", of_borders, judge_borders(truth, segments, near_s)),
+        ("count", of_counts, judge_counts(truth, segments)),
+        ("cut", of_cuts, judge_cuts(truth, segments)),
     )
     return [
         Row(kind, source, tuple(statistics[at].tolist()), bool(right))
@@ -311,10 +311,10 @@ def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float)
     ]
 
 
-def right_links(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
-    """An activity is right where its cluster stands for the action it mostly is.
+def judge_links(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
+    """Yield each activity, and whether its cluster is matched to its main action.
 
-    Clusters stand for actions one to one, for as much time as possible.
+    Clusters are matched to actions one to one so that they share the most time.
     """
     names = sorted({label for _, _, label in truth.actions})
     if len(names) < 2:
@@ -328,16 +328,16 @@ def right_links(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
             yield g, stands_for.get(label) == shared[g].argmax()
 
 
-def right_borders(truth: Truth, found: Segments, near_s: float) -> Iterator[tuple[int, bool]]:
-    """A border is right close to a true one, or in what lies between two actions."""
+def judge_borders(truth: Truth, found: Segments, near_s: float) -> Iterator[tuple[int, bool]]:
+    """Yield each border, and whether it is near a true one or between two actions."""
     if truth.borders:
         early, late = np.array(truth.borders).T
         for g, at in enumerate(found.edges[1:-1].tolist(), start=1):
             yield g, bool(((early - near_s <= at) & (at <= late + near_s)).any())
 
 
-def right_counts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
-    """A count is right where an activity has as many repetitions in an action as are true."""
+def judge_counts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
+    """Yield the main activity of each action, and whether its count there is right."""
     counts, activity = found.counts, found.labels >= 0
     if truth.strides is not None:
         for g in np.flatnonzero(activity):
@@ -355,8 +355,8 @@ def right_counts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
             yield g, int(inside.sum()) == count
 
 
-def right_cuts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
-    """A cut is right close to where a repetition begins."""
+def judge_cuts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
+    """Yield each cut, and whether it is near the start of a true repetition."""
     if truth.cuts is None:
         return
     lengths = np.diff(found.cuts)
@@ -368,8 +368,8 @@ def right_cuts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
 # --- the model --------------------------------------------------------------------------------
 
 
-def learnt(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> Numbers:
-    """A constant and a weight by logistic regression, each source of the same weight."""
+def fit_logistic(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> Numbers:
+    """Fit constant and weight by logistic regression, with equal weight for each source."""
     _, at, counts = np.unique(sources, return_inverse=True, return_counts=True)
     share = (len(right) / len(counts) / counts)[at]
     middle, spread = statistic.mean(), max(float(statistic.std()), 1e-9)
@@ -386,30 +386,30 @@ def learnt(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> Number
     return float(weights[0] - weight * middle), weight
 
 
-def left_out(table: Table, statistic: Floats) -> Floats:
-    """Probabilities, those of each source learnt from all others."""
+def predict_left_out(table: Table, statistic: Floats) -> Floats:
+    """Predict the probabilities of each source from all others."""
     found = np.empty(len(statistic))
     for source in np.unique(table.sources):
         own = table.sources == source
         others = () if own.all() else (statistic[~own], table.right[~own], table.sources[~own])
-        constant, weight = learnt(*others) if others else (0.0, 0.0)
+        constant, weight = fit_logistic(*others) if others else (0.0, 0.0)
         found[own] = expit(constant + weight * statistic[own])
     return found
 
 
-def auc(found: Floats, right: Bools) -> float:
-    """Area under the curve; nan where there is nothing to part."""
+def compute_auc(found: Floats, right: Bools) -> float:
+    """Return the area under the ROC curve; nan if all rows are right or all are wrong."""
     yes, no = int(right.sum()), int((~right).sum())
     ranks = rankdata(found)[right].sum()
     return float((ranks - yes * (yes + 1) / 2) / (yes * no)) if yes and no else np.nan
 
 
-def scores(found: Floats, right: Bools) -> dict[str, float]:
-    """Area under the curve, mean squared error, and how much is sure and of that right."""
+def compute_scores(found: Floats, right: Bools) -> dict[str, float]:
+    """Return AUC, mean squared error, the share that is sure, and how much of it is right."""
     sure = found >= SURE
     return {
         "right": float(right.mean()),
-        "auc": auc(found, right),
+        "auc": compute_auc(found, right),
         "brier": float(np.square(found - right).mean()),
         "base": float(right.mean() * (1 - right.mean())),
         "sure": float(sure.mean()),
@@ -417,47 +417,47 @@ def scores(found: Floats, right: Bools) -> dict[str, float]:
     }
 
 
-def means(table: Table, found: Floats) -> tuple[float, float]:
-    """Area under the curve and mean squared error, in the mean over sources."""
+def average_scores(table: Table, found: Floats) -> tuple[float, float]:
+    """Return AUC and mean squared error, averaged over sources."""
     areas, errors = [], []
     for source in np.unique(table.sources):
         own = table.sources == source
         errors.append(np.square(found[own] - table.right[own]).mean())
         if min(table.right[own].sum(), (~table.right[own]).sum()) >= FEW:
-            areas.append(auc(found[own], table.right[own]))
+            areas.append(compute_auc(found[own], table.right[own]))
     return float(np.mean(areas)) if areas else np.nan, float(np.mean(errors))
 
 
-def chosen(kind: str, table: Table) -> int:
-    """The statistic that does best where each source is left out; each of them is shown."""
+def choose_statistic(kind: str, table: Table) -> int:
+    """Print the scores of all statistics and return the index of the best one."""
     print(f"\n{kind:28}{'n':>7}{'AUC':>9}{'of each':>9}{'Brier':>9}  learnt from all")
     errors = []
     for name, statistic in zip(STATISTICS[kind], table.statistics.T, strict=True):
-        found = left_out(table, statistic)
-        area, error = means(table, found)
-        constant, weight = learnt(statistic, table.right, table.sources)
-        pooled = auc(found, table.right)
+        found = predict_left_out(table, statistic)
+        area, error = average_scores(table, found)
+        constant, weight = fit_logistic(statistic, table.right, table.sources)
+        pooled = compute_auc(found, table.right)
         cells = f"{len(found):7}{pooled:9.3f}{area:9.3f}{error:9.3f}"
         print(f"  {name:26}{cells}  {constant:.4g}, {weight:.4g}", flush=True)
         errors.append(error if area > 0.5 else np.inf)
-    none = means(table, left_out(table, np.zeros(len(table.right))))
+    none = average_scores(table, predict_left_out(table, np.zeros(len(table.right))))
     print(f"  {'none':26}{'':25}{none[1]:9.3f}")
     return int(np.argmin(errors))
 
 
-def report(kind: str, table: Table, found: Floats) -> None:
-    """Scores over all sources, and of each, learnt from the others."""
+def print_report(kind: str, table: Table, found: Floats) -> None:
+    """Print and record scores over all sources and of each."""
     names = ("right", "AUC", "Brier", "(none)", "sure", "of it ok")
     print(f"\n{kind:28}{'n':>7}" + "".join(f"{name:>9}" for name in names))
     for source in ("", *np.unique(table.sources)):
         own = (table.sources == source) | (source == "")
-        row = scores(found[own], table.right[own])
+        row = compute_scores(found[own], table.right[own])
         cells = "".join(f"{value:9.3f}" for value in row.values())
         print(f"  {source or 'all':26}{own.sum():7}{cells}")
         for name, value in row.items():
             if not source and np.isfinite(value):
                 record(f"confidence.{kind}.{name}", value)
-    least, row = PROMISED.get(kind), scores(found, table.right)
+    least, row = PROMISED.get(kind), compute_scores(found, table.right)
     if least:
         print(
             f"{kind}: AUC {row['auc']:.3f}, {least:.2f} promised; Brier {row['brier']:.3f}, "
@@ -465,10 +465,10 @@ def report(kind: str, table: Table, found: Floats) -> None:
         )
 
 
-# --- all of it --------------------------------------------------------------------------------
+# --- main -------------------------------------------------------------------------------------
 
 
-def rows_of(source: str, every: int, near_s: float) -> list[Row]:
+def judge_source(source: str, every: int, near_s: float) -> list[Row]:
     warnings.simplefilter("ignore")
     return [
         row
@@ -477,8 +477,8 @@ def rows_of(source: str, every: int, near_s: float) -> list[Row]:
     ]
 
 
-def tables(rows: Sequence[Row]) -> dict[str, Table]:
-    """By kind."""
+def make_tables(rows: Sequence[Row]) -> dict[str, Table]:
+    """Collect the rows of each kind."""
     of_kinds = {kind: [row for row in rows if row.kind == kind] for kind in STATISTICS}
     return {
         kind: Table(
@@ -492,23 +492,23 @@ def tables(rows: Sequence[Row]) -> dict[str, Table]:
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("--every", type=int, default=1, help="one in so many recordings")
     parser.add_argument("--near", type=float, default=NEAR_S, help="borders are right within, s")
     parser.add_argument("--processes", type=int, default=2)
     add_option(parser)
     options = parser.parse_args()
-    needed("", DATA)
-    work = partial(rows_of, every=options.every, near_s=options.near)
-    sources = few(list(KNOWN), ["subject 86", "synthetic", "ipolgait", "UI-PRMD"])
+    find_data("")
+    work = partial(judge_source, every=options.every, near_s=options.near)
+    sources = choose_size(list(KNOWN), ["subject 86", "synthetic", "ipolgait", "UI-PRMD"])
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
         rows = list(chain.from_iterable(pool.map(work, sources)))
     lines = []
-    for kind, table in tables(rows).items():
-        best = chosen(kind, table)
+    for kind, table in make_tables(rows).items():
+        best = choose_statistic(kind, table)
         statistic = table.statistics[:, best]
-        report(kind, table, left_out(table, statistic))
-        constant, weight = learnt(statistic, table.right, table.sources)
+        print_report(kind, table, predict_left_out(table, statistic))
+        constant, weight = fit_logistic(statistic, table.right, table.sources)
         lines.append(f"{kind}_weights = ({constant:.4g}, {weight:.4g})  # {STATISTICS[kind][best]}")
     print("\n" + "\n".join(lines))
 

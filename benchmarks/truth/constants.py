@@ -1,12 +1,11 @@
-"""What each constant of the method is good for: what is lost without it, and where it is nudged.
+"""Measure how much each constant of the method contributes.
 
     python -m benchmarks constants [--sources NAME ...] [--only NAME ...] [--every N] [--record]
 
-Each constant is switched off, as closely as its values allow, made 20 % smaller and 25 % larger,
-and, where bodies and sensors have their own, given the value of the other. Shown is how much the
-figures of a source (`sources.summary`) lose, in the mean over sources and in the one that loses
-most; below 0 something is gained. Bodies are segmented by ``kineme``, signals by ``sensors``.
-``python -m benchmarks sources --free`` chooses values with each source left out.
+Each constant is switched off as far as possible, decreased by 20 %, increased by 25 %, and set to
+the value of the other preset (``kineme`` for bodies, ``sensors`` for signals). The table shows the
+loss of the summary score (`sources.summarize`), averaged over sources and in the worst source;
+negative values are gains. ``python -m benchmarks sources --free`` chooses values.
 """
 
 from __future__ import annotations
@@ -23,19 +22,19 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _options import DATA, command_line, few, needed
+from _options import choose_size, find_data, make_parser
 from _sources import SOURCES, Judged
 from kineme.evaluation.score import pool_scores
 from kineme.methods.kineme.preset import KINEME, OF_SENSORS, SENSORS, KinemePreset
 from kineme.recordings import Signals
-from sources import summary
+from sources import summarize
 
 EVERY = {
     "hapt": 10, "hugadb": 12, "utkinect": 5, "uiprmd_sessions": 3, "uiprmd_incorrect_sessions": 3,
     "ipolgait": 8, "countix": 8, "msrc12": 6, "sparse_events": 10, "hdm05": 4, "uiprmd": 4,
     "uiprmd_incorrect": 4, "synthetic": 2, "barbell": 3, "subject_86": 1,
 }  # fmt: skip
-"""Every n-th recording of each source, those that take longest first."""
+"""Every n-th recording of each source, slowest first."""
 NEVER, TINY = 3600.0, 1e-6
 ONE_VIEW = {name: getattr(KINEME, name) for name in ("shared", "weights", "restless_over")}
 OFF: Mapping[str, Mapping[str, Any]] = {
@@ -62,13 +61,13 @@ OFF: Mapping[str, Mapping[str, Any]] = {
     **{name: {name: 1.0} for name in ("end_distance", "max_unexplained", "event_rest")},
     **{name: {name: 1000.0} for name in ("uneven", "end_scatter")},
 }  # fmt: skip
-"""What switches it off; a number stands for as many of it as a tuple has."""
+"""Values that switch a constant off; a number applies to each item of a tuple."""
 NUDGES = {"x 0.8": 0.8, "x 1.25": 1.25}
 HOW = ("off", *NUDGES, "the other's")
 OWN = OF_SENSORS.keys() - ONE_VIEW.keys() - {"unit"}
-"""What bodies and sensors have a value of their own of."""
+"""Constants with different values for bodies and sensors."""
 TOLD = ("offsets", "link_weights", "border_weights", "count_weights", "cut_weights")
-"""Not asked: what the method does not read, and what is learnt elsewhere."""
+"""Constants left out: the method does not read them, or `confidence` learns them."""
 OF_EVENTS = ("min_recurrence",)
 UNREAD = {
     KINEME.name: ("smoothing", "velocity_weight"),
@@ -76,7 +75,7 @@ UNREAD = {
         name for name in SENSORS.parameters() if name in OF_EVENTS or name.startswith("event_")
     ],
 }
-"""What is not looked at of bodies, and of signals."""
+"""Constants that have no effect on bodies, and on signals."""
 NAMES = [
     "one view",
     *(
@@ -88,34 +87,36 @@ NAMES = [
 
 
 class Change(NamedTuple):
-    """A constant, and what becomes of it."""
+    """A change of a constant."""
 
     name: str
     how: str
 
     def of(self, preset: KinemePreset) -> KinemePreset | None:
-        """The preset so changed; None where that changes nothing."""
+        """Return the changed preset; None if it is the same."""
         values: Mapping[str, Any] = {}
         if self.name in UNREAD[preset.name] and self.how != "the other's":
             return None
         if self.how == "off":
-            values = {key: _as_many(preset, key, to) for key, to in OFF.get(self.name, {}).items()}
+            values = {
+                key: _repeat_value(preset, key, to) for key, to in OFF.get(self.name, {}).items()
+            }
         elif self.how == "the other's" and self.name in OWN:
             values = {self.name: getattr(SENSORS if preset is KINEME else KINEME, self.name)}
         elif self.how in NUDGES and self.name != "one view":
-            values = _times(preset, self.name, NUDGES[self.how])
+            values = _scale_constant(preset, self.name, NUDGES[self.how])
         changed = preset.replace(**values)
         return None if changed == preset else changed
 
 
-def _as_many(preset: KinemePreset, name: str, value: Any) -> Any:
-    """A number for each that the preset has of it."""
+def _repeat_value(preset: KinemePreset, name: str, value: Any) -> Any:
+    """Repeat a number for each item if the constant is a tuple."""
     own = getattr(preset, name)
     return (value,) * len(own) if isinstance(own, tuple) and np.isscalar(value) else value
 
 
-def _times(preset: KinemePreset, name: str, factor: float) -> dict[str, Any]:
-    """A constant so many times, within its limits."""
+def _scale_constant(preset: KinemePreset, name: str, factor: float) -> dict[str, Any]:
+    """Multiply a constant by a factor, within its limits."""
     (known,) = (known for known in preset.constants() if known.name == name)
 
     def nudged(value: float) -> float:
@@ -129,16 +130,16 @@ def _times(preset: KinemePreset, name: str, factor: float) -> dict[str, Any]:
     return {name: nudged(known.value)}
 
 
-class Figured(NamedTuple):
-    """The figures of a source by change, as it is first; changes that failed; seconds."""
+class SourceFigures(NamedTuple):
+    """Summary scores of a source, unchanged first; failed changes; seconds."""
 
     summaries: list[float]
     failed: list[str]
     seconds: float
 
 
-def figured(source: str, every: int, changes: list[Change]) -> Figured:
-    """A source, read once, segmented as it is and with each change."""
+def measure_source(source: str, every: int, changes: list[Change]) -> SourceFigures:
+    """Segment a source with the unchanged preset and each change."""
     warnings.simplefilter("ignore")
     start = perf_counter()
     found: list[list[Judged]] = [[] for _ in range(1 + len(changes))]
@@ -154,21 +155,21 @@ def figured(source: str, every: int, changes: list[Change]) -> Figured:
                     if changed is None
                     else sample.judge(kineme.segment(sample.recording, preset=changed))
                 )
-            except Exception as error:  # noqa: BLE001 (one that fails is a result)
+            except Exception as error:  # noqa: BLE001 (a failure is a result)
                 failed.add(f"{change.name} {change.how}: {type(error).__name__} {error}")
-    summaries = [_summary(judged) for judged in found]
-    return Figured(summaries, sorted(failed), perf_counter() - start)
+    summaries = [_summarize(judged) for judged in found]
+    return SourceFigures(summaries, sorted(failed), perf_counter() - start)
 
 
-def _summary(judged: list[Judged]) -> float:
+def _summarize(judged: list[Judged]) -> float:
     names = judged[0] if judged else ()
-    return summary(
+    return summarize(
         {name: pool_scores([one[name] for one in judged if name in one]) for name in names}
     )
 
 
 def show(changes: list[Change], lost: np.ndarray, sources: list[str]) -> None:
-    """A row for each constant, the one of which most is lost first."""
+    """Print a row for each constant, that with the largest loss first."""
     means = {change: float(row.mean()) for change, row in zip(changes, lost, strict=True)}
     names = sorted(
         dict.fromkeys(change.name for change in changes),
@@ -186,23 +187,25 @@ def show(changes: list[Change], lost: np.ndarray, sources: list[str]) -> None:
         most = f"{rows[at, source]:.3f} of {sources[source]}, {own[at].how}"
         print(f"{name:20}{cells}  {most}", flush=True)
         for change in own:
-            record(f"constants.{_key(name)}.{_key(change.how)}", round(means[change], 4))
+            record(f"constants.{_make_key(name)}.{_make_key(change.how)}", round(means[change], 4))
 
 
-def _key(words: str) -> str:
+def _make_key(words: str) -> str:
     return words.replace("'", "").replace(" ", "_").replace(".", "")
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("--sources", nargs="+", choices=SOURCES)
-    parser.add_argument("--only", nargs="+", choices=NAMES, default=few(NAMES, NAMES[:3]))
-    parser.add_argument("--every", type=int, default=few(1, 50), help="of those that are looked at")
+    parser.add_argument("--only", nargs="+", choices=NAMES, default=choose_size(NAMES, NAMES[:3]))
+    parser.add_argument(
+        "--every", type=int, default=choose_size(1, 50), help="of those that are looked at"
+    )
     parser.add_argument("--processes", type=int, default=2)
     add_option(parser)
     options = parser.parse_args()
-    needed("", DATA)
-    sources = options.sources or few(list(EVERY), ["uiprmd_incorrect", "ipolgait"])
+    find_data("")
+    sources = options.sources or choose_size(list(EVERY), ["uiprmd_incorrect", "ipolgait"])
     changes = [
         change
         for name in options.only
@@ -212,7 +215,7 @@ def main() -> None:
     every = [EVERY.get(source, 8) * options.every for source in sources]
     found = []
     with ProcessPoolExecutor(options.processes, mp_context=get_context("spawn")) as pool:
-        work = partial(figured, changes=changes)
+        work = partial(measure_source, changes=changes)
         for source, one in zip(sources, pool.map(work, sources, every), strict=True):
             print(f"{source:28}{one.summaries[0]:.3f} as it is, {one.seconds:.0f} s", flush=True)
             for failure in one.failed:

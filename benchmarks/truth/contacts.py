@@ -1,27 +1,24 @@
-"""Are feet found to come down and to leave the ground when people say so?
+"""Check the times of foot contacts against annotators, force plates and event marks.
 
     python -m benchmarks contacts [--every 4] [--record]
 
-The recordings of ``sets/ipolgait``: people who walk, turn and walk back with an inertial sensor at
-each foot; every contact was checked by people. A contact is found if one of the same foot is within
-50 ms. In some recordings samples were lost, so that marks and sensors drift apart: those where a
-foot turns fast in the middle of many stands, as marked, or where marks lie beyond the end. All
-recordings are told, and those whose marks fit. That the others lost samples on the way, and have no
-offset from their start, is seen from the first and the last swings of each foot.
+Inertial sensors: ``sets/ipolgait``, where people walk, turn and walk back with a sensor on each
+foot, and annotators checked every contact. A contact is right within 50 ms of one of the same
+foot. Some recordings lost samples, so that marks and sensors drift apart: a foot turns fast during
+many marked stands, or marks lie beyond the end. Scores are for all recordings and for those whose
+marks fit ("fitting").
 
-Force plates: samples of C3D whose makers marked heel strikes and toes off, each foot on one plate.
+Force plates: C3D samples with marked heel strikes and toe offs, each foot on one plate.
 
-Markers: walks of ``gait/overground``, found from heel and toe, against the plates that a whole
-stance was on; and the walk of ``gait/treadmill`` against the events of its file.
+Markers: walks of ``gait/overground``, from heel and toe, against plates that bore a whole stance;
+and the walk of ``gait/treadmill`` against the events in its file.
 """
 
 from __future__ import annotations
 
-import csv
 import sys
 import warnings
 from collections import defaultdict
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -29,7 +26,8 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
-from _options import command_line, few, is_quick, needed
+from _options import choose_size, find_data, is_quick, make_parser
+from _recordings import read_rows
 from kineme.cycles import Events, foot_events, stands_from_force
 from kineme.cycles.contacts import SMOOTH_S
 from kineme.cycles.events import OFF, STRIKE, normalize_event_name
@@ -39,27 +37,25 @@ Floats = NDArray[np.float64]
 
 NEAR_S = 0.05
 TURN_S = 0.3
-"""So near to a turn, a contact is part of it."""
+"""Seconds around a turn in which contacts belong to it."""
 SAME = 0.5
-"""Of a marked swing: what covers more of it is the same swing."""
+"""Minimum covered share of a marked swing for a match."""
 FAST, MOVING = 0.3, 0.15
-"""Of the speed in the middle of a swing; of the stands of a foot."""
+"""Turning speed of a moving foot, relative to the middle of a swing; maximum share of stands."""
 PLATES_S = 0.04
-"""Two frames of the samples."""
+"""Tolerance of force plates in seconds: two frames of the samples."""
 PROMISED = {"away": 0.97, "all": 0.93, "treadmill": 0.95}
 WHOLE = 0.8
-"""Of a stance that a plate bore: what it bore less of was half beside it."""
-END = 5
-"""Swings at the beginning and at the end of a recording."""
+"""Minimum share of a stance on a plate; otherwise the foot was partly beside it."""
 PLATES = {"Eb015pi": {"right": "FZ1"}, "Dec_real": {"right": "FZ2", "left": "FZ1"}}
-"""Of each sample, the upright force under a foot."""
+"""Channel of the vertical force under each foot, by sample."""
 MARKED = {"foot strike": "HS", "foot off": "TO"}
 SIDES = ("left", "right")
 PARTS = {"left": "lf", "right": "rf"}
 
 
 class Foot(NamedTuple):
-    """What is marked and what was found of a foot: seconds at which it is off and on again."""
+    """Marked swings, found offs and strikes, and turns of one foot, in seconds."""
 
     recording: str
     marked: Floats
@@ -68,16 +64,8 @@ class Foot(NamedTuple):
     turns: list[tuple[float, float]]
 
 
-def by_recording(path: Path) -> dict[str, list[dict[str, str]]]:
-    rows: dict[str, list[dict[str, str]]] = defaultdict(list)
-    with path.open(encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            rows[row["recording"]].append(row)
-    return rows
-
-
-def fit(signals: Signals, side: str, marked: Floats) -> bool:
-    """Whether the marks of a foot are of these samples."""
+def is_aligned(signals: Signals, side: str, marked: Floats) -> bool:
+    """Return whether the marks of a foot fit its samples."""
     from scipy.ndimage import gaussian_filter1d
 
     rates = signals.values[:, [signals.names.index(f"{PARTS[side]}_gyr_{a}") for a in "xyz"]]
@@ -93,8 +81,8 @@ def fit(signals: Signals, side: str, marked: Floats) -> bool:
     return float(np.mean(speed[middles] > FAST * usual)) < MOVING
 
 
-def hits(true: Floats, found: Floats) -> list[float]:
-    """By how much each true event that is found is late, each found one taken once."""
+def match_events(true: Floats, found: Floats) -> list[float]:
+    """Match true and found events one to one and return the delays."""
     free, late = [*found.tolist()], []
     for at in true.tolist():
         nearest = min(free, key=lambda each: abs(each - at), default=None)
@@ -104,13 +92,13 @@ def hits(true: Floats, found: Floats) -> list[float]:
     return late
 
 
-def away(times: Floats, turns: list[tuple[float, float]]) -> Floats:
+def keep_away_from_turns(times: Floats, turns: list[tuple[float, float]]) -> Floats:
     inside = [any(a - TURN_S <= at <= b + TURN_S for a, b in turns) for at in times.tolist()]
     return times[~np.array(inside, bool)]
 
 
 def show(name: str, feet: list[Foot]) -> bool:
-    """Print and record the scores of some feet; whether the promise is kept."""
+    """Print and record scores of some feet; return whether the promise is kept."""
     kept = True
     late: dict[str, list[float]] = defaultdict(list)
     for where in ("away", "all"):
@@ -119,8 +107,11 @@ def show(name: str, feet: list[Foot]) -> bool:
             for place, events, event in ((0, foot.offs, OFF), (1, foot.ons, STRIKE)):
                 marked, times = foot.marked[:, place], events
                 if where == "away":
-                    marked, times = away(marked, foot.turns), away(times, foot.turns)
-                each = hits(marked, times)
+                    marked, times = (
+                        keep_away_from_turns(marked, foot.turns),
+                        keep_away_from_turns(times, foot.turns),
+                    )
+                each = match_events(marked, times)
                 late[event] += each if where == "away" else []
                 found, true, right = found + len(times), true + len(marked), right + len(each)
         score = 2 * right / (found + true)
@@ -147,23 +138,11 @@ def show(name: str, feet: list[Foot]) -> bool:
     return kept and abs(bias) <= 10
 
 
-def show_ends(name: str, feet: list[Foot]) -> None:
-    """Print and record which share of the contacts of the first and last swings is found."""
-    for place, swings in (("first", slice(None, END)), ("last", slice(-END, None))):
-        shares = [
-            len(hits(foot.marked[swings, column], found)) / len(foot.marked[swings])
-            for foot in feet
-            for column, found in ((0, foot.offs), (1, foot.ons))
-        ]
-        print(f"{name}, {place} {END} swings: {np.mean(shares):.3f} of contacts found")
-        record(f"contacts.{name}.{place}", round(float(np.mean(shares)), 2))
-
-
 def show_plates() -> bool:
-    """Print and record how far contacts of force plates are from the events of their files."""
+    """Compare contacts from force plates with the events of their files."""
     apart: list[float] = []
     for name, plates in PLATES.items():
-        path = needed(f"formats/{name}.c3d")
+        path = find_data(f"formats/{name}.c3d")
         marked = kineme.read(path).provenance.events
         found = foot_events(kineme.read(path, columns=["*"]), **plates)
         for side in plates:
@@ -177,11 +156,11 @@ def show_plates() -> bool:
 
 
 def show_markers() -> bool:
-    """Print and record how far contacts from markers are from plates, and on a treadmill."""
+    """Compare contacts from markers with force plates and treadmill events."""
     late: dict[str, list[float]] = {STRIKE: [], OFF: []}
-    for path in sorted(needed("gait/overground").glob("*.c3d")):
+    for path in sorted(find_data("gait/overground").glob("*.c3d")):
         events = foot_events(kineme.read(path))
-        own = [each for side in SIDES for each in stances(events, side)]
+        own = [each for side in SIDES for each in find_stances(events, side)]
         plates = kineme.read(path, columns=["Fz*"])
         for force in plates.values.T if own else ():
             for on, off in stands_from_force(force, plates.fps).tolist():
@@ -197,35 +176,38 @@ def show_markers() -> bool:
         record(name, round(float(mean)), unit="ms")
         record(f"{name}.deviation", round(float(deviation)), unit="ms")
     record("contacts.markers.plates", len(late[STRIKE]))
-    motion = kineme.read(needed("gait/treadmill/treadmill_events.c3d"))
+    motion = kineme.read(find_data("gait/treadmill/treadmill_events.c3d"))
     events = foot_events(motion)
     marked: dict[str, list[float]] = defaultdict(list)
     for at, name in motion.provenance.events:
         marked[normalize_event_name(name)].append(at)
-    right = sum(len(hits(np.array(times), events.at(name))) for name, times in marked.items())
+    right = sum(
+        len(match_events(np.array(times), events.at(name))) for name, times in marked.items()
+    )
     true = sum(map(len, marked.values()))
     print(f"treadmill: {right} of {true} within 50 ms, {len(events)} found")
     record("contacts.treadmill", f"{right} of {true}")
     return right >= PROMISED["treadmill"] * true
 
 
-def stances(events: Events, side: str) -> list[tuple[float, float]]:
-    """When a foot stands from a strike that was found to the off after it."""
+def find_stances(events: Events, side: str) -> list[tuple[float, float]]:
+    """Return the stances of a foot: each strike with the next off."""
     offs = events.at(f"{side} {OFF}")
     strikes = events.at(f"{side} {STRIKE}").tolist()
     return [(at, float(offs[offs > at][0])) for at in strikes if (offs > at).any()]
 
 
 def main() -> int:
-    parser = command_line(__doc__)
-    parser.add_argument("--every", type=int, default=few(1, 30), help="one in so many recordings")
+    parser = make_parser(__doc__)
+    parser.add_argument(
+        "--every", type=int, default=choose_size(1, 30), help="one in so many recordings"
+    )
     add_option(parser)
     every = parser.parse_args().every
-    folder = needed("sets/ipolgait")
-    marks, labels = (by_recording(folder / f"{name}.csv") for name in ("events", "labels"))
+    folder = find_data("sets/ipolgait")
+    marks, labels = (read_rows(folder / f"{name}.csv") for name in ("events", "labels"))
     feet: list[Foot] = []
     fitting: list[Foot] = []
-    others: list[Foot] = []
     for name in sorted(marks)[::every]:
         signals = kineme.read(folder / "recordings" / f"{name}.parquet")
         events = foot_events(signals)
@@ -238,15 +220,14 @@ def main() -> int:
             offs, ons = (events.at(f"{side} {event}") for event in (OFF, STRIKE))
             both.append(Foot(name, np.array(swings), offs, ons, turns))
         feet += both
-        fits = all(fit(signals, side, foot.marked) for side, foot in zip(SIDES, both, strict=True))
-        (fitting if fits else others).extend(both)
+        fits = all(
+            is_aligned(signals, side, foot.marked) for side, foot in zip(SIDES, both, strict=True)
+        )
+        fitting += both if fits else []
     print(f"{len(fitting) // 2} of {len(feet) // 2} recordings have marks that fit")
     record("contacts.recordings", f"{len(fitting) // 2} of {len(feet) // 2}")
     show("all", feet)
     kept = show("fitting", fitting) & show_plates() & show_markers()
-    for name, some in (("fitting", fitting), ("others", others)):
-        if some:
-            show_ends(name, some)
     promise = "F1 .97 away from turns, .93 with them; plates within two frames; treadmill .95"
     print(f"promised: {promise}: {'kept' if kept else 'NOT KEPT'}")
     return 0 if kept or is_quick() else 1

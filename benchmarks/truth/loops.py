@@ -1,28 +1,24 @@
-"""Loops: how often is the one put first the best of its cluster, or within a tenth of the best?
+"""Check the ranking of loops and their seams.
 
-    python -m benchmarks loops [--record] [--pictures FOLDER]
+    python -m benchmarks loops [--record]
 
-Repetitions found in the bundled recording, CMU's 02_01 and the trials of subject 86 are written
-as loops, and read again; so are those of recordings that neither ranking nor blending was made on
-(``others``: exercises of uiprmd, samples of other programs). The blind number of each is the sum of
+Repetitions of the recordings that were used in development, and of others (``others``), are
+written as loops and read again. The independent cost of a loop is the sum of
 
-1. the step of pose and of speed at the seam, between the frame of the recording after the last
-   and the first: in 3 cm, and in 0.3 m/s;
-2. of the loop the step over the seam and its change, as shares of the recording's own (95 %
-   quantiles);
-3. how fast planted feet move over the floor in the loop, played twice: in 0.1 m/s. Contacts are
-   found anew in what is played.
+1. the differences of pose (in 3 cm) and speed (in 0.3 m/s) between the first frame and the frame
+   of the recording after the last;
+2. the step over the seam and its change, relative to the 95 % quantiles of the recording;
+3. the speed of planted feet in the loop, played twice (in 0.1 m/s).
 
-In groups of three candidates or more the one that kineme puts first is compared with the others.
-kineme itself ranks by what it has before it writes, turn, rise and typical poses included.
+In groups of at least three candidates, the loop that kineme ranks first is compared with the
+others. kineme ranks before writing, by turn, rise and typical poses too.
 
-A step over a seam may be above the 95 % quantile where the body is that fast: as in a run, in a
-recording that mostly walks. So it is also compared with the recording's own steps within 0.1 s of
-the ends of the segment.
+A step over a seam may exceed the 95 % quantile if the body is fast there, as in a run within a
+walk. It is therefore also compared with the steps within 0.1 s of the ends of the segment.
 
-Promises: the first has the smallest blind number, or one within a tenth of it, in 90 % of the
-groups; no step over a seam is above the quantile and above the recording's own steps at the ends.
-On the recordings it was made on, none is larger than the largest inside its loop.
+Promises: in 90 % of the groups the first loop has the smallest cost or one within a tenth of it;
+no step over a seam exceeds both the quantile and the steps at the ends. On the recordings used in
+development, no step over a seam exceeds the largest inside its loop.
 """
 
 from __future__ import annotations
@@ -40,13 +36,13 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _measure import verdict
-from _options import DATA, command_line, few
+from _measure import judge
+from _options import DATA, choose_size, make_parser
 from kineme.clips.split import split
 from kineme.cycles import landmarks, stands_from_positions
 from kineme.recordings import Motion
 
-PLACES = few(
+PLACES = choose_size(
     ("cmu_formats/02_01.amc", *(f"cmu86/86_{n}.amc" for n in ("01", "09", "10", "11", "14"))), ()
 )
 SAMPLES = ("formats/PyMO_AV_8Walk.bvh", "formats/aitviewer_sample.bvh", "cmu_formats/49_02.bvh")
@@ -56,29 +52,26 @@ FEWEST = 3
 AS_GOOD = 1.1
 POSE_M, SPEED_M_S, SLIDE_M_S = 0.03, 0.3, 0.1
 NEAR_S = 0.1
-"""From the ends of a segment: the recording's own steps there."""
+"""Seconds around the ends of a segment."""
 
 
 def main() -> int:
-    parser = command_line(__doc__)
-    parser.add_argument("--pictures", type=Path, metavar="FOLDER")
+    parser = make_parser(__doc__)
     add_option(parser)
-    given = parser.parse_args()
+    parser.parse_args()
     made_on = [kineme.bundled_recording(), *(DATA / place for place in PLACES)]
     others = [*(DATA / place for place in SAMPLES), *sorted(EXERCISES.glob("*.npz"))]
-    kept = measured("loops", made_on, given.pictures, most=1.0)
-    return int(not kept or not measured("loops.others", few(others, []), given.pictures))
+    kept = measure_loops("loops", made_on, most=1.0)
+    return int(not kept or not measure_loops("loops.others", choose_size(others, [])))
 
 
-def measured(
-    name: str, paths: Sequence[Path], pictures: Path | None, *, most: float = np.inf
-) -> bool:
-    """Whether the promises hold on recordings; figures are recorded under a name."""
+def measure_loops(name: str, paths: Sequence[Path], *, most: float = np.inf) -> bool:
+    """Measure loops of recordings; return whether the promises hold."""
     loops, ratios = list[dict[str, Any]](), list[float]()
     for path in filter(Path.exists, paths):
         with tempfile.TemporaryDirectory() as folder:
             motion = kineme.read(path)
-            for found in candidates(motion, Path(folder) / "loops").values():
+            for found in measure_candidates(motion, Path(folder) / "loops").values():
                 loops += found
                 blind = [each["blind"] for each in found]
                 if len(found) < FEWEST:
@@ -88,8 +81,6 @@ def measured(
                 title = f"{path.stem:12} cluster {found[0]['cluster']:3d}: {len(found):3d} loops"
                 print(f"{title}, first {blind[0]:.2f} (place {place}), "
                       f"others {np.mean(blind[1:]):.2f}")  # fmt: skip
-                if pictures:
-                    draw(found, pictures / f"{path.stem}_{found[0]['cluster']}.png")
     if not ratios:
         return True
     best, first = (100 * float(np.mean(np.array(ratios) <= limit)) for limit in (1.0, AS_GOOD))
@@ -101,10 +92,10 @@ def measured(
     print(f"{name}: {len(ratios)} groups, {len(loops)} loops")
     print(f"the first is the best in {best:.0f} %")
     print(f"within a tenth of it, at least {LEAST:g} % promised: {said}: {first:.0f} %")
-    said = verdict(largest, most) if np.isfinite(most) else "nothing promised"
+    said = judge(largest, most) if np.isfinite(most) else "nothing promised"
     print(f"largest step over a seam, of the largest inside, {said}: {largest:.2f}")
     print(f"above the 95 % quantile of the recording's own steps: {above:.1f} %")
-    print(f"above those at the ends of the segment, too, {verdict(beyond, 0)}: {beyond:.1f} %")
+    print(f"above those at the ends of the segment, too, {judge(beyond, 0)}: {beyond:.1f} %")
     print(f"changes of the step: median {changes:.2f} of their quantile")
     record(f"{name}.groups", len(ratios))
     record(f"{name}.best", round(best), unit="%")
@@ -115,11 +106,14 @@ def measured(
     return first >= LEAST and largest <= most and beyond == 0
 
 
-def candidates(motion: Motion, folder: Path) -> dict[int, list[dict[str, Any]]]:
-    """By cluster the loops as measured on their files, the best ranked first."""
+def measure_candidates(motion: Motion, folder: Path) -> dict[int, list[dict[str, Any]]]:
+    """Write loops and measure their files; return them by cluster, best ranked first."""
     split(motion, kineme.segment(motion), folder, level="primitive", loops=True)
     steps, fps = np.diff(motion.positions, axis=0), motion.fps
-    usual, recorded = (quantile(steps), quantile(np.diff(steps, axis=0))), sizes(steps)
+    usual, recorded = (
+        (take_quantile(steps), take_quantile(np.diff(steps, axis=0))),
+        measure_sizes(steps),
+    )
     points = [
         joint
         for part, joint in landmarks(motion).items()
@@ -130,50 +124,47 @@ def candidates(motion: Motion, folder: Path) -> dict[int, list[dict[str, Any]]]:
         if not clip["loop"]:
             continue
         loop = kineme.read(folder / clip["file"]).positions
-        twice, n = np.concatenate([loop, carried(loop, clip["carry"])]), len(loop)
+        twice, n = np.concatenate([loop, move_by(loop, clip["carry"])]), len(loop)
         steps = np.diff(twice, axis=0)
-        inside, changes = sizes(steps), sizes(np.diff(steps, axis=0))
-        pose, speed = gaps(motion.positions, clip)
+        inside, changes = measure_sizes(steps), measure_sizes(np.diff(steps, axis=0))
+        pose, speed = measure_gaps(motion.positions, clip)
         step, change = inside[n - 1] / usual[0], changes[n - 2 : n].max() / usual[1]
-        dragged = slide(twice, points, fps)
+        dragged = measure_slide(twice, points, fps)
         groups[clip["cluster"]].append(
             {
                 "cluster": clip["cluster"],
                 "step": step,
                 "of_inside": inside[n - 1] / inside[: n - 1].max(),
-                "own": at_ends(recorded, clip, fps) / usual[0],
+                "own": find_largest_step(recorded, clip, fps) / usual[0],
                 "change": change,
                 "blind": pose / POSE_M
                 + speed * fps / SPEED_M_S
                 + step
                 + change
                 + dragged / SLIDE_M_S,
-                "positions": twice,
-                "parents": motion.skeleton.parents,
-                "cost": clip["quality"]["cost"],
             }
         )
     return groups
 
 
-def at_ends(recorded: np.ndarray, clip: dict[str, Any], fps: float) -> float:
-    """The largest of the recording's own steps near the ends of a clip."""
+def find_largest_step(recorded: np.ndarray, clip: dict[str, Any], fps: float) -> float:
+    """Return the largest step of the recording near the ends of a clip."""
     near = max(1, round(NEAR_S * fps))
     ends = (clip["start_frame"], clip["stop_frame"])
     return float(max(recorded[max(end - near, 0) : end + near].max() for end in ends))
 
 
-def gaps(positions: np.ndarray, clip: dict[str, Any]) -> tuple[float, float]:
-    """Step of pose and of speed between the frame after the clip and its first, carried on."""
+def measure_gaps(positions: np.ndarray, clip: dict[str, Any]) -> tuple[float, float]:
+    """Return differences of pose and speed between the moved start and the end of a clip."""
     first, after = clip["start_frame"], min(clip["stop_frame"], len(positions) - 2)
-    ahead = carried(positions[first : first + 2], clip["carry"])
+    ahead = move_by(positions[first : first + 2], clip["carry"])
     behind = positions[after : after + 2]
-    return float(sizes(ahead[:1] - behind[:1])[0]), float(
-        sizes(np.diff(ahead, axis=0) - np.diff(behind, axis=0))[0]
+    return float(measure_sizes(ahead[:1] - behind[:1])[0]), float(
+        measure_sizes(np.diff(ahead, axis=0) - np.diff(behind, axis=0))[0]
     )
 
 
-def carried(positions: np.ndarray, carry: dict[str, float]) -> np.ndarray:
+def move_by(positions: np.ndarray, carry: dict[str, float]) -> np.ndarray:
     turn = np.radians(carry["turn_deg"])
     x, y, z = np.moveaxis(positions, -1, 0)
     return np.stack(
@@ -186,8 +177,8 @@ def carried(positions: np.ndarray, carry: dict[str, float]) -> np.ndarray:
     )
 
 
-def slide(positions: np.ndarray, points: list[int], fps: float) -> float:
-    """Metres per second by which points of the feet that stand move over the floor."""
+def measure_slide(positions: np.ndarray, points: list[int], fps: float) -> float:
+    """Return the mean speed of standing feet over the floor in m/s."""
     speeds: list[float] = []
     for point in points:
         path = positions[:, point]
@@ -197,35 +188,12 @@ def slide(positions: np.ndarray, points: list[int], fps: float) -> float:
     return float(np.mean(speeds)) if speeds else 0.0
 
 
-def sizes(steps: np.ndarray) -> np.ndarray:
+def measure_sizes(steps: np.ndarray) -> np.ndarray:
     return np.sqrt((steps**2).sum(axis=-1).mean(axis=-1))
 
 
-def quantile(steps: np.ndarray) -> float:
-    return float(np.percentile(sizes(steps), 95))
-
-
-def draw(found: list[dict[str, Any]], path: Path) -> None:
-    """The best and the worst loop of a cluster, the poses on both sides of the seam."""
-    from matplotlib.figure import Figure
-
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure = Figure(figsize=(12, 5), layout="constrained")
-    for axes, each, name in zip(figure.subplots(2), (found[0], found[-1]), ("best", "worst"),
-                                strict=True):  # fmt: skip
-        twice = each["positions"]
-        n = len(twice) // 2
-        frames = np.linspace(n // 2, n + n // 2, 13).astype(int)
-        for place, frame in enumerate(frames):
-            pose = twice[frame] - twice[frame, :1] * [1, 0, 1]
-            for joint, parent in enumerate(each["parents"]):
-                if parent >= 0:
-                    bone = pose[[parent, joint]]
-                    axes.plot(bone[:, 0] + bone[:, 2] + place, bone[:, 1],
-                              color="C0" if frame < n else "C1")  # fmt: skip
-        axes.set(aspect="equal", title=f"{name}: cost {each['cost']:.2f}, blue before the seam")
-        axes.axis("off")
-    figure.savefig(path, dpi=80)
+def take_quantile(steps: np.ndarray) -> float:
+    return float(np.percentile(measure_sizes(steps), 95))
 
 
 if __name__ == "__main__":

@@ -1,39 +1,41 @@
-"""One repetition as example, searched in all recordings of other people, as a library does.
+"""Search one repetition in all recordings of other people, as a library does.
 
     python -m benchmarks search [--record]
 
-At the default threshold, mirror images as well. Examples are exercises of HDM05, actions of
-UTKinect, and of each take of UI-PRMD the repetition in its midst. A hit is right if its middle lies
-in the same exercise; a repetition is found if half of it lies in hits. Both are means over examples
-that have a hit, and over all.
+The threshold is the default; mirror images count. Examples are exercises of HDM05, actions of
+UTKinect, and the middle repetition of each take of UI-PRMD. Precision: a hit is right if its middle
+lies in the same exercise (mean over examples with hits). Recall: a repetition is found if hits
+cover half of it (mean over all examples).
 """
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 import kineme
-from _corpora import Take, corpora
 from _figures import add_option, record
-from _options import command_line, few
-from _sources import PERSON, of_bodies
+from _options import choose_size, find_data, make_parser
+from _recordings import ACTORS, read_hdm05, read_rows
+from _sources import PERSON, list_body_recordings
 from kineme.features.canonical import MATCHING_FPS, matching_features, mirror_features
 from kineme.library.searching import find_matches
+from kineme.recordings import Motion
 from kineme.transfer.subsequences import THRESHOLD, Matches
 
 Features = NDArray[np.float32]
 
 LEAST = 6
-"""Samples of an example."""
+"""Minimum samples of an example."""
 
 
-class Searched(NamedTuple):
-    """Of one example: hits, those that are right, repetitions, those that are found."""
+class SearchCounts(NamedTuple):
+    """Hits, right hits, repetitions and found repetitions of one example."""
 
     hits: int
     right: int
@@ -41,23 +43,50 @@ class Searched(NamedTuple):
     found: int
 
 
-def uiprmd() -> Iterator[Take]:
-    for name, path, rows in of_bodies("uiprmd", "labels.csv")[:: few(1, 8)]:
+@dataclass(frozen=True)
+class Take:
+    """A recording with its person and labelled spans in seconds."""
+
+    name: str
+    person: str
+    motion: Motion
+    spans: tuple[tuple[float, float, str], ...] = ()
+
+
+def read_hdm05_takes() -> Iterator[Take]:
+    for actor in ACTORS:
+        for name, label, motion in read_hdm05(actor, every=choose_size(1, 6)):
+            yield Take(name, actor, motion, ((0.0, motion.duration, label),))
+
+
+def read_utkinect() -> Iterator[Take]:
+    folder = find_data("sets/utkinect")
+    rows = read_rows(folder / "labels.csv")
+    for name in sorted(rows)[:: choose_size(1, 5)]:
+        motion = kineme.read(folder / "recordings" / f"{name}.parquet")
+        spans = ((float(row["start_s"]), float(row["stop_s"]), row["label"]) for row in rows[name])
+        yield Take(name, name.split("_")[0], motion, tuple(spans))
+
+
+def read_uiprmd() -> Iterator[Take]:
+    for name, path, rows in list_body_recordings("uiprmd", "labels.csv")[:: choose_size(1, 8)]:
         spans = [(float(row["start_s"]), float(row["stop_s"]), row["label"]) for row in rows]
         yield Take(name, PERSON.findall(name)[-1], kineme.read(path), tuple(spans))
 
 
-def found_either_way(example: Features, features: Features) -> Matches:
-    """Spans that are like an example or like its mirror image."""
+def search_both_sides(example: Features, features: Features) -> Matches:
+    """Find spans that match an example or its mirror image."""
     examples = [example, mirror_features(example)]
     return find_matches(features, examples, [], threshold=THRESHOLD, top=None)
 
 
-def searched(example: Features, label: str, takes: Sequence[tuple[Take, Features]]) -> Searched:
+def search_takes(
+    example: Features, label: str, takes: Sequence[tuple[Take, Features]]
+) -> SearchCounts:
     hits = right = wanted = found = 0
     for take, features in takes:
         covered = np.zeros(len(features), np.bool_)
-        for start, stop, _ in zip(*found_either_way(example, features), strict=True):
+        for start, stop, _ in zip(*search_both_sides(example, features), strict=True):
             middle = (start + stop) / 2 / MATCHING_FPS
             hits += 1
             right += any(a <= middle < b and name == label for a, b, name in take.spans)
@@ -66,11 +95,11 @@ def searched(example: Features, label: str, takes: Sequence[tuple[Take, Features
             if name == label:
                 wanted += 1
                 found += covered[round(a * MATCHING_FPS) : round(b * MATCHING_FPS)].mean() >= 0.5
-    return Searched(hits, right, wanted, found)
+    return SearchCounts(hits, right, wanted, found)
 
 
-def of_corpus(takes: Sequence[Take]) -> list[Searched]:
-    """Each example, in the recordings of all other people."""
+def search_corpus(takes: Sequence[Take]) -> list[SearchCounts]:
+    """Search each example in the recordings of all other people."""
     features = [matching_features(take.motion) for take in takes]
     everyone = list(zip(takes, features, strict=True))
     found = []
@@ -80,20 +109,20 @@ def of_corpus(takes: Sequence[Take]) -> list[Searched]:
             example = own[round(a * MATCHING_FPS) : round(b * MATCHING_FPS)]
             others = [one for one in everyone if one[0].person != take.person]
             if len(example) >= LEAST and others:
-                found.append(searched(example, label, others))
+                found.append(search_takes(example, label, others))
     return found
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     add_option(parser)
     parser.parse_args()
     for name, takes in (
-        ("uiprmd", list(uiprmd())),
-        ("hdm05", corpora()["hdm05"]),
-        ("utkinect", corpora()["utkinect"]),
+        ("uiprmd", list(read_uiprmd())),
+        ("hdm05", list(read_hdm05_takes())),
+        ("utkinect", list(read_utkinect())),
     ):
-        found = of_corpus(takes)
+        found = search_corpus(takes)
         precision = float(np.mean([one.right / one.hits for one in found if one.hits] or [0]))
         recall = float(np.mean([one.found / one.wanted for one in found if one.wanted] or [0]))
         print(

@@ -1,11 +1,11 @@
-"""Time series that are mostly no movement: does the preset ``series`` cut them where they change?
+"""Score the preset ``series`` on time series that are mostly not movement.
 
     python -m benchmarks series [--preset NAME] [--record]
 
-The halves of TSSB and UTSA (*Time series segmentation*, Ermshaus, Schäfer and Leser 2023) that are
-at hand, scored as their authors do: *covering*, the overlap of each true segment with the best of
-those found, weighted by its length, and the adjusted mutual information of states. Published on
-all series: covering CLaP .85 and .84, BinSeg .59 and .66; AMI CLaP .78 and .77.
+Uses half of TSSB and UTSA (Ermshaus, Schäfer and Leser 2023) with the scores of their authors:
+*covering*, the best overlap of each true segment, weighted by its length, and the adjusted mutual
+information of states. Published on all series: covering CLaP .85 and .84, BinSeg .59 and .66; AMI
+CLaP .78 and .77.
 """
 
 from __future__ import annotations
@@ -21,29 +21,29 @@ from sklearn.metrics import adjusted_mutual_info_score
 
 import kineme
 from _figures import add_option, record
-from _options import command_line, few, needed
+from _options import choose_size, find_data, make_parser
 
 Frames = NDArray[np.int64]
 ARCHIVES = ("tssb", "utsa")
 
 
-def series(folder: Path) -> Iterator[tuple[NDArray[np.float64], Frames, list[str]]]:
-    """Each series, where its states begin and end, and which they are."""
-    states = {name: rest for name, *rest in lines(folder / "properties.txt")}
-    for name, _, *changes in lines(folder / "desc.txt"):
+def read_series(folder: Path) -> Iterator[tuple[NDArray[np.float64], Frames, list[str]]]:
+    """Yield the values, state borders and state names of each series."""
+    states = {name: rest for name, *rest in split_lines(folder / "properties.txt")}
+    for name, _, *changes in split_lines(folder / "desc.txt"):
         if (path := folder / f"{name}.txt").exists():
             values = np.loadtxt(path)
-            # Other properties stand before the states.
+            # The states are the last columns.
             named = states[name][-len(changes) - 1 :]
             yield values, np.array([0, *map(int, changes), len(values)]), named
 
 
-def lines(path: Path) -> Iterator[list[str]]:
+def split_lines(path: Path) -> Iterator[list[str]]:
     return (line.split(",") for line in path.read_text().split())
 
 
-def covering(true: Frames, found: Frames) -> float:
-    """Weighted overlap of each true segment with the best of those found, by their ends."""
+def compute_covering(true: Frames, found: Frames) -> float:
+    """Return the weighted best overlap of true segments; both are given by borders."""
     start, stop = true[:-1, None], true[1:, None]
     inner = np.minimum(stop, found[1:]) - np.maximum(start, found[:-1])
     union = np.maximum(stop, found[1:]) - np.minimum(start, found[:-1])
@@ -51,20 +51,24 @@ def covering(true: Frames, found: Frames) -> float:
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("--preset", default="series")
     add_option(parser)
     options = parser.parse_args()
     print(f"{'':8}{'series':>8}{'covering':>10}{'AMI':>8}{'borders / true':>16}")
     for name in ARCHIVES:
         rows = []
-        for values, ends, states in islice(series(needed(f"timeseries/{name}")), few(None, 1)):
+        for values, ends, states in islice(
+            read_series(find_data(f"timeseries/{name}")), choose_size(None, 1)
+        ):
             table = kineme.segment(values, fps=1.0, preset=options.preset).activities
             found = np.append(table.start_frame, table.stop_frame[-1])
             true = np.repeat(states, np.diff(ends))
             clusters = np.repeat(table.cluster, np.diff(found))
             agreement = adjusted_mutual_info_score(true, clusters)
-            rows.append((covering(ends, found), agreement, (len(found) - 1) / (len(ends) - 1)))
+            rows.append(
+                (compute_covering(ends, found), agreement, (len(found) - 1) / (len(ends) - 1))
+            )
         means = np.mean(rows, axis=0)
         print(f"{name:8}{len(rows):8}{means[0]:10.3f}{means[1]:8.3f}{means[2]:16.2f}")
         record(f"series.{name}.covering", means[0])

@@ -1,4 +1,4 @@
-"""How large the code and the docs are, how they are written, and how deep a call goes.
+"""Measure the size and style of code and docs, and the depth of a call.
 
 python -m benchmarks size
 """
@@ -15,7 +15,7 @@ from types import FrameType
 from typing import Any
 
 import kineme
-from _options import command_line
+from _options import make_parser
 from kineme.datasets import bundled_recording
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -60,21 +60,21 @@ WANTED: dict[str, str] = {
 
 
 def main() -> None:
-    command_line(__doc__).parse_args()
-    figures = {**sizes(), **depth(), **style()}
+    make_parser(__doc__).parse_args()
+    figures = {**count_sizes(), **measure_depth(), **measure_style()}
     print(f"{'':44}{'now':>10}{'wanted':>10}")
     for name, wanted in WANTED.items():
         print(f"{name:44}{figures[name]:10.5g}{wanted:>10}")
 
 
-def sizes() -> dict[str, float]:
+def count_sizes() -> dict[str, float]:
     """Count lines, files and words."""
     python = [*SOURCE.rglob("*.py")]
     docs = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]
     return {
         "Python lines": count_lines(python),
         "Python files": len(python),
-        "Python code lines": sum(len(code_lines(path)) for path in python),
+        "Python code lines": sum(len(find_code_lines(path)) for path in python),
         "TypeScript and CSS lines": count_lines(
             path for path in PAGES.rglob("*") if path.suffix in (".ts", ".tsx", ".css")
         ),
@@ -89,10 +89,10 @@ def count_lines(paths: Iterable[Path]) -> int:
     return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
 
 
-def code_lines(path: Path) -> set[int]:
+def find_code_lines(path: Path) -> set[int]:
     """Return the lines that hold code: neither blank, nor comment, nor docstring."""
     text = path.read_text(encoding="utf-8")
-    docstrings = {line for doc in docstrings_in(ast.parse(text)) for line in lines_of(doc)}
+    docstrings = {line for doc in find_docstrings(ast.parse(text)) for line in list_lines(doc)}
     skipped = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
     with path.open("rb") as file:
         tokens = [
@@ -104,7 +104,7 @@ def code_lines(path: Path) -> set[int]:
     return used - docstrings
 
 
-def docstrings_in(tree: ast.AST) -> Iterator[ast.Constant]:
+def find_docstrings(tree: ast.AST) -> Iterator[ast.Constant]:
     """Yield the docstrings of a module, also those of constants."""
     bodies = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
     for node in ast.walk(tree):
@@ -114,23 +114,23 @@ def docstrings_in(tree: ast.AST) -> Iterator[ast.Constant]:
                 yield value
 
 
-def lines_of(node: Any) -> range:
+def list_lines(node: Any) -> range:
     return range(node.lineno, node.end_lineno + 1)
 
 
-def style() -> dict[str, float]:
+def measure_style() -> dict[str, float]:
     """Count comments, docstrings and names of functions."""
     comments, code, begin_with_the = 0, 0, 0
     names: list[str] = []
     for path in SOURCE.rglob("*.py"):
-        code += len(code_lines(path))
+        code += len(find_code_lines(path))
         with path.open("rb") as file:
             comments += sum(
                 token.type == tokenize.COMMENT and not DIRECTIVE.match(token.string)
                 for token in tokenize.tokenize(file.readline)
             )
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        begin_with_the += sum(str(doc.value).startswith("The ") for doc in docstrings_in(tree))
+        begin_with_the += sum(str(doc.value).startswith("The ") for doc in find_docstrings(tree))
         functions = (node for node in tree.body if isinstance(node, ast.FunctionDef))
         names += [node.name.lstrip("_") for node in functions]
     prepositions = sum(name.partition("_")[0] in PREPOSITIONS for name in names)
@@ -144,8 +144,8 @@ def style() -> dict[str, float]:
     }
 
 
-def depth() -> dict[str, float]:
-    """Return what the second `kineme.segment` of a recording enters."""
+def measure_depth() -> dict[str, float]:
+    """Count files, functions and call depth of the second `kineme.segment` of a recording."""
     motion = kineme.read(bundled_recording())
     kineme.segment(motion)
     files: set[str] = set()

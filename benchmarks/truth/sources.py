@@ -1,15 +1,14 @@
-"""All kinds of recordings in one run, and constants chosen with each source left out.
+"""Score all sources of recordings, and choose constants by leaving sources out.
 
     python -m benchmarks sources [SOURCE ...] [--every N] [--presets kineme sensors] [--record]
     python -m benchmarks sources --free NAME=VALUE,VALUE,... [--free ...] [--presets NAME]
     python -m benchmarks sources [SOURCE ...] --same [--record]
 
 Sources (`_sources.py`) are bodies that people cut, tagged or counted, sensors that people labelled,
-and recordings that are made, HuGaDB once more with the files of each person joined. The second
-form tries every combination of values, on every source; for each source it then takes the one that
-is best in the mean of all others, and tells what that gives there, beside what is shipped and the
-choice by all of them: what was left out decides. The third asks whether the same movement gives
-the same answer: at other rates, cut, with noise, turned, larger, faster, as poses of a video.
+and synthetic recordings. ``--free`` tries every combination of values on every source. For each
+source it shows the score of the shipped values, of the values that are best on all other sources,
+and of those that are best on all. ``--same`` measures the agreement with variants of the same
+movement: other rates, cut, with noise, turned, scaled, faster.
 """
 
 from __future__ import annotations
@@ -27,27 +26,27 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _guises import agreement, guises
-from _options import DATA, command_line, few, skip
+from _options import DATA, choose_size, make_parser, skip
 from _sources import SOURCES, Judged
+from _variants import make_variants, measure_agreement
 from kineme.evaluation.score import pool_scores
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
 
 SMALLER_IS_BETTER = ("error",)
 EVERY = {"hugadb": 4, "hdm05": 2, "sparse_events": 5, "ipolgait": 2}
-"""Of large sources, where constants are tried: every n-th recording."""
+"""Every n-th recording of large sources, for ``--free``."""
 
 SAME = {"subject_86": 1, "hdm05": 13, "uiprmd": 12, "countix": 20, "hugadb": 60, "ipolgait": 20}
-"""Sources that are segmented in other guises: every n-th recording."""
+"""Every n-th recording of the sources for ``--same``."""
 
 Figures = Mapping[str, float]
 
 
 class Work(NamedTuple):
-    """A source that is segmented by presets: every n-th recording of it.
+    """Every n-th recording of a source, to be segmented by presets.
 
-    By name a preset stands for what suits the recording, bodies or sensors.
+    A preset given by name adapts to the recording: bodies or sensors.
     """
 
     source: str
@@ -55,8 +54,8 @@ class Work(NamedTuple):
     every: int
 
 
-def figures_of(work: Work) -> list[Figures]:
-    """The figures of a source, of each preset."""
+def score_source(work: Work) -> list[Figures]:
+    """Return the scores of each preset on a source."""
     warnings.simplefilter("ignore")
     found: list[list[Judged]] = [[] for _ in work.presets]
     for sample in SOURCES[work.source](work.every):
@@ -68,20 +67,20 @@ def figures_of(work: Work) -> list[Figures]:
     ]
 
 
-def all_figures(
+def score_sources(
     sources: Sequence[str],
     presets: Sequence[str | Preset],
     every: Mapping[str, int],
     processes: int,
 ) -> dict[str, list[Figures]]:
-    """By source: the figures of each preset."""
+    """Return the scores of each preset, by source."""
     works = [Work(name, tuple(presets), every.get(name, 1)) for name in sources]
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        return dict(zip(sources, pool.map(figures_of, works), strict=True))
+        return dict(zip(sources, pool.map(score_source, works), strict=True))
 
 
-def summary(figures: Figures) -> float:
-    """One number for a source: the mean of its figures, 1 at best."""
+def summarize(figures: Figures) -> float:
+    """Return the mean of all scores of a source, at most 1."""
     values = [1 - v if name in SMALLER_IS_BETTER else v for name, v in figures.items()]
     return float(np.mean([value / 100 if value > 1 else value for value in values]))
 
@@ -94,8 +93,8 @@ def show(title: str, figures: Figures) -> None:
 def choose(
     tried: Sequence[Preset], found: Mapping[str, list[Figures]], names: Sequence[str]
 ) -> None:
-    """What each source gets where constants are chosen on all others."""
-    values = {name: np.array([summary(one) for one in of]) for name, of in found.items()}
+    """Print the score of each source with the values that are best on all others."""
+    values = {name: np.array([summarize(one) for one in of]) for name, of in found.items()}
     everywhere = int(np.mean(list(values.values()), axis=0).argmax())
     print(f"\n{'source':30}{'shipped':>9}{'left out':>9}{'by all':>9}  chosen without it")
     for name, own in values.items():
@@ -105,17 +104,15 @@ def choose(
         print(f"{name:30}{own[0]:9.3f}{own[at]:9.3f}{own[everywhere]:9.3f}  {chosen}", flush=True)
 
 
-def same_answers(preset: str, sources: Sequence[str]) -> None:
-    """How far the answer to the same movement is the same, by guise."""
+def compare_variants(preset: str) -> None:
+    """Print and record the agreement with variants of the same movement."""
     shares: dict[str, list[float]] = {}
-    chosen = {name: SAME.get(name, 1) for name in sources} or few(SAME, {"subject_86": 5})
-    place = ".".join(["sources.same", *sources, preset])
-    for source, every in chosen.items():
+    for source, every in choose_size(SAME, {"subject_86": 5}).items():
         for sample in SOURCES[source](every):
             here = kineme.segment(sample.recording, preset=preset)
-            for guise in guises(sample.recording):
-                there = kineme.segment(guise.recording, preset=preset)
-                shares.setdefault(guise.name, []).append(agreement(here, there, guise))
+            for variant in make_variants(sample.recording):
+                there = kineme.segment(variant.recording, preset=preset)
+                shares.setdefault(variant.name, []).append(measure_agreement(here, there, variant))
     for name, values in shares.items():
         print(f"{preset}, {name:20}{np.mean(values):.3f} of {len(values)}")
         record(f"{place}.{name.replace(' ', '_')}", float(np.mean(values)))
@@ -124,8 +121,8 @@ def same_answers(preset: str, sources: Sequence[str]) -> None:
     record(f"{place}.mean", float(np.mean(means)))
 
 
-def constant(text: str) -> tuple[str, list[float]]:
-    """``NAME=V,V,...`` as a name and its values."""
+def parse_constant(text: str) -> tuple[str, list[float]]:
+    """Parse ``NAME=V,V,...`` to a name and its values."""
     name, _, values = text.partition("=")
     try:
         return name, [float(value) for value in values.split(",")]
@@ -134,23 +131,25 @@ def constant(text: str) -> tuple[str, list[float]]:
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("sources", nargs="*", help=", ".join(SOURCES))
     parser.add_argument("--presets", nargs="+", default=["kineme", "sensors"])
-    parser.add_argument("--free", action="append", type=constant, help="NAME=VALUE,VALUE,...")
-    parser.add_argument("--every", type=int, default=few(1, 1000), help="recordings of a source")
+    parser.add_argument("--free", action="append", type=parse_constant, help="NAME=VALUE,VALUE,...")
+    parser.add_argument(
+        "--every", type=int, default=choose_size(1, 1000), help="recordings of a source"
+    )
     parser.add_argument("--processes", type=int, default=2)
     add_option(parser)
-    parser.add_argument("--same", action="store_true", help="the same movement in other guises")
+    parser.add_argument("--same", action="store_true", help="compare variants of the same movement")
     options = parser.parse_args()
     if not DATA.exists():
         skip("no recordings: set KINEME_DATA to their folder")
-    sources = options.sources or few(list(SOURCES), ["uiprmd_incorrect", "hapt"])
+    sources = options.sources or choose_size(list(SOURCES), ["uiprmd_incorrect", "hapt"])
     if unknown := set(sources) - set(SOURCES):
         parser.error(f"no such source: {', '.join(sorted(unknown))}")
     if options.same:
         for name in options.presets:
-            same_answers(name, options.sources)
+            compare_variants(name)
         return
     if options.free:
         names = [name for name, _ in options.free]
@@ -160,10 +159,10 @@ def main() -> None:
             for values in product(*(values for _, values in options.free))
         ]
         every = {name: max(options.every, EVERY.get(name, 1)) for name in sources}
-        choose(tried, all_figures(sources, tried, every, options.processes), names)
+        choose(tried, score_sources(sources, tried, every, options.processes), names)
         return
     every = dict.fromkeys(sources, options.every)
-    for source, of in all_figures(sources, options.presets, every, options.processes).items():
+    for source, of in score_sources(sources, options.presets, every, options.processes).items():
         for name, figures in zip(options.presets, of, strict=True):
             show(f"{source}, {name}", figures)
             for key, value in figures.items():

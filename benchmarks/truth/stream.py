@@ -1,12 +1,13 @@
-"""Recordings pushed as a stream: scores beside those of the file, how soon, at what cost a row.
+"""Measure scores, delays and costs of streams, and the robustness of live recordings.
 
     python -m benchmarks stream [SOURCE|hours|kills ...] [--every N] [--hours N] [--kills N]
 
-``delay`` of a change: from a border that became final to the first event that told of it, in
-seconds. ``delay`` of a repetition: from its end to the first event that counted it, over its
-length. Cost is processor time of one thread and all others. ``hours`` is recordings joined to half
-an hour, again and again: memory and MoF of the first and of the last half hour. ``kills`` are runs
-of ``kineme live --record`` that are killed at random moments: takes that lose more than a second.
+Scores of a stream are printed beside those of the file. The delay of a change is the time from a
+final border to the first event that reported it, in seconds. The delay of a repetition is the time
+from its end to the first event that counted it, relative to its length. Cost is processor time of
+all threads. ``hours`` repeats half an hour of joined recordings and compares memory and MoF of the
+first and last part. ``kills`` kills ``kineme live --record`` at random moments and counts takes
+that lose more than a second.
 """
 
 from __future__ import annotations
@@ -24,10 +25,10 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _joined import Piece, clusters_of, joined, pieces
-from _options import command_line, few, needed
-from _recordings import subject_86
-from _sources import SOURCES, judged_labels
+from _joined import Piece, join_signals, list_clusters, read_pieces
+from _options import choose_size, find_data, make_parser
+from _recordings import read_subject_86
+from _sources import SOURCES, score_labels
 from kineme.evaluation.comparison import UNLABELLED, Comparison
 from kineme.evaluation.score import pool_scores
 from kineme.live import ActivityStarted, Event, Repetition, Stream
@@ -35,24 +36,24 @@ from kineme.live.journal import recover_journal
 from kineme.recordings import Motion, Signals
 
 EVERY = {"subject_86": 1, "uiprmd": 9, "hugadb": 40}
-"""Sources, and every n-th recording of each."""
+"""Every n-th recording of each source."""
 NEAR_S = 1.5
-"""Starts of one activity differ by this at most from event to event."""
+"""Maximum difference in seconds between reported starts of one activity."""
 CHUNK_S = 0.25
 PART_S = 1800.0
-"""Seconds of the recordings that are joined and replayed again and again."""
+"""Seconds of joined recordings to repeat."""
 MOST_LOST_S = 1.0
 
 
-def stream_of(recording: Motion | Signals, **options: float) -> Stream:
-    """A stream of the channels or the body of a recording."""
+def make_stream(recording: Motion | Signals, **options: float) -> Stream:
+    """Make a stream for the channels or the body of a recording."""
     if isinstance(recording, Signals):
         return Stream(fps=recording.fps, channels=recording.names, **options)
     return Stream(fps=recording.fps, skeleton=recording.skeleton, **options)
 
 
 def push_all(stream: Stream, recording: Motion | Signals) -> list[Event]:
-    """All events of a recording that comes in small pieces."""
+    """Push a recording in small pieces and return all events."""
     values = recording.values if isinstance(recording, Signals) else recording.positions
     step = max(1, round(CHUNK_S * recording.fps))
     events: list[Event] = []
@@ -61,8 +62,8 @@ def push_all(stream: Stream, recording: Motion | Signals) -> list[Event]:
     return events + stream.finish()
 
 
-def delays(events: Sequence[Event]) -> tuple[list[float], list[float]]:
-    """Seconds to the first event of each change; shares of lengths to that of each repetition."""
+def measure_delays(events: Sequence[Event]) -> tuple[list[float], list[float]]:
+    """Return the delays of changes in seconds and of repetitions relative to their lengths."""
     starts = [each for each in events if isinstance(each, ActivityStarted)]
     units = [each for each in events if isinstance(each, Repetition)]
     changes = [
@@ -74,47 +75,47 @@ def delays(events: Sequence[Event]) -> tuple[list[float], list[float]]:
     for final in units:
         if final.is_final:
             middle = (final.start_s + final.stop_s) / 2
-            told = min(e.at_s for e in units if e.start_s <= middle < e.stop_s)
-            counts.append((told - final.stop_s) / (final.stop_s - final.start_s))
+            reported_s = min(e.at_s for e in units if e.start_s <= middle < e.stop_s)
+            counts.append((reported_s - final.stop_s) / (final.stop_s - final.start_s))
     return changes, counts
 
 
-def cost(recording: Motion | Signals, **options: float) -> float:
-    """Milliseconds a row, compiled beforehand."""
-    stream = stream_of(recording, **options)
+def measure_cost(recording: Motion | Signals, **options: float) -> float:
+    """Return milliseconds per row, with compiled code."""
+    stream = make_stream(recording, **options)
     start = time.process_time()
     push_all(stream, recording)
     return (time.process_time() - start) * 1e3 / recording.n_frames
 
 
-def watch_channels() -> Signals:
-    """Six channels of a watch at the gym."""
-    path = min((needed("sets/gym_watch") / "recordings").glob("*"))
+def read_watch() -> Signals:
+    """Read six channels of a watch at the gym, three times over."""
+    path = min((find_data("sets/gym_watch") / "recordings").glob("*"))
     watch = kineme.read(path)
     return Signals(np.tile(watch.values[:, :6], (3, 1)), watch.fps, watch.names[:6])
 
 
 def replay_hours(hours: float, **options: float) -> None:
-    """Replay the same recordings for hours; compare the first part with the last one."""
+    """Repeat recordings for hours and compare the first part with the last."""
     parts: list[Piece] = []
-    for piece in pieces(needed("sets/hugadb")):
+    for piece in read_pieces(find_data("sets/hugadb")):
         parts.append(piece)
-        if sum(each.recording.duration for each in parts) >= few(PART_S, 60.0):
+        if sum(each.recording.duration for each in parts) >= choose_size(PART_S, 60.0):
             break
-    part = joined([piece.recording for piece in parts])
+    part = join_signals([piece.recording for piece in parts])
     n_parts = max(2, round(hours * 3600 / part.duration))
-    stream, memory = stream_of(part, **options), []
+    stream, memory = make_stream(part, **options), []
     for _ in range(n_parts):
         for start in range(0, part.n_frames, 15):
             stream.push(part.values[start : start + 15])
         memory.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6)
     stream.finish()
-    clusters = clusters_of(stream.segmentation).reshape(n_parts, -1)
+    clusters = list_clusters(stream.segmentation).reshape(n_parts, -1)
     borders = np.cumsum([len(piece.truth) for piece in parts])[:-1]
     for which, at in (("first", 0), ("last", -1)):
         each = zip(parts, np.split(clusters[at], borders), strict=True)
         mof = pool_scores(
-            judged_labels(Comparison(piece.truth[known], own[known], part.fps))["mof"]
+            score_labels(Comparison(piece.truth[known], own[known], part.fps))["mof"]
             for piece, own in each
             if (known := piece.truth != UNLABELLED).any()
         )
@@ -125,8 +126,8 @@ def replay_hours(hours: float, **options: float) -> None:
 
 
 def kill_takes(n_kills: int) -> None:
-    """Kill recordings at random moments; count those that lose more than the last second."""
-    watch, chance, lost_s = watch_channels(), random.Random(0), []
+    """Kill live recordings at random moments and count those that lose more than a second."""
+    watch, chance, lost_s = read_watch(), random.Random(0), []
     step = round(watch.fps / 10)
     for _ in range(n_kills):
         with TemporaryDirectory() as folder:
@@ -155,13 +156,17 @@ def kill_takes(n_kills: int) -> None:
 
 
 def main() -> None:
-    parser = command_line(__doc__)
+    parser = make_parser(__doc__)
     parser.add_argument("sources", nargs="*", help=", ".join([*SOURCES, "hours", "kills"]))
     parser.add_argument("--every", type=int, help="every n-th recording of a source")
     for name in ("delay", "interval", "memory"):
         parser.add_argument(f"--{name}", type=float, help="of the stream, in seconds")
-    parser.add_argument("--hours", type=float, default=few(1.0, 0.0), help="that are replayed")
-    parser.add_argument("--kills", type=int, default=few(100, 3), help="runs that are killed")
+    parser.add_argument(
+        "--hours", type=float, default=choose_size(1.0, 0.0), help="that are replayed"
+    )
+    parser.add_argument(
+        "--kills", type=int, default=choose_size(100, 3), help="runs that are killed"
+    )
     add_option(parser)
     given = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -169,20 +174,20 @@ def main() -> None:
     options = {name: getattr(given, name) for name in names if getattr(given, name) is not None}
     changes: list[float] = []
     counts: list[float] = []
-    chosen = given.sources or [*few(list(EVERY), ["uiprmd"]), "hours", "kills"]
+    chosen = given.sources or [*choose_size(list(EVERY), ["uiprmd"]), "hours", "kills"]
     if "hours" in chosen:
         replay_hours(given.hours, **options)
     if "kills" in chosen:
         kill_takes(given.kills)
     for source in [each for each in chosen if each in SOURCES]:
-        every = given.every or few(EVERY.get(source, 10), 1000)
+        every = given.every or choose_size(EVERY.get(source, 10), 1000)
         judged = []
         for sample in SOURCES[source](every):
-            stream = stream_of(sample.recording, **options)
+            stream = make_stream(sample.recording, **options)
             events = push_all(stream, sample.recording)
             ways = kineme.segment(sample.recording), stream.segmentation
             judged.append([sample.judge(found) for found in ways])
-            late, later = delays(events)
+            late, later = measure_delays(events)
             changes += late
             counts += later
         for name in judged[0][0]:
@@ -204,12 +209,12 @@ def main() -> None:
 
 
 def measure_costs(**options: float) -> None:
-    """Milliseconds a row of a body and of six channels."""
-    body = subject_86()[few(2, 0)].motion
-    for name, recording in (("body", body), ("watch", watch_channels())):
-        each = cost(recording, **options)
+    """Measure the milliseconds per row of a body and of six channels."""
+    body = read_subject_86()[choose_size(2, 0)].motion
+    for name, recording in (("body", body), ("watch", read_watch())):
+        each = measure_cost(recording, **options)
         print(f"cost, {name} at {recording.fps:g} Hz: {each:.2f} ms a row", flush=True)
-        record(f"stream.cost.{name}", round(each, 2), unit="ms")
+        record(f"stream.measure_cost.{name}", round(each, 2), unit="ms")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,13 @@
-"""Counts and borders on synthetic recordings: how many are right, by preset.
+"""Score counts and borders of each preset on synthetic recordings.
 
     python -m benchmarks synthetic [--seeds 50] [--noise 0.0] [--record]
 
-Each seed is one `kineme.datasets.random_recording`: six activities, every other
-one walking, three to eight repetitions each.
+Each seed is one `kineme.datasets.random_recording`: six activities, every second one walking, three
+to eight repetitions each.
 
-- **counts**: activities whose true number of repetitions is found. A found
-  primitive counts for the true activity that most of it lies in.
-- **borders**: true transitions with a found border in them, or at most 0.25 s
-  from them.
+- **counts**: activities with the right number of repetitions. A found primitive counts for the true
+  activity that contains its middle.
+- **borders**: true transitions with a found border within 0.25 s.
 - **extra**: found borders farther than that from every transition, per recording.
 """
 
@@ -19,7 +18,7 @@ from collections import Counter, defaultdict
 import numpy as np
 
 from _figures import add_option, record
-from _options import command_line, few
+from _options import choose_size, make_parser
 from kineme.datasets import random_recording
 from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme.methods.segmenter import segment
@@ -28,8 +27,8 @@ from kineme.segments.segmentation import Segmentation
 TOLERANCE_S = 0.25
 
 
-def found_counts(found: Segmentation, truth: Segmentation) -> list[tuple[str, int, int]]:
-    """Label, true count and found count of each true activity."""
+def count_found(found: Segmentation, truth: Segmentation) -> list[tuple[str, int, int]]:
+    """Return label, true count and found count of each true activity."""
     spans = truth.activities
     primitives = found.primitives
     middle = (primitives.start_frame + primitives.stop_frame) // 2
@@ -43,8 +42,8 @@ def found_counts(found: Segmentation, truth: Segmentation) -> list[tuple[str, in
     ]
 
 
-def border_hits(found: Segmentation, truth: Segmentation) -> tuple[int, int, int]:
-    """True transitions, those with a found border near, found borders near none."""
+def match_borders(found: Segmentation, truth: Segmentation) -> tuple[int, int, int]:
+    """Count true transitions, those with a near border, and borders near none."""
     spans = truth.activities.select(truth.activities.kind == "transition")
     cuts = found.cuts() / found.fps
     near = (cuts[:, None] >= spans.start_s - TOLERANCE_S) & (
@@ -54,8 +53,8 @@ def border_hits(found: Segmentation, truth: Segmentation) -> tuple[int, int, int
 
 
 def main() -> None:
-    parser = command_line(__doc__)
-    parser.add_argument("--seeds", type=int, default=few(50, 1))
+    parser = make_parser(__doc__)
+    parser.add_argument("--seeds", type=int, default=choose_size(50, 1))
     parser.add_argument("--noise", type=float, default=0.0, help="metres")
     add_option(parser)
     options = parser.parse_args()
@@ -65,9 +64,9 @@ def main() -> None:
         borders = np.zeros(3, int)
         for recording in recordings:
             found = segment(recording.motion, preset=preset)
-            for label, true, counted in found_counts(found, recording.truth):
+            for label, true, counted in count_found(found, recording.truth):
                 right[label].append(true == counted)
-            borders += border_hits(found, recording.truth)
+            borders += match_borders(found, recording.truth)
         all_counts = [exact for label in right for exact in right[label]]
         true, hit, extra = borders
         print(

@@ -55,7 +55,7 @@ OF_TRIALS: Mapping[tuple[str, str], Mapping[str, Any]] = {
 
 
 def method(name: str) -> Method:
-    """The method of this name.
+    """Return the method of this name.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def method(name: str) -> Method:
 
 
 def preset_method(preset: Preset) -> Method:
-    """Segmentation by a preset, be it a published or a changed one.
+    """Return a method that segments by a preset.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def run(
     *,
     progress: Callable[[str], None] | None = None,
 ) -> list[Result]:
-    """A result for every trial and method, trial by trial.
+    """Return a result for every trial and method, ordered by trial.
 
     Parameters
     ----------
@@ -150,14 +150,14 @@ def run(
 
 
 def scores_of(trial: Trial, found: Segmentation) -> Scores:
-    """Every score of a segmentation of this trial; see `kineme.evaluation.evaluate`."""
+    """Return all scores of a segmentation of this trial; see `kineme.evaluation.evaluate`."""
     return evaluate_segmentation(
         trial.truth, found, positions=trial.positions, features=trial.features
     )
 
 
 def mean_scores(results: Sequence[Result]) -> dict[str, Scores]:
-    """Per method the mean of each score over its trials; scores that are nan are left out."""
+    """Return the mean of each score over trials, by method; nan is left out."""
     return {
         method: mean([r.scores for r in results if r.method == method])
         for method in dict.fromkeys(r.method for r in results)
@@ -165,14 +165,14 @@ def mean_scores(results: Sequence[Result]) -> dict[str, Scores]:
 
 
 def mean(rows: Sequence[Scores]) -> Scores:
-    """The mean of each score over the rows in which it is a number; nan if in none."""
+    """Return the mean of each score over rows; nan is left out."""
     names = dict.fromkeys(name for row in rows for name in row)
     columns = {n: [row[n] for row in rows if np.isfinite(row.get(n, np.nan))] for n in names}
     return {n: float(np.mean(values)) if values else float("nan") for n, values in columns.items()}
 
 
 def as_records(results: Sequence[Result]) -> list[dict[str, Any]]:
-    """One record per trial and method, then one per method with the means (trial ``mean``)."""
+    """Return one record per trial and method, then the means of each method (trial ``mean``)."""
     records: list[dict[str, Any]] = [
         {"trial": r.trial.name, "method": r.method, **r.scores} for r in results
     ]
@@ -205,7 +205,7 @@ class _Stored(TypedDict):
 
 
 def score_published_cuts(folder: Path) -> list[PublishedCuts]:
-    """ACA's and HACA's published cuts of all trials under the authors' functions.
+    """Score ACA's and HACA's published cuts of all trials with the authors' functions.
 
     Parameters
     ----------
@@ -246,7 +246,7 @@ def published() -> dict[str, Any]:
 
 
 def aca_accuracy(truth: Truth, found: Labelling, *, blocks: Ints | None = None) -> float:
-    """The accuracy by which ACA and HACA were measured: frames right, one to one.
+    """Return the published accuracy of ACA and HACA: right frames, one to one.
 
     Truth is cut at the mean of the annotators' marks, with no class for
     transitions. Source: Zhou, De la Torre and Hodgins, TPAMI 35(3), 2013, as in

@@ -35,7 +35,7 @@ def run_benchmark(
     *,
     quiet: bool,
 ) -> list[dict[str, Any]]:
-    """The scores of methods on trials as records; printed unless quiet, pictures if asked for."""
+    """Score methods on trials; print the records unless quiet, draw if a folder is given."""
     methods = _methods(names)
     for folder in (plot, figures):
         _make_folder(folder)

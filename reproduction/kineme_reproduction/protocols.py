@@ -22,7 +22,7 @@ from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
 
 
 def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
-    """Shares of the truth covered, with and without the uncertain spans.
+    """Return the covered shares of the truth, with and without the uncertain spans.
 
     Every found activity goes to the interval of the truth that it overlaps
     most (the first of equals; uncertain spans are intervals too). For each
@@ -65,7 +65,7 @@ def strict_and_tolerant(compared: Comparison) -> tuple[float, float]:
 
 
 def majority_accuracy(compared: Comparison) -> tuple[float, float]:
-    """Shares of frames labelled right, of all frames and outside the uncertain spans.
+    """Return the shares of right frames, of all frames and outside the uncertain spans.
 
     A cluster takes the class that more than half of its frames have, else
     none. Cutting into many clusters is not punished.

@@ -57,7 +57,7 @@ class Trial:
 
 
 def find_folder(data: str | PathLike[str] | None = None) -> Path:
-    """The folder with the benchmark's files: this one, or ``cmu86`` in it.
+    """Return the folder with the benchmark's files: this one, or ``cmu86`` in it.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def find_folder(data: str | PathLike[str] | None = None) -> Path:
 
 
 def read_truths(folder: Path) -> dict[str, Truth]:
-    """The truth of every annotated trial, at 30 Hz; errors known of are mended in silence."""
+    """Read the truth of every annotated trial, at 30 Hz; correct known errors."""
     path = _annotations(folder)
     if path is None:
         raise ReadError(folder, f"no {' or '.join(ANNOTATIONS)} here: {FETCH}")
@@ -89,7 +89,7 @@ def load_trials(
     *,
     progress: Callable[[str], None] | None = None,
 ) -> list[Trial]:
-    """The named trials, by default all at hand, in order.
+    """Load the named trials in order; by default all that exist.
 
     Raises
     ------

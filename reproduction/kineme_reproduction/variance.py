@@ -59,7 +59,7 @@ class ClusterVariance:
 
 
 def point_cloud_variance(positions: ArrayLike, found: Labelling) -> list[ClusterVariance]:
-    """Per cluster, the distances of its segments as moving point clouds, metres.
+    """Return the distances of each cluster's segments as moving point clouds, in metres.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def point_cloud_variance(positions: ArrayLike, found: Labelling) -> list[Cluster
 
 
 def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVariance]:
-    """Per cluster, the distances of its segments in feature space, the features' unit.
+    """Return the distances of each cluster's segments in feature space.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def feature_variance(features: ArrayLike, found: Labelling) -> list[ClusterVaria
 
 
 def overall(clusters: list[ClusterVariance]) -> tuple[float, float]:
-    """Mean distance and mean variance over the clusters of at least two segments.
+    """Return mean distance and mean variance over the clusters of at least two segments.
 
     Clusters weigh the same, as bars of a figure do; nan where there is none.
 

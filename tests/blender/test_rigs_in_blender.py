@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
-from _viewers import BPY, in_blender
+from _viewers import BPY, read_in_blender
 from kineme.formats.scenes.fbx_copy import copy_takes
 
 pytestmark = [
@@ -36,7 +36,7 @@ def test_bones_are_as_in_the_source(data_dir, tmp_path, name, take, suffix) -> N
     motion = kineme.read(source, take=take)[:20]
     path = tmp_path / f"clip{suffix}"
     kineme.write(motion, path)
-    expected, found = in_blender(source, tmp_path, take or ""), in_blender(path, tmp_path)
+    expected, found = read_in_blender(source, tmp_path, take or ""), read_in_blender(path, tmp_path)
     shared = [bone for bone in expected[0] if bone in found[0]]
     assert len(shared) >= 0.9 * len(expected[0])
     for one, other in zip(expected, found, strict=True):
@@ -47,7 +47,10 @@ def test_bones_are_as_in_the_source(data_dir, tmp_path, name, take, suffix) -> N
 def test_bones_of_a_copy_are_as_in_the_source(data_dir, tmp_path) -> None:
     source, path = data_dir / "rigs" / "samba.fbx", tmp_path / "copy.fbx"
     copy_takes({"clip": kineme.read(source)[:20]}, source, path)
-    expected, found = in_blender(source, tmp_path, "mixamo"), in_blender(path, tmp_path, "clip")
+    expected, found = (
+        read_in_blender(source, tmp_path, "mixamo"),
+        read_in_blender(path, tmp_path, "clip"),
+    )
     for one, other in zip(expected, found, strict=True):
         assert one.keys() == other.keys()
         assert max(np.abs(np.subtract(one[bone], other[bone])).max() for bone in one) < WORST

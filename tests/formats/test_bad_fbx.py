@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from fbx_scenes import motion_of, one_bone, played
 
-from _fbx import Keys, Scene, as_binary, as_text, node
+from _fbx import Keys, Scene, encode_binary, format_text, make_node
 from kineme.errors import ReadError
 
 
@@ -27,8 +27,8 @@ def no_skeleton() -> bytes:
 
 
 def old_text() -> bytes:
-    header = node("FBXHeaderExtension", children=[node("FBXVersion", 6100)])
-    return as_text([header], 6100)
+    header = make_node("FBXHeaderExtension", children=[make_node("FBXVersion", 6100)])
+    return format_text([header], 6100)
 
 
 def bomb() -> bytes:
@@ -58,11 +58,11 @@ def endless() -> bytes:
         (no_animation(), "holds no animation of its skeleton: export it with"),
         (no_skeleton(), "holds no skeleton, neither bones nor animated nodes"),
         (old_text(), "is FBX 6.1, a format of before 2011: open it .* and export FBX 2014"),
-        (as_binary([], 6100), "is FBX 6.1, a format of before 2011"),
+        (encode_binary([], 6100), "is FBX 6.1, a format of before 2011"),
         (b"Kaydara FBX Binary  \x00\x1a\x00\x00", "the file ends in its header"),
         (one_curve()[:-400], "truncated"),
         (one_curve()[:300], "truncated"),
-        (as_text(Scene().nodes())[:-3], "the '}' of 'Connections' is missing"),
+        (format_text(Scene().nodes())[:-3], "the '}' of 'Connections' is missing"),
         (b"; FBX 7.4.0 project file\nObjects: {\n}}\n", "a '}' too many"),
         (b"; FBX 7.4.0 project file\n3, 4\n", "line 2: a name expected, found b'3'"),
         (bomb(), "claims an array of 250000000 numbers"),

@@ -33,9 +33,9 @@ from test_mat import as_hdf5, cells, mat, qtm
 from test_tables import JOINTS, TIMES, TRC, body, table
 
 import kineme
-from _damage import mutated
-from _fbx import walker
-from _restructure import restructured
+from _damage import damage_bytes
+from _fbx import make_walker
+from _restructure import change_structure
 from kineme.errors import KinemeError, KinemeWarning
 from kineme.formats import supported_formats
 
@@ -87,9 +87,9 @@ SOUND = {
     "packed.mat": mat(True, take={"a": POINTS[:, 0], "b": POINTS[:, 1], "fps": 30}),
     "qtm.mat": mat(False, take=qtm(POINTS)),
     "a.c3d": c3d_bytes(walking()[:5, :8], PLUG_IN_GAIT[:8]),
-    "a.fbx": walker().binary(),
-    "plain.fbx": walker().binary(7700, packed=False),
-    "text.fbx": walker().text(),
+    "a.fbx": make_walker().binary(),
+    "plain.fbx": make_walker().binary(7700, packed=False),
+    "text.fbx": make_walker().text(),
     "a.glb": glb(),
     "openpose.json": as_json(openpose(18, 3)),
     "coco.json": as_json(coco(3)),
@@ -131,7 +131,7 @@ def test_damage_to_bytes_and_to_what_they_mean(
     folder: Path, name: str, seed: int, meaning: bool
 ) -> None:
     sound = SOUND[name]
-    data = restructured(Path(name), sound, seed) if meaning else mutated(sound, seed)
+    data = change_structure(Path(name), sound, seed) if meaning else damage_bytes(sound, seed)
     survives(folder, name, data)
 
 

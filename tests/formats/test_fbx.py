@@ -10,7 +10,7 @@ from fbx_scenes import Bones, motion_of, one_bone, played
 from scipy.spatial.transform import Rotation
 
 import kineme
-from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, walker
+from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, make_walker
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import compute_world_rotations
@@ -37,7 +37,7 @@ def matrix(translation=(0, 0, 0), angles=(0, 0, 0), order="xyz", scale=(1, 1, 1)
 
 
 def test_a_body_that_walks(tmp_path: Path) -> None:
-    motion = motion_of(walker().binary(), tmp_path)
+    motion = motion_of(make_walker().binary(), tmp_path)
     assert (motion.n_frames, motion.fps) == (121, 60)
     skeleton = motion.skeleton
     assert skeleton.names[:3] == ("Hips", "Spine", "Head")
@@ -59,8 +59,8 @@ def test_a_body_that_walks(tmp_path: Path) -> None:
 @pytest.mark.parametrize("version", [7100, 7400, 7500, 7700])
 @pytest.mark.parametrize("packed", [True, False])
 def test_binary_versions_say_the_same(tmp_path: Path, version: int, packed: bool) -> None:
-    expected = motion_of(walker().binary(), tmp_path)
-    motion = motion_of(walker().binary(version, packed=packed), tmp_path)
+    expected = motion_of(make_walker().binary(), tmp_path)
+    motion = motion_of(make_walker().binary(version, packed=packed), tmp_path)
     assert motion.provenance.notes[0] == f"FBX {version / 1000:.1f}"
     assert (motion.positions == expected.positions).all()
     assert motion.rotations is not None
@@ -69,8 +69,8 @@ def test_binary_versions_say_the_same(tmp_path: Path, version: int, packed: bool
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
 def test_text_says_the_same(tmp_path: Path, encoding: str) -> None:
-    expected = motion_of(walker().binary(), tmp_path)
-    text = walker().text().decode().replace("\n", "\r\n")
+    expected = motion_of(make_walker().binary(), tmp_path)
+    text = make_walker().text().decode().replace("\n", "\r\n")
     motion = motion_of(text.encode(encoding), tmp_path)
     assert motion.skeleton.names == expected.skeleton.names
     np.testing.assert_allclose(motion.positions, expected.positions, atol=1e-9)
@@ -79,9 +79,9 @@ def test_text_says_the_same(tmp_path: Path, encoding: str) -> None:
 @pytest.mark.parametrize("key", ["Pre-Extrapolation", "Größe", "3D.Size", "a|b", "Post-Extra "])
 def test_keys_of_texts_hold_any_letters(tmp_path: Path, key: str) -> None:
     """Extrapolated curves have such keys, as Autodesk's programs write them."""
-    expected = motion_of(walker().text(), tmp_path)
+    expected = motion_of(make_walker().text(), tmp_path)
     more = f'KeyVer: 4009\n{key}: {{\n\tType: "C"\n\tRepetition: -1\n}}\n'
-    text = walker().text().decode()
+    text = make_walker().text().decode()
     assert "KeyVer: 4009\n" in text
     motion = motion_of(text.replace("KeyVer: 4009\n", more).encode(), tmp_path)
     assert (motion.positions == expected.positions).all()
@@ -109,7 +109,7 @@ def test_a_file_of_blender(tmp_path: Path) -> None:
 
 def test_takes_by_name_and_number(tmp_path: Path) -> None:
     for take in ("bow", 1, "1"):
-        (tmp_path / "a.fbx").write_bytes(walker().binary())
+        (tmp_path / "a.fbx").write_bytes(make_walker().binary())
         motion = kineme.read(tmp_path / "a.fbx", take=take)
         assert motion.n_frames == 31  # from 0.5 to 1 s
         turned = world(motion, "Spine")[0].T @ world(motion, "Spine")

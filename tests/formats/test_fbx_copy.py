@@ -10,7 +10,7 @@ import pytest
 from fbx_scenes import Bones
 
 import kineme
-from _fbx import Keys, Name, node, walker
+from _fbx import Keys, Name, make_node, make_walker
 from kineme.errors import KinemeWarning, WriteError
 from kineme.formats.files import load
 from kineme.formats.scenes.fbx_copy import copy_takes
@@ -101,7 +101,7 @@ def test_joints_are_where_the_clip_has_them(tmp_path, inherit, order, version, r
 
 def test_a_source_of_text_gives_the_skeleton_and_a_warning(tmp_path: Path) -> None:
     source, path = tmp_path / "a.fbx", tmp_path / "b.fbx"
-    source.write_bytes(walker().text())
+    source.write_bytes(make_walker().text())
     motion = kineme.read(source, take=0)
     with pytest.warns(KinemeWarning, match=r"a\.fbx is an FBX of text, so b\.fbx has no mesh"):
         copy_takes({"clip": motion}, source, path)
@@ -134,8 +134,10 @@ def test_mesh_and_skin_of_a_character_stay_byte_for_byte(data_dir: Path, tmp_pat
 
 
 def test_a_texture_that_the_copy_will_not_find_is_told(tmp_path: Path) -> None:
-    scene = walker()
-    scene._object("Video", Name("skin", "Video"), "Clip", {}, node("RelativeFilename", "a.png"))
+    scene = make_walker()
+    scene._object(
+        "Video", Name("skin", "Video"), "Clip", {}, make_node("RelativeFilename", "a.png")
+    )
     source, path = tmp_path / "a.fbx", tmp_path / "elsewhere" / "b.fbx"
     path.parent.mkdir()
     source.write_bytes(scene.binary())
@@ -147,7 +149,7 @@ def test_a_texture_that_the_copy_will_not_find_is_told(tmp_path: Path) -> None:
 
 def test_a_source_that_has_changed_is_refused(tmp_path: Path) -> None:
     source = tmp_path / "a.fbx"
-    source.write_bytes(walker().binary())
+    source.write_bytes(make_walker().binary())
     motion = kineme.read(source, take=0)
     source.write_bytes(Bones({}).binary())
     with pytest.raises(WriteError, match="has changed since it was read"):

@@ -111,7 +111,7 @@ def test_unknown_suffix(tmp_path: Path) -> None:
 def test_one_recording_has_the_same_segments_in_every_format(tmp_path: Path) -> None:
     """Borders within 0.05 s, clusters and counts the same: AMC, BVH, FBX, GLB, USD."""
     motion = read_motion(bundled_recording())
-    (tmp_path / "a.fbx").write_bytes(_fbx.of_motion(motion).binary())
+    (tmp_path / "a.fbx").write_bytes(_fbx.make_scene(motion).binary())
     written = [".amc", ".bvh", ".glb", *([".usdc"] if find_spec("pxr") else [])]
     for suffix in written:
         write(motion, tmp_path / f"a{suffix}")

@@ -1,4 +1,4 @@
-"""What axe-core, which checks whether a page is accessible, objects to."""
+"""Check the accessibility of pages with axe-core."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 
 
 def load_axe(page: Any) -> None:
-    """Bring axe-core into a page."""
+    """Load axe-core into a page."""
     page.evaluate(f"{AXE.read_text(encoding='utf-8')}; 0")
 
 
 def violations(page: Any, part: str = "body", *, colors_only: bool = False) -> list[str]:
-    """What axe-core objects to in a part of the page, level A or AA."""
+    """Return the violations of WCAG level A and AA in a part of the page."""
     rules = {"type": "rule", "values": ["color-contrast"]} if colors_only else RULES
     found = page.evaluate(
         "([part, only]) => axe.run(part, { runOnly: only, resultTypes: ['violations'] })",

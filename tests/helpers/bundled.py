@@ -1,4 +1,4 @@
-"""The bundled recording in a folder of its own: as it is, or over and over."""
+"""Copy the bundled recording, or write it repeatedly to one file."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ NUMBERS = count(1)
 
 
 def copy_of_bundled(folder: Path) -> Path:
-    """A copy under a new name."""
+    """Copy the bundled recording under a new name."""
     return Path(shutil.copy(kineme.bundled_recording(), folder / f"take_{next(NUMBERS)}.bvh"))
 
 
 def write_repeated(path: Path, n_frames: int) -> Path:
-    """A recording with so many frames, from the start again where the bundled one ends."""
+    """Repeat the bundled recording to so many frames."""
     head, motion = kineme.bundled_recording().read_text().split("MOTION\n")
     _, frame_time, *frames = motion.strip().split("\n")
     lines = [frames[i % len(frames)] for i in range(n_frames)]

@@ -1,4 +1,4 @@
-"""Whether work grows with what there is to do, at whatever pace a machine goes."""
+"""Measure how processor time grows with the size of the input."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from timeit import repeat
 
 PARTS = 8
 LINEAR = 3.0 * PARTS
-"""`times_longer` of work in proportion stays below this; that of a square is 64."""
+"""Limit of `times_longer` for linear work; quadratic work has 64."""
 LEAST = 0.02
-"""Seconds: what takes less is taken for so much."""
+"""Minimum seconds of the smaller run, to reduce noise."""
 
 
 def times_longer(work: Callable[[int], object], n: int) -> float:
-    """How many times the processor time for n is that for an eighth of it."""
+    """Return the processor time for n divided by that for an eighth of it."""
 
-    def spent(n: int) -> float:  # `repeat` stops the garbage collector, which walks all that lives
+    def spent(n: int) -> float:  # `repeat` disables the garbage collector
         return min(repeat(lambda: work(n), timer=process_time, repeat=2, number=1))
 
     return spent(n) / max(spent(n // PARTS), LEAST)

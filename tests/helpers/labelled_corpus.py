@@ -1,4 +1,4 @@
-"""A small folder of recordings with labels, as people keep them."""
+"""Make a small folder of labelled recordings."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def make_corpus(home: Path) -> Path:
-    """Four recordings of channels, one of them damaged, and a table of the labels of three."""
+    """Write four recordings, one of them damaged, and labels of three."""
     (home / "recordings").mkdir()
     random = np.random.default_rng(0)
     times = np.arange(1200) / 30

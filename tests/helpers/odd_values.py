@@ -1,4 +1,4 @@
-"""Values that nobody means, and what is raised at them but one sentence of the package."""
+"""Provide unusual values and a check of the errors that they raise."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ ODD = (
 
 
 def surprise(work: Callable[[], object]) -> str:
-    """What is wrong with what a call raises; nothing where it raises nothing."""
+    """Return what is wrong with the error of a call; empty for none or a one-line `KinemeError`."""
     try:
         work()
     except KinemeError as error:
         return "several lines" if "\n" in str(error) else ""
-    except Exception as error:  # noqa: BLE001 (which is what is looked for)
+    except Exception as error:  # noqa: BLE001 (unexpected exceptions are the result)
         return f"{type(error).__name__}: {error}"
     return ""

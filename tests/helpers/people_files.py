@@ -1,4 +1,4 @@
-"""A recording of several people: markers of each, in one file and one space."""
+"""Write a recording with the markers of several people."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from kineme.recordings.operations import move, resample, turn
 
 
 def write_people(path: Path, people: dict[str, int], n_frames: int = 360) -> Path:
-    """The bundled recording by people, each from another frame on, a step beside each other.
+    """Write parts of the bundled recording as people who stand side by side.
 
-    At 30 frames a second; the names of the markers begin with those of the people.
+    The rate is 30 frames per second. Marker names start with the person's name.
     """
     whole = resample(kineme.read(kineme.bundled_recording()), 30)
     names: list[str] = []

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_label_formats import LABEL_FORMATS, NASTY, babel, example, place
 
-from _damage import mutated
+from _damage import damage_bytes
 from kineme.errors import KinemeError, KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.labels import label_formats, read_segments, write_segments
 
@@ -75,7 +75,7 @@ def test_a_document_type_is_refused_before_it_can_grow(tmp_path) -> None:
 def test_a_damaged_file_is_read_or_refused(folder, name, labels, seed) -> None:
     path = place(folder, name, f"damaged_{name}")
     write_segments(example(labels), path, format=name)
-    path.write_bytes(mutated(path.read_bytes(), seed))
+    path.write_bytes(damage_bytes(path.read_bytes(), seed))
     outcome(path, name)
 
 

@@ -13,7 +13,7 @@ from numba import njit
 
 @njit("float64[:, ::1](float64[:, ::1], int64)", cache=True, nogil=True)
 def propagate(kernel, longest):
-    """``out[a, b]``: the best min(K[i, j], K[i + w, j + w]) with (a, b) a corner of that square.
+    """``out[a, b]`` is the best min(K[i, j], K[i + w, j + w]) with (a, b) a corner of that square.
 
     w runs from 1 to ``longest``, i < j; the diagonal is 1.
     """
@@ -79,7 +79,7 @@ def window_alignments(kernel, weights, start, stop, longest):
 
 @njit("int64[::1](float64[:, ::1], int64, boolean)", cache=True, nogil=True)
 def cheapest_lengths(costs, shortest, as_coded):
-    """The lengths of the consecutive windows that cover all frames at the least total cost.
+    """Return the lengths of consecutive windows that cover all frames at the least total cost.
 
     ``costs[v, l - 1]`` is the cost of the window of l frames ending at v; no
     window is below ``shortest`` frames. Of equal totals the shortest last

@@ -57,7 +57,7 @@ class State:
 
 
 def aca(features: Floats, preset: AcaConstants) -> Segments:
-    """Segments in ``preset.n_classes`` clusters with the least total distance to their class.
+    """Find segments in ``preset.n_classes`` clusters with the least distance to their class.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def initial_states(
     preset: AlignedConstants,
     random: np.random.RandomState,
 ) -> Iterator[State]:
-    """States from spectral clustering of the propagated kernel, one per start."""
+    """Yield states from spectral clustering of the propagated kernel, one per start."""
     embedding = spectral_embedding(propagate(kernel, lengths[1]), n_classes)
     for _ in range(starts):
         check_cancelled()
@@ -113,7 +113,7 @@ def spectral_embedding(similarity: Floats, n_classes: int) -> Floats:
 
 
 def majority_segments(labels: Ints, n_classes: int, shortest: int, longest: int) -> State:
-    """Segments of ``shortest`` to ``longest`` frames with few frames off their majority.
+    """Find segments of ``shortest`` to ``longest`` frames with few frames off their majority.
 
     Each is in its majority's class. The fewest is what the program means to
     find; see `cheapest_lengths` for what it finds, which is kept here.
@@ -139,7 +139,7 @@ def improve(
     longest: int,
     preset: AlignedConstants,
 ) -> State:
-    """The state reached when the segments repeat, or after ``preset.searches``.
+    """Repeat the search until the segments repeat, or ``preset.searches`` times.
 
     A class left without segments ends it with an infinite objective. A search
     depends on the state alone, so once a state comes back the last is known.
@@ -167,7 +167,7 @@ def improve(
 
 
 def search(state: State, alignments: list[Floats], n_classes: int) -> State:
-    """The windows of least total distance to the classes of ``state``, covering all frames.
+    """Find the windows that cover all frames with the least distance to the classes of ``state``.
 
     The distance of a window to a class of m segments is 1 - 2/m times the sum of
     its DTAK with them, plus their mean DTAK among themselves.
@@ -191,18 +191,18 @@ def search(state: State, alignments: list[Floats], n_classes: int) -> State:
 
 
 def segment_kernel(borders: Ints, alignments: list[Floats]) -> Floats:
-    """DTAK of every segment with every segment, (segments, segments)."""
+    """Return the DTAK of all pairs of segments, (segments, segments)."""
     last, length = borders[1:] - 1, np.diff(borders)
     return np.stack([table[last, length - 1] for table in alignments])
 
 
 def least(states: list[State]) -> State:
-    """The state with the least objective, the first of equals."""
+    """Return the state with the least objective, the first of equal ones."""
     return min(states, key=lambda state: state.objective)
 
 
 def segments_of(state: State, block_borders: Ints) -> Segments:
-    """A state in blocks as segments in frames."""
+    """Convert a state in blocks to segments in frames."""
     borders = block_borders[state.borders]
     return Segments(borders[1:-1], state.classes, int(borders[-1]), state.objective)
 
@@ -210,7 +210,7 @@ def segments_of(state: State, block_borders: Ints) -> Segments:
 def check_room(
     n_blocks: int, n_classes: int, shortest: int, longest: int, longest_block: int
 ) -> None:
-    """Refuse lengths and classes that no segmentation of so many blocks can have."""
+    """Raise an error if so many blocks allow no segmentation of these lengths and classes."""
     if not 1 <= shortest <= longest:
         raise ParameterError(
             f"segments of {shortest} to {longest} blocks: need 1 <= shortest <= longest"

@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 
 
 def gmm(features: Floats, preset: GmmConstants) -> Segments:
-    """Runs of frames whose likeliest Gaussian is the same; the Gaussians are the clusters.
+    """Find runs of frames with the same likeliest Gaussian; the Gaussians are the clusters.
 
     The features are reduced to the principal components with most of their
     variance; expectation maximisation starts from k-means. No segment is too

@@ -33,12 +33,12 @@ if TYPE_CHECKING:
 
 
 def haca(features: Floats, preset: HacaConstants) -> Segments:
-    """Segments of the second level, in ``preset.n_classes`` clusters; see `haca_levels`."""
+    """Return segments of the second level (``preset.n_classes`` clusters); see `haca_levels`."""
     return haca_levels(features, preset)[1]
 
 
 def haca_levels(features: Floats, preset: HacaConstants) -> tuple[Segments, Segments]:
-    """Short segments in a dozen clusters, and segments made of these in ``n_classes`` clusters.
+    """Find short segments in a dozen clusters, and segments of these in ``n_classes`` clusters.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def second_level(
     preset: HacaConstants,
     random: np.random.RandomState,
 ) -> State:
-    """ACA of the first-level segments: the best start, with borders in such segments."""
+    """Run ACA on the first-level segments; return the best of all starts."""
     spans = zip(fine.borders[:-1].tolist(), fine.borders[1:].tolist(), strict=True)
     longest = int(np.diff(fine.borders).max())
     windows = [window_alignments(kernel, weights, *span, longest) for span in spans]

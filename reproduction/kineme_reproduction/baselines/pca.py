@@ -35,7 +35,7 @@ Floats = NDArray[np.float64]
 
 
 def pca(features: Floats, preset: PcaConstants) -> Segments:
-    """Cuts where the error of a fixed number of principal components rises faster than before.
+    """Cut where the error of a fixed number of principal components rises faster than before.
 
     The first two seconds fix the number r of components that keep 90 % of the
     variance. e_i is the squared error left when the first i frames are
@@ -58,7 +58,7 @@ def pca(features: Floats, preset: PcaConstants) -> Segments:
 
 
 def ppca(features: Floats, preset: PpcaConstants) -> Segments:
-    """Cuts where the frames ahead are least like the frames so far.
+    """Cut where the next frames differ most from the previous ones.
 
     A Gaussian is fitted to the first K frames: their principal components up to
     95 % of the variance, and the mean of the discarded variances in all other
@@ -81,7 +81,7 @@ def ppca(features: Floats, preset: PpcaConstants) -> Segments:
 
 
 def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Segments:
-    """Cuts by a rule that finds the first one in the frames it is given, or None.
+    """Cut repeatedly by a rule that finds the first cut in given frames, or None.
 
     Variances below the rounding error of the whole count as that.
     """
@@ -94,7 +94,7 @@ def _cut_and_start_anew(features: Floats, find: Callable[..., int | None]) -> Se
 
 
 def _error_jump(features: Floats, preset: PcaConstants, *, floor: float) -> int | None:
-    """The first frame at which the projection error jumps, None if there is none."""
+    """Return the first frame at which the projection error jumps, or None."""
     first, lag = max(1, preset.frames(preset.first)), max(1, preset.frames(preset.rise_span))
     if len(features) < first + 2 * lag:
         return None
@@ -116,7 +116,7 @@ def _error_jump(features: Floats, preset: PcaConstants, *, floor: float) -> int 
 
 
 def _distance_peak(features: Floats, preset: PpcaConstants, *, floor: float) -> int | None:
-    """The first frame at which the distance H of the frames ahead peaks, None if it does not."""
+    """Return the first peak of the distance H of the next frames, or None."""
     ahead, growth = max(2, preset.frames(preset.ahead)), max(1, preset.frames(preset.growth_step))
     counts = np.arange(ahead, len(features) - ahead + 1, growth)
     if len(counts) < 3:
@@ -141,7 +141,7 @@ def _distance_peak(features: Floats, preset: PpcaConstants, *, floor: float) -> 
 
 
 def _mahalanobis(deviations: Floats, covariance: Floats, floor: float, share: float) -> float:
-    """Mean squared distance under the covariance that probabilistic PCA makes of this one."""
+    """Return the mean squared distance under the covariance of probabilistic PCA."""
     variances, axes = np.linalg.eigh(covariance)
     variances, axes = np.maximum(variances[::-1], floor), axes[:, ::-1]
     kept = min(dimensions_kept(variances, share), len(variances) - 1)

@@ -45,7 +45,7 @@ def leading_scatters(features: Floats, counts: Ints) -> Iterator[tuple[Ints, Flo
 
 
 def dimensions_kept(variances: Floats, share: float) -> int:
-    """The fewest leading dimensions with more than this share of the variance.
+    """Return the fewest leading dimensions with more than this share of the variance.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def dimensions_kept(variances: Floats, share: float) -> int:
 
 
 def checked(features: Floats) -> Floats:
-    """The features as an array (frames, dims), or a clear refusal."""
+    """Return the features as an array (frames, dims), or raise an error."""
     array = np.asarray(features, np.float64)
     if array.ndim != 2 or not len(array):
         raise ParameterError(f"features must be (frames, dims), not of shape {array.shape}")

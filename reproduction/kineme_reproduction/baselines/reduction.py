@@ -23,7 +23,7 @@ Ints = NDArray[np.int64]
 
 
 def block_starts(features: Floats, preset: AlignedConstants, random: np.random.RandomState) -> Ints:
-    """First frames of the blocks, runs of like poses.
+    """Return the first frames of blocks of similar poses.
 
     A block ends where the nearest of the k-means centres changes, or when it
     has ``preset.longest_block`` frames.
@@ -58,7 +58,7 @@ def frame_kernel(features: Floats, nearest: float) -> Floats:
 def tightest_clusters(
     points: Floats, count: int, starts: int, random: np.random.RandomState
 ) -> Ints:
-    """The cluster of each point: the best of so many runs of k-means from random points.
+    """Return the cluster of each point, from the best of several runs of k-means.
 
     In single precision, which tells poses apart well enough and takes half the
     time. On one thread: the order of sums, and so the result, would change with

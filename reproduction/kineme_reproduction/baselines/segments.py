@@ -51,5 +51,5 @@ class Segments:
 
 
 def unclustered(cuts: list[int] | Ints, n_frames: int) -> Segments:
-    """Segments of a method that finds cuts only: each is a cluster of its own."""
+    """Make segments from cuts only: each is its own cluster."""
     return Segments(np.asarray(cuts, np.int64), np.arange(len(cuts) + 1), n_frames)

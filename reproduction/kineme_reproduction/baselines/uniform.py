@@ -9,7 +9,7 @@ from kineme_reproduction.baselines.segments import Segments, unclustered
 
 
 def uniform(n_frames: int, *, fps: float, seconds: float) -> Segments:
-    """A cut every so many seconds, each at the nearest frame; clusters are not sought.
+    """Cut at regular intervals, each at the nearest frame; find no clusters.
 
     Raises
     ------

@@ -31,7 +31,7 @@ def make_figures(
     *,
     progress: Callable[[str], None] | None = None,
 ) -> dict[str, str]:
-    """Markdown tables by name; the pictures are left in ``folder``.
+    """Draw the figures into ``folder`` and return Markdown tables by name.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def make_tables(
     published: Sequence[PublishedCuts],
     recordings: Sequence[Recording],
 ) -> dict[str, str]:
-    """Every table of the results as Markdown, by title."""
+    """Return all tables of the results as Markdown, by title."""
     trials = list(dict.fromkeys(r.trial for r in results))
     tables = {"means": markdown_scores(mean_scores(results))}
     for trial in trials:
@@ -98,7 +98,7 @@ def make_tables(
 
 
 def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
-    """The table of `make_score_rows`, groups in bold."""
+    """Return the table of `make_score_rows`, groups in bold."""
     rows: list[list[str]] = []
     for group, lines in make_score_rows(columns):
         rows.append([f"**{group}**", *[""] * len(columns)])
@@ -168,7 +168,7 @@ def _published(data: Path) -> list[PublishedCuts]:
 
 
 def _recordings(data: Path) -> Iterable[Path]:
-    """The recordings of the benchmark, and those beside its folder if it is one of several.
+    """Return the recordings of the benchmark, and those beside its folder if there are others.
 
     Of a take that is there in two formats, the AMC.
     """

@@ -46,7 +46,7 @@ Timings = dict[str, float]
 
 
 def time_trials(trials: Sequence[Trial], preset: RegionGrowingPreset) -> list[Timings]:
-    """Seconds per step and trial, without reading the file."""
+    """Measure the seconds per step and trial, without reading the file."""
     return [
         _least([dict(segment(trial.motion, preset=preset).timings) for _ in range(RUNS)])
         for trial in trials
@@ -66,7 +66,7 @@ def time_growth(trials: Sequence[Trial], preset: RegionGrowingPreset) -> list[tu
 
 
 def plot_timings(trials: Sequence[Trial], path: Path) -> Path:
-    """Stacked bars per trial, one panel per preset."""
+    """Draw stacked bars per trial, one panel per preset."""
     figure = new_figure(9.2, 3.2)
     panels = figure.subplots(1, len(PUBLISHED), sharey=True, squeeze=False)[0]
     for axes, preset in zip(panels, PUBLISHED.values(), strict=True):
@@ -86,7 +86,7 @@ def plot_timings(trials: Sequence[Trial], path: Path) -> Path:
 
 
 def plot_growth(trials: Sequence[Trial], path: Path) -> Path:
-    """Seconds per step against frames, both axes logarithmic."""
+    """Draw seconds per step against frames, both axes logarithmic."""
     figure = new_figure(9.2, 3.6)
     panels = figure.subplots(1, len(PUBLISHED), sharey=True, squeeze=False)[0]
     for axes, preset in zip(panels, PUBLISHED.values(), strict=True):
@@ -133,7 +133,7 @@ def scores_by_neighbors(
 
 
 def plot_sensitivity(trials: Sequence[Trial], path: Path) -> Path:
-    """Scores against r (left) and k (right), a row per preset."""
+    """Draw scores against r (left) and k (right), a row per preset."""
     figure = new_figure(9.2, 2.6 * len(PUBLISHED) + 0.3)
     panels = figure.subplots(len(PUBLISHED), 2, sharey=True, squeeze=False)
     for row, preset in zip(panels, PUBLISHED.values(), strict=True):

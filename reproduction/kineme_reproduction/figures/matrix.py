@@ -40,7 +40,7 @@ FORWARD, BACKWARD, FINAL = PALETTE[3], PALETTE[0], PALETTE[2]
 def plot_regions(
     trial: Trial, path: Path, preset: RegionGrowingPreset = PUBLISHED["voegele2014"]
 ) -> Path:
-    """Truth, forward regions, backward regions and activities in one matrix each."""
+    """Draw truth, forward regions, backward regions and activities in one matrix each."""
     analysis = analyze_regions(compute_motion_features(trial.motion, preset), preset)
     n, fps = len(analysis.graph), preset.working_fps
     figure = new_figure(9.2, 9.2)
@@ -74,7 +74,7 @@ def plot_regions(
 def plot_paths(
     trial: Trial, path: Path, preset: RegionGrowingPreset = PUBLISHED["voegele2014"]
 ) -> Path:
-    """The longest activity: matrix, connected components, warping paths."""
+    """Draw the longest activity: matrix, connected components, warping paths."""
     analysis = analyze_regions(compute_motion_features(trial.motion, preset), preset)
     lengths = np.diff(analysis.borders) * analysis.repeats
     first, stop = analysis.borders[lengths.argmax() :][:2].tolist()
@@ -161,7 +161,7 @@ def _draw_truth(axes: Axes, truth: Truth) -> None:
 def _block(
     graph: NeighborGraph, values: NDArray[np.floating], first: int, stop: int
 ) -> NDArray[np.float64]:
-    """The values of a square of the matrix; nan where nothing is stored."""
+    """Return a square of the matrix; nan where nothing is stored."""
     image = np.full((stop - first, stop - first), np.nan)
     for row in range(first, stop):
         entries = slice(graph.indptr[row], graph.indptr[row + 1])

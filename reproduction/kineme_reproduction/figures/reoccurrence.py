@@ -41,7 +41,7 @@ class Recording:
 
 
 def survey(paths: Iterable[Path]) -> list[Recording]:
-    """The recordings longer than 8 s; what does not read is left out."""
+    """Return the recordings longer than 8 s; skip unreadable files."""
     found = []
     for path in paths:
         motion = _read(path)
@@ -52,13 +52,13 @@ def survey(paths: Iterable[Path]) -> list[Recording]:
 
 
 def share_of_poses(recordings: Iterable[Recording]) -> float:
-    """The share of all poses of these recordings that reoccur."""
+    """Return the share of all poses of these recordings that reoccur."""
     rows = list(recordings)
     return float(np.average([r.share for r in rows], weights=[r.frames for r in rows]))
 
 
 def reoccurring(motion: Motion) -> NDArray[np.bool_]:
-    """Which poses come back within 10 s, (frames,) at 30 Hz."""
+    """Return whether each pose reoccurs within 10 s, (frames,) at 30 Hz."""
     fps = VOEGELE2014.working_fps
     graph = neighbor_graph(
         compute_motion_features(motion, VOEGELE2014),
@@ -88,7 +88,7 @@ def plot_reoccurrence(recordings: Sequence[Recording], path: Path) -> Path:
 
 
 def _returns(graph: NeighborGraph, frame: int, gap: int) -> bool:
-    """Whether more than ``gap`` frames in a row are missing from the neighbours of a frame."""
+    """Return whether more than ``gap`` consecutive frames are missing from a frame's neighbours."""
     indices = graph.indices[graph.indptr[frame] : graph.indptr[frame + 1]]
     return bool((np.diff(indices) > gap).any())
 

@@ -47,7 +47,7 @@ PANELS = {
 
 
 def plot_accuracies(results: Sequence[Result], path: Path) -> Path:
-    """Bars per trial, and their means, for four scores."""
+    """Draw bars per trial, and their means, for four scores."""
     methods = list(dict.fromkeys(r.method for r in results))
     figure = new_figure(9.2, 8.4)
     for axes, (score, title) in zip(figure.subplots(len(PANELS), 1), PANELS.items(), strict=True):
@@ -136,7 +136,7 @@ QUANTITIES: tuple[tuple[str, Values], ...] = (
 
 
 def measure(results: Sequence[Result]) -> list[Measured]:
-    """Every cluster of at least two segments of every result."""
+    """Measure each cluster of at least two segments of every result."""
     found = []
     for result in results:
         segments, trial = units(result), result.trial

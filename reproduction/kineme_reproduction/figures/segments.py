@@ -30,7 +30,7 @@ ROW_INCHES = 0.17
 
 
 def plot_bars(results: Sequence[Result], path: Path) -> Path:
-    """One picture with all trials, one below the other."""
+    """Draw all trials below each other in one picture."""
     trials = list(dict.fromkeys(r.trial for r in results))
     methods = len({r.method for r in results})
     height = len(trials) * ((methods + 1) * ROW_INCHES + 0.42)
@@ -43,7 +43,7 @@ def plot_bars(results: Sequence[Result], path: Path) -> Path:
 
 
 def plot_trials(results: Sequence[Result], folder: Path) -> list[Path]:
-    """One picture per trial, ``TRIAL.png``."""
+    """Draw one picture per trial, ``TRIAL.png``."""
     return [
         plot_bars([r for r in results if r.trial is trial], folder / f"{trial.name}.png")
         for trial in dict.fromkeys(r.trial for r in results)
@@ -51,7 +51,7 @@ def plot_trials(results: Sequence[Result], folder: Path) -> list[Path]:
 
 
 def draw_bars(axes: Axes, trial: Trial, results: Sequence[Result]) -> None:
-    """The rows of one trial."""
+    """Draw the rows of one trial."""
     truth = trial.truth.labelling()
     classes = list(dict.fromkeys(label for label in truth.labels if label != TRANSITION))
     colors = {label: (PALETTE[i % len(PALETTE)], 0.0) for i, label in enumerate(classes)}
@@ -69,14 +69,14 @@ def draw_bars(axes: Axes, trial: Trial, results: Sequence[Result]) -> None:
 
 
 def units(result: Result) -> Labelling:
-    """The smallest segments of a result, at the rate of the truth."""
+    """Return the smallest segments of a result, at the rate of the truth."""
     truth, found = result.trial.truth, result.found
     rows = found.primitives if len(found.primitives) else found.activities
     return make_labelling(rows, fps=found.fps).at(frames=truth.frames, fps=truth.fps)
 
 
 def classes_of(truth: Labelling, found: Labelling) -> dict[str, str]:
-    """For each cluster the class that most of its certain frames have."""
+    """Return the most frequent class of each cluster, over certain frames."""
     true, given = truth.per_frame(), found.per_frame()
     classes = {}
     for label in set(found.labels) - {TRANSITION}:
@@ -90,7 +90,7 @@ def classes_of(truth: Labelling, found: Labelling) -> dict[str, str]:
 def _colors(
     truth: Labelling, found: Labelling, colors: Mapping[str, tuple[str, float]]
 ) -> dict[str, tuple[str, float]]:
-    """Colour and lightness per cluster."""
+    """Return colour and lightness per cluster."""
     best = _assignment(truth, found)
     return {
         label: colors[best[label]] if label in best else (colors[name][0], LIGHTER)
@@ -99,7 +99,7 @@ def _colors(
 
 
 def _assignment(truth: Labelling, found: Labelling) -> dict[str, str]:
-    """The best one-to-one assignment of clusters to classes, over the certain frames."""
+    """Return the best one-to-one assignment of clusters to classes, over certain frames."""
     true, given = truth.numbers(), found.numbers()
     certain = (true != UNLABELLED) & (given != UNLABELLED)
     if not certain.any():
@@ -135,7 +135,7 @@ def _name_classes(axes: Axes, truth: Labelling, colors: Mapping[str, tuple[str, 
 
 
 def _readable_on(color: str) -> str:
-    """Dark letters on light colours, light ones on dark colours."""
+    """Return a dark text colour for light colours, and a light one for dark colours."""
     red, green, blue = _mixed(color, 0.0)
     return INK if 0.299 * red + 0.587 * green + 0.114 * blue > 0.6 else "white"
 

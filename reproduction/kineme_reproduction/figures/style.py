@@ -33,19 +33,19 @@ METHOD_COLORS = {
 
 
 def method_color(name: str) -> str:
-    """The colour of a method in every figure; grey for those that have none."""
+    """Return the colour of a method; grey if it has none."""
     return METHOD_COLORS.get(name, OTHER)
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of so many inches that lays itself out."""
+    """Return an empty figure of this size in inches with constrained layout."""
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 
 
 def tidy(axes: Axes, *, grid: bool = True) -> None:
-    """Only the lines that help to read values."""
+    """Remove lines that do not help to read values."""
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines[["left", "bottom"]].set_color(FAINT)
     axes.tick_params(colors=INK, labelsize=8, length=3, color=FAINT)
@@ -55,18 +55,18 @@ def tidy(axes: Axes, *, grid: bool = True) -> None:
 
 
 def heading(axes: Axes, text: str) -> None:
-    """A small title on the left."""
+    """Add a small title on the left."""
     axes.set_title(text, loc="left", fontsize=9, color=INK)
 
 
 def grouped(n_groups: int, n_bars: int, share: float = 0.82) -> tuple[float, Iterable[float]]:
-    """Width of a bar, and the offset of each bar of a group from the group's middle."""
+    """Return the width of a bar, and the offsets of bars from the middle of their group."""
     width = share / n_bars
     return width, [(i - (n_bars - 1) / 2) * width for i in range(n_bars)] if n_groups else []
 
 
 def save(figure: Figure, path: Path) -> Path:
-    """Write a figure as a PNG of 128 colours, a third of the size of one of all colours."""
+    """Write a figure as a PNG with 128 colours, a third as large as with all colours."""
     pixels = BytesIO()
     figure.savefig(pixels, format="png", dpi=DPI, facecolor="white")
     picture = Image.open(pixels).convert("RGB").quantize(128, dither=Image.Dither.NONE)

@@ -1,0 +1,94 @@
+"""Make variants of a recording and measure how far their segmentations agree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from _joined import list_clusters
+from kineme.features.channels import resample_channels
+from kineme.recordings import Motion, Signals
+from kineme.recordings.operations import resample, scale, turn
+from kineme.segments.segmentation import Segmentation
+
+RATES = (25.0, 30.0, 60.0, 120.0)
+CUT_S = 2.0
+NOISE_M = 0.002
+VIDEO_FPS, VIEW, DEPTH = 30.0, np.deg2rad(30), 0.5
+"""Of a camera: frames a second, the angle from which it looks, and the share of depth it keeps."""
+JITTER, ZOOM, ZOOM_S = 0.02, 0.05, 1.0
+"""Of poses from video: noise as a share of the height; change of scale, and its seconds."""
+HIDDEN_S, EVERY_S = 0.3, 10.0
+"""Seconds for which a joint is not seen, and in which that happens once to each."""
+NOISE_SHARE = 0.02
+"""Standard deviation of the noise, as a share of that of each channel."""
+COMPARED = 30.0
+"""Samples per second at which two segmentations are compared."""
+
+
+class Variant(NamedTuple):
+    """A changed recording, where it starts in the original, and its relative speed."""
+
+    name: str
+    recording: Motion | Signals
+    start_s: float = 0.0
+    speed: float = 1.0
+
+
+def make_variants(recording: Motion | Signals) -> Iterator[Variant]:
+    """Yield the recording at other rates and speeds, cut, with noise, turned and scaled."""
+    noise = np.random.default_rng(0)
+    for rate in RATES:
+        if abs(rate - recording.fps) > 1:
+            yield Variant(f"{rate:g} Hz", _resample(recording, rate))
+    late = round(CUT_S * recording.fps)
+    if recording.n_frames > 4 * late:
+        yield Variant("2 s cut off", recording[late:], start_s=CUT_S)
+    for speed in (0.8, 1.25):
+        yield Variant(
+            f"{speed:g} of the speed", replace(recording, fps=recording.fps * speed), 0.0, speed
+        )
+    if isinstance(recording, Signals):
+        spread = NOISE_SHARE * recording.values.std(axis=0)
+        values = recording.values + noise.normal(0, 1, recording.values.shape) * spread
+        yield Variant("noise", replace(recording, values=values))
+        return
+    places = recording.positions + noise.normal(0, NOISE_M, recording.positions.shape)
+    yield Variant("noise", Motion(recording.skeleton, places, recording.fps, gaps=recording.gaps))
+    yield Variant("points alone", Motion(recording.skeleton, recording.positions, recording.fps))
+    yield Variant("turned", turn(recording, 2.0))
+    yield Variant("0.9 of the size", scale(recording, 0.9))
+    yield Variant("1.1 of the size", scale(recording, 1.1))
+
+
+def _resample(recording: Motion | Signals, rate: float) -> Motion | Signals:
+    if isinstance(recording, Motion):
+        return resample(recording, rate)
+    return Signals(
+        resample_channels(recording.values, recording.fps, rate, smoothing=0.0),
+        rate,
+        recording.names,
+    )
+
+
+def measure_agreement(here: Segmentation, there: Segmentation, guise: Variant) -> float:
+    """Return the share of time in the same cluster, with clusters matched one to one."""
+    length = there.n_frames / there.fps * guise.speed
+    times = np.arange(0, length, 1 / COMPARED)
+    own = _sample_clusters(here, times + guise.start_s)
+    other = _sample_clusters(there, times / guise.speed)
+    _, a = np.unique(own, return_inverse=True)
+    _, b = np.unique(other, return_inverse=True)
+    together = np.zeros((a.max() + 1, b.max() + 1))
+    np.add.at(together, (a, b), 1)
+    return float(together[linear_sum_assignment(-together)].sum() / len(times))
+
+
+def _sample_clusters(found: Segmentation, times: NDArray[np.float64]) -> NDArray[np.int64]:
+    frames = np.clip((times * found.fps).astype(np.int64), 0, found.n_frames - 1)
+    return list_clusters(found)[frames]
