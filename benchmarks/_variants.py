@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from _joined import list_clusters
+from kineme._util.arrays import bridge_line
 from kineme.features.channels import resample_channels
+from kineme.features.filters import filter_low
+from kineme.formats.keypoints.poses import CUTOFF
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn
 from kineme.segments.segmentation import Segmentation
@@ -20,11 +23,11 @@ RATES = (25.0, 30.0, 60.0, 120.0)
 CUT_S = 2.0
 NOISE_M = 0.002
 VIDEO_FPS, VIEW, DEPTH = 30.0, np.deg2rad(30), 0.5
-"""Of a camera: frames a second, the angle from which it looks, and the share of depth it keeps."""
+"""Frames per second of a video, angle of the camera in radians, share of depth that is kept."""
 JITTER, ZOOM, ZOOM_S = 0.02, 0.05, 1.0
-"""Of poses from video: noise as a share of the height; change of scale, and its seconds."""
+"""Noise as a share of the body's height; largest change of scale, and how fast it changes in s."""
 HIDDEN_S, EVERY_S = 0.3, 10.0
-"""Seconds for which a joint is not seen, and in which that happens once to each."""
+"""Seconds for which a joint is hidden, and mean seconds between two such times."""
 NOISE_SHARE = 0.02
 """Standard deviation of the noise, as a share of that of each channel."""
 COMPARED = 30.0
@@ -64,6 +67,29 @@ def make_variants(recording: Motion | Signals) -> Iterator[Variant]:
     yield Variant("turned", turn(recording, 2.0))
     yield Variant("0.9 of the size", scale(recording, 0.9))
     yield Variant("1.1 of the size", scale(recording, 1.1))
+    yield Variant("as a video", _imitate_video(recording, noise))
+
+
+def _imitate_video(motion: Motion, noise: np.random.Generator) -> Motion:
+    """Return the motion like poses of a video: from one view, noisy, with filled and smoothed holes."""
+    from scipy.ndimage import gaussian_filter1d
+
+    viewed = turn(resample(motion, VIDEO_FPS), VIEW)
+    root = viewed.skeleton.parents.index(-1)
+    positions = (viewed.positions - viewed.positions[:, [root]]) * (1, 1, DEPTH)
+    n, joints, _ = positions.shape
+    height = float(np.median(np.ptp(positions[..., 1], axis=1)))
+    drift = gaussian_filter1d(noise.normal(0, 1, n), ZOOM_S * VIDEO_FPS)
+    positions *= (1 + ZOOM * drift / np.abs(drift).max())[:, None, None]
+    positions += noise.normal(0, JITTER * height, positions.shape)
+    for joint in range(joints):
+        for start in np.flatnonzero(noise.random(n) < 1 / (EVERY_S * VIDEO_FPS)).tolist():
+            hidden = np.zeros(n, np.bool_)
+            hidden[start : start + round(HIDDEN_S * VIDEO_FPS)] = True
+            for axis in range(3):
+                bridge_line(positions[:, joint, axis], hidden)
+    smooth = filter_low(positions.reshape(n, -1), VIDEO_FPS, CUTOFF, round(VIDEO_FPS))
+    return Motion(viewed.skeleton, smooth.reshape(positions.shape), VIDEO_FPS, gaps=viewed.gaps)
 
 
 def _resample(recording: Motion | Signals, rate: float) -> Motion | Signals:
@@ -76,12 +102,12 @@ def _resample(recording: Motion | Signals, rate: float) -> Motion | Signals:
     )
 
 
-def measure_agreement(here: Segmentation, there: Segmentation, guise: Variant) -> float:
+def measure_agreement(here: Segmentation, there: Segmentation, variant: Variant) -> float:
     """Return the share of time in the same cluster, with clusters matched one to one."""
-    length = there.n_frames / there.fps * guise.speed
+    length = there.n_frames / there.fps * variant.speed
     times = np.arange(0, length, 1 / COMPARED)
-    own = _sample_clusters(here, times + guise.start_s)
-    other = _sample_clusters(there, times / guise.speed)
+    own = _sample_clusters(here, times + variant.start_s)
+    other = _sample_clusters(there, times / variant.speed)
     _, a = np.unique(own, return_inverse=True)
     _, b = np.unique(other, return_inverse=True)
     together = np.zeros((a.max() + 1, b.max() + 1))

@@ -104,10 +104,12 @@ def choose(
         print(f"{name:30}{own[0]:9.3f}{own[at]:9.3f}{own[everywhere]:9.3f}  {chosen}", flush=True)
 
 
-def compare_variants(preset: str) -> None:
+def compare_variants(preset: str, sources: Sequence[str]) -> None:
     """Print and record the agreement with variants of the same movement."""
     shares: dict[str, list[float]] = {}
-    for source, every in choose_size(SAME, {"subject_86": 5}).items():
+    chosen = {name: SAME.get(name, 1) for name in sources} or choose_size(SAME, {"subject_86": 5})
+    place = ".".join(["sources.same", *sources, preset])
+    for source, every in chosen.items():
         for sample in SOURCES[source](every):
             here = kineme.segment(sample.recording, preset=preset)
             for variant in make_variants(sample.recording):
@@ -149,7 +151,7 @@ def main() -> None:
         parser.error(f"no such source: {', '.join(sorted(unknown))}")
     if options.same:
         for name in options.presets:
-            compare_variants(name)
+            compare_variants(name, options.sources)
         return
     if options.free:
         names = [name for name, _ in options.free]

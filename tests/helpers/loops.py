@@ -1,4 +1,4 @@
-"""Make features of exactly repeated movements, at 30 frames per second, in body sizes."""
+"""Movements that repeat exactly, as features at 30 frames per second, in body sizes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Floats = NDArray[np.float64]
 def make_swings(
     times: int, *, period: float, rest: float = 0, height: float = 0.3, axis: int = 0
 ) -> Floats:
-    """Return figures of eight in a plane of two axes, each followed by a rest in the middle."""
+    """Make repetitions of a figure of eight in its own plane, each followed by a rest."""
     angle = 2 * np.pi * np.arange(round(30 * period)) / round(30 * period)
     return _repeat(
         {axis: height * np.sin(angle), axis + 1: height / 2 * np.sin(2 * angle)}, times, rest
@@ -21,7 +21,7 @@ def make_swings(
 def make_nods(
     times: int, *, period: float, rest: float = 0, height: float = 0.3, axis: int = 0
 ) -> Floats:
-    """Return movements to and fro along one axis, each followed by a rest."""
+    """Make repetitions of a movement there and back on one line, each followed by a rest."""
     angle = 2 * np.pi * np.arange(round(30 * period)) / round(30 * period)
     return _repeat({axis: height * (1 - np.cos(angle))}, times, rest)
 
