@@ -71,7 +71,7 @@ def make_variants(recording: Motion | Signals) -> Iterator[Variant]:
 
 
 def _imitate_video(motion: Motion, noise: np.random.Generator) -> Motion:
-    """Return the motion like poses of a video: from one view, noisy, with filled and smoothed holes."""
+    """Return the motion like poses of a video: one view, noise, filled holes, smoothed."""
     from scipy.ndimage import gaussian_filter1d
 
     viewed = turn(resample(motion, VIDEO_FPS), VIEW)
