@@ -369,12 +369,13 @@ def test_mediapipe_csv(tmp_path: Path, pattern: str, first: int) -> None:
     assert read(tmp_path, "a.csv", text, fps=25).n_frames == 32
 
 
-@pytest.mark.parametrize("names", ["number", "name"])
+@pytest.mark.parametrize("names", ["number", "float", "name"])
 def test_mediapipe_csv_with_a_row_for_each_landmark(tmp_path: Path, names: str) -> None:
     lines = ["frame,timestamp,landmark,x,y,z,visibility"]
     for i, pose in enumerate(world_landmarks()):
         for k, (x, y, z) in enumerate(pose.tolist()):
-            name = k if names == "number" else f"PoseLandmark.{MEDIAPIPE[k].upper()}"
+            label = f"PoseLandmark.{MEDIAPIPE[k].upper()}"
+            name = {"number": k, "float": float(k)}.get(names, label)
             lines.append(f"{i},{i / 25},{name},{x},{y},{z},0.9")
     motion = read(tmp_path, "a.csv", "\n".join(lines))
     assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)

@@ -207,6 +207,8 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
         write_events(tmp_path / "walk.bvh", tmp_path / "copy.c3d", TIMES, NAMES)
     (tmp_path / "text.c3d").write_text("no recording")
     with pytest.raises(ReadError):
+        write_events(tmp_path / "missing.c3d", tmp_path / "text.c3d", TIMES, NAMES)
+    with pytest.raises(ReadError):
         write_events(tmp_path / "text.c3d", tmp_path / "copy.c3d", TIMES, NAMES)
     assert source.read_bytes() == before
     assert not (tmp_path / "copy.c3d").exists()

@@ -440,3 +440,20 @@ def test_elan_names_the_video_of_the_recording(tmp_path: Path) -> None:
     video = {"path": str(tmp_path / "walk one.mp4"), "offset_s": 1.25}
     found = replace(found, provenance={**source, "video": video})
     assert media() == [{**named, "TIME_ORIGIN": "1250"}]
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        ("1.500", "3.000"),
+        ("1500", "3000"),
+        ("1.500", "1500", "3.000", "3000"),
+        ("1.500", "1500", "3.000", "3000", "1.500", "1500"),
+        ("00:00:01.500", "1.500", "1500", "00:00:03.000", "3.000", "3000"),
+    ],
+)
+def test_an_elan_export_without_names_of_columns(tmp_path: Path, times: tuple[str, ...]) -> None:
+    path = tmp_path / "walk.txt"
+    path.write_text("\t".join(["activity", "", *times, "walk"]) + "\n")
+    row = read_segments(path, fps=100, n_frames=400).activities[1]
+    assert (row.label, row.start_s, row.stop_s) == ("walk", 1.5, 3.0)

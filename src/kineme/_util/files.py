@@ -346,16 +346,22 @@ def lock_shared(file: int) -> None:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
 
 
-def _open_draft(draft: Path) -> int:
-    how = os.O_RDONLY if draft.is_dir() else os.O_CREAT | os.O_RDWR
+def _open_draft(draft: Path, *, create: bool = True) -> int:
+    how = os.O_RDONLY if draft.is_dir() else os.O_RDWR | (os.O_CREAT if create else 0)
     return os.open(draft, how | getattr(os, "O_CLOEXEC", 0), 0o666)
 
 
 def is_locked(draft: Path) -> bool:
-    """Return whether a writer still holds a draft."""
+    """Return whether another process is still writing a draft.
+
+    Also True if files cannot be locked, so that such drafts are never removed.
+    """
     if sys.platform == "win32":
         return False
-    file = _open_draft(draft)
+    try:
+        file = _open_draft(draft, create=False)
+    except FileNotFoundError:
+        return False
     try:
         # A writer holds a shared lock, so an exclusive one fails.
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

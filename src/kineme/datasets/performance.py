@@ -145,11 +145,12 @@ def _draw_heading(parts: list[Part], frames: int, rng: np.random.Generator) -> F
     """Return the heading in degrees, which changes only while the figure walks or runs."""
     heading = np.full(frames, rng.uniform(-180, 180))
     for part in parts:
+        # Drawn for every part, so that the others do not depend on it.
         turn = rng.normal(0, _TURN_DEG)
         if ACTIONS[part.action.name].travels:
             start, stop = part.frames[0], part.frames[-1]
             share = np.clip((np.arange(frames) - start) / (stop - start), 0, 1)
-            heading += turn * share * share * (3 - 2 * share)
+            heading += turn * share * share * (3 - 2 * share)  # smooth start and stop
     return heading
 
 

@@ -156,16 +156,17 @@ def _compute_turned_axis(
 
 
 def find_facing(to_left: Floats, least: float | Floats) -> tuple[Floats, Floats]:
-    """Return cosine and sine (frames, 1) of the turn about y that turns a left axis to +x.
+    """Return cosine and sine (frames, 1) of the turn about y that brings a left axis to +x.
 
-    If its horizontal part is not longer than ``least``, take the turn of the nearest other frame.
+    Frames in which the horizontal part of the axis is at most ``least`` long take the turn of the
+    nearest other frame. If there is none, nothing is turned.
     """
     length = np.hypot(to_left[:, 0], to_left[:, 2])
-    level = np.flatnonzero(length > least)
-    if len(level) == 0:
+    with_heading = np.flatnonzero(length > least)
+    if len(with_heading) == 0:
         return np.ones((len(length), 1)), np.zeros((len(length), 1))
     # `searchsorted` among midpoints finds the nearest frame; at a tie the earlier one.
-    middles = (level[:-1] + level[1:]) / 2
-    nearest = level[np.searchsorted(middles, np.arange(len(length)))]
+    middles = (with_heading[:-1] + with_heading[1:]) / 2
+    nearest = with_heading[np.searchsorted(middles, np.arange(len(length)))]
     to_left, length = to_left[nearest], length[nearest]
     return (to_left[:, 0] / length)[:, None], (to_left[:, 2] / length)[:, None]

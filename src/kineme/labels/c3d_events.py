@@ -113,7 +113,7 @@ def write_events(
     if len(seconds) != len(texts):
         raise ParameterError(f"{len(seconds)} times and {len(texts)} names of events")
     target = Path(path)
-    if target.exists() and target.samefile(source):
+    if target.exists() and Path(source).exists() and target.samefile(source):
         raise WriteError(target, "is the recording itself: name another file")
     if Path(source).suffix.lower() != ".c3d":
         raise ReadError(source, "is no C3D file, of which a copy could take the events")

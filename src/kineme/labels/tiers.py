@@ -272,19 +272,22 @@ def _read_named_columns(rows: Sequence[tuple[int, list[str]]], path: Path) -> It
 def _read_unnamed_columns(
     rows: Sequence[tuple[int, list[str]]], path: Path
 ) -> Iterator[Annotation]:
+    """Yield the tier, start, stop and text of each line of a table without a header."""
     first = rows[0][1]
     columns = [i for i in range(2, len(first) - 1) if _TIME.fullmatch(first[i])]
     clocks = [i for i in columns if _CLOCK.fullmatch(first[i])]
-    # begin comes first, then end, each in all exported time formats
     chosen = clocks or columns
     if len(chosen) < 2:
         raise ReadError(path, "has no begin and end of annotations", line=rows[0][0])
+    # Begin, end and perhaps duration follow each other, each as seconds, milliseconds, or both.
+    end = chosen[2] if not clocks and len(chosen) > 3 else chosen[1]
+    begin = chosen[0]
     # Without clock times, whole numbers are milliseconds, others seconds.
-    is_ms = not clocks and not any("." in row[i] for _, row in rows for i in chosen[:1])
+    is_ms = not clocks and not any("." in row[begin] for _, row in rows)
     for line, row in rows:
-        if len(row) <= chosen[1]:
+        if len(row) <= end:
             raise ReadError(path, f"{len(row)} cells, where others have {len(first)}", line=line)
-        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in chosen[:2])
+        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in (begin, end))
         yield row[0], start, stop, row[len(first) - 1] if len(row) >= len(first) else ""
 
 

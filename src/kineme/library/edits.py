@@ -128,9 +128,11 @@ def read_edits(folder: Path) -> Edits:
         raise ReadError(path, f"is of the schema {content.get('schema')!r:.40}, not {SCHEMA}")
     try:
         return Edits(
-            {_parse_cluster(number): str(name) for number, name in content["names"].items()},
-            {_parse_cluster(old): _parse_cluster(new) for old, new in content["merged"].items()},
-            tuple(
+            names={_parse_cluster(number): str(name) for number, name in content["names"].items()},
+            merged={
+                _parse_cluster(old): _parse_cluster(new) for old, new in content["merged"].items()
+            },
+            splits=tuple(
                 Split(
                     _parse_cluster(one["cluster"]),
                     _parse_cluster(one["into"]),

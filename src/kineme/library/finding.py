@@ -136,11 +136,14 @@ def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Exam
 
 
 def _find_rows(tables: OpenTables, vocabulary: str) -> list[int]:
-    """Return the rows of recordings of a vocabulary; raise ParameterError if there are none."""
-    kinds = tables.recordings["vocabulary"]
-    rows = [row for row, kind in enumerate(kinds) if kind == vocabulary]
+    """Return the rows of recordings with this vocabulary: bodies, or the same channels.
+
+    Raise ParameterError if there are none, as others cannot be compared with the example.
+    """
+    vocabularies = tables.recordings["vocabulary"]
+    rows = [row for row, own in enumerate(vocabularies) if own == vocabulary]
     if not rows:
-        present = "; ".join(sorted(set(kinds) - {""}))
+        present = "; ".join(sorted(set(vocabularies) - {""}))
         raise ParameterError(
             f"the example is of {vocabulary}, the library has {present or 'nothing'}"
         )

@@ -154,12 +154,12 @@ def _index_by_file(recordings: OpenRecordings) -> dict[Path, ListedRecording]:
 
 
 def _select_annotators(recordings: OpenRecordings, chosen: Sequence[str]) -> list[Annotator]:
-    """Return the annotators with these ids; numbers are added to names that occur twice."""
+    """Return the annotators with these ids; a repeated name gets a number (anna, anna 2)."""
     available = find_annotators(recordings)
     if not set(chosen) <= available.keys():
         raise UnknownError("one of these people has no labels any more: reload the list")
     annotators: dict[str, Annotator] = {}
-    for annotator in (available[name] for name in dict.fromkeys(chosen)):
+    for annotator in (available[annotator_id] for annotator_id in dict.fromkeys(chosen)):
         name, number = annotator.name, 2
         while name in annotators:
             name, number = f"{annotator.name} {number}", number + 1

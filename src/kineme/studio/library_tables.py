@@ -88,9 +88,9 @@ class LibraryTables:
 
 
 def match_library_clusters(table: Segmentation, library_table: Segmentation) -> dict[int, int]:
-    """Match the clusters of a table to those of the library; return numbers by cluster.
+    """Return the library cluster that matches each cluster of a table, if one does.
 
-    A match is the library cluster in which most frames of the cluster lie.
+    It holds at least `MIN_SHARE` of the cluster's frames. Both tables have equally many frames.
     """
     votes: dict[int, Counter[int]] = {}
     for rows, library_rows in (
@@ -100,16 +100,16 @@ def match_library_clusters(table: Segmentation, library_table: Segmentation) -> 
         if not len(rows) or not len(library_rows):
             continue
         pairs = np.stack([_spread_clusters(rows), _spread_clusters(library_rows)])
-        # (cluster, number) pairs, and on how many frames they occur.
+        # Pairs (cluster, library cluster), and the number of frames of each.
         combinations, counts = np.unique(pairs, axis=1, return_counts=True)
-        for (cluster, number), count in zip(combinations.T.tolist(), counts.tolist(), strict=True):
+        for (cluster, match), count in zip(combinations.T.tolist(), counts.tolist(), strict=True):
             if cluster >= 0:
-                votes.setdefault(cluster, Counter())[number] += count
+                votes.setdefault(cluster, Counter())[match] += count
     winners = {cluster: counter.most_common(1)[0] for cluster, counter in votes.items()}
     return {
-        cluster: number
-        for cluster, (number, count) in winners.items()
-        if number >= 0 and count >= MIN_SHARE * votes[cluster].total()
+        cluster: match
+        for cluster, (match, count) in winners.items()
+        if match >= 0 and count >= MIN_SHARE * votes[cluster].total()
     }
 
 

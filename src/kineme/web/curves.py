@@ -68,10 +68,10 @@ class Curves:
         level: int,
         number: int,
     ) -> bytes | None:
-        """Return the pairs of a tile; None if there is no such tile.
+        """Return the pairs of a tile as bytes; None if there is no such tile.
 
-        ``read`` returns the recording, or with True its analog channels; called if the curve is not
-        cached.
+        ``read(is_analog)`` returns the recording, or its analog channels. It is called only if the
+        curve is not cached.
         """
         if not 0 <= curve < len(self._drawn):
             return None

@@ -459,14 +459,17 @@ def _choose_digits(value_range: float) -> int:
 
 
 def _choose_cycles(order: Sequence[int], max_cycles: int, required: set[int]) -> list[int]:
-    """Return up to ``max_cycles``: the farthest, all ``required``, and a sample of the rest."""
+    """Return up to ``max_cycles`` of ``order``, which is sorted by decreasing distance.
+
+    Keep the `FARTHEST` and as many ``required`` ones as fit, then an even sample of the rest.
+    """
     if len(order) <= max_cycles:
         return list(order)
-    first = [i for i in order if i in order[:FARTHEST] or i in required][:max_cycles]
-    rest, n = [i for i in order if i not in first], max_cycles - len(first)
+    kept = [i for i in order if i in order[:FARTHEST] or i in required][:max_cycles]
+    rest, n = [i for i in order if i not in kept], max_cycles - len(kept)
     # An even sample over distances, since the rest is sorted by distance.
     others = {rest[i * len(rest) // n] for i in range(n)}
-    return [i for i in order if i in first or i in others]
+    return [i for i in order if i in kept or i in others]
 
 
 def _explain_exclusion(columns: Columns, row: int) -> str:

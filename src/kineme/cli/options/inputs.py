@@ -132,17 +132,17 @@ class Batch:
         *targets: Path | None,
         tables: tuple[str, Path | None] = ("", None),
     ) -> None:
-        """Call ``work`` for each selected person in a recording; once by default.
+        """Call ``work`` for each selected person or take in a recording; once by default.
 
-        It gets the path, the reading options for the person, the person's table (if ``tables`` has
-        an option and a path), and the targets with the person's name. An error with one person does
-        not stop the others.
+        It gets the path, the reading options, the person's table, and the targets with the name of
+        the person or take. ``tables`` is the option that names the table, and its path. A ReadError
+        does not stop the others; the first one is raised at the end.
         """
         with self.catch_errors(path):
             failures = []
-            for person, options in expand_read_options(path, read_options):
+            for suffix, options in expand_read_options(path, read_options):
                 table = self.table(path, *tables, options.person or "")
-                person_targets = [target and add_person(target, person) for target in targets]
+                person_targets = [target and add_person(target, suffix) for target in targets]
                 try:
                     work(path, options, table, *person_targets)
                 except ReadError as error:

@@ -145,7 +145,9 @@ def _parse_landmarks(content: FileContent, texts: Sequence[str]) -> NDArray[np.i
     """Return the numbers of landmarks that are given by number or name."""
     numbers = []
     for text in texts:
-        name = normalize_name(text.rpartition(".")[2])  # PoseLandmark.NOSE
+        # Names may be written as PoseLandmark.NOSE, numbers as 12.0.
+        word = text.rpartition(".")[2] if text[:1].isalpha() else text.removesuffix(".0")
+        name = normalize_name(word)
         number = _PLACES.get(name, int(name) if name.isdecimal() and len(name) < 3 else -1)
         if not 0 <= number < len(NAMES):
             raise content.error(f"{text[:40]!r} is none of MediaPipe's {len(NAMES)} landmarks")

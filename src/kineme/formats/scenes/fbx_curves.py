@@ -283,9 +283,17 @@ def _compute_tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
 
 
 def _compute_automatic_slopes(
-    times: Floats, values: Floats, flags: NDArray[np.int64], right: Floats, left: Floats
+    times: Floats,
+    values: Floats,
+    flags: NDArray[np.int64],
+    right_weight: Floats,
+    left_weight: Floats,
 ) -> Floats:
-    """Return the slopes (keys,) of automatic tangents, which do not overshoot if clamped."""
+    """Return the slopes (keys,) of automatic tangents.
+
+    Clamped ones are flat beside equal values, progressive ones do not overshoot. The weights are
+    those of the tangents on either side of each key, as shares of the interval.
+    """
     step, rise = np.diff(times), np.diff(values)
     secant = rise / step
     is_near = np.abs(rise) <= _NEAR
@@ -305,9 +313,12 @@ def _compute_automatic_slopes(
     # Limit the slope so that no inner Bézier point exceeds the neighbour's value.
     sign = np.where(inner_slopes < 0, -1.0, 1.0)
     limit = np.full(len(inner_slopes), np.inf)
-    for weight, side in ((left[:-1], slice(None, -1)), (right[1:], slice(1, None))):
+    for weight, side in (
+        (left_weight[:-1], slice(None, -1)),
+        (right_weight[1:], slice(1, None)),
+    ):
         reach = weight * step[side]
-        most = sign * rise[side] / np.where(reach > 0, reach, np.inf)
+        most = sign * rise[side] / np.where(reach > 0, reach, np.inf)  # 0: no tangent to limit
         limit = np.minimum(limit, np.maximum(most, 0.0))
     inner_slopes = np.where(
         progressive[1:-1], sign * np.minimum(np.abs(inner_slopes), limit), inner_slopes

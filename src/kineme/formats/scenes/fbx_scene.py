@@ -348,17 +348,16 @@ class Pose:
         """Return a property of a model combined from all layers, (3,) or (frames, 3)."""
         result = _get_vector(model.properties, property_name, default)
         for value, weight, properties in self._sample_layers(model, property_name, result):
+            # A weight of None replaces all previous layers.
             if weight is None:
                 result = value
-            elif (
-                property_name == SCALING
-                and _get_choice(properties, "ScaleAccumulationMode", 2) == 0
-            ):
-                previous_weight = 1 - weight if _replaces(properties) else 1
-                # Multiplied scales have weights as exponents.
+                continue
+            previous_weight = 1 - weight if _replaces(properties) else 1
+            mode = _get_choice(properties, "ScaleAccumulationMode", 2)
+            if property_name == SCALING and mode == 0:  # multiplied: weights are exponents
                 result = np.abs(result) ** previous_weight * np.abs(value) ** weight
             else:
-                result = result * (1 - weight if _replaces(properties) else 1) + value * weight
+                result = result * previous_weight + value * weight
         return result
 
     def _sample_layers(

@@ -118,6 +118,9 @@ def _limit_process(size: int) -> None:
     import resource
 
     memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
+    # A limit of 0 for core files: none is written if the process crashes.
     for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
-        with suppress(OSError, ValueError):  # the limit is lower already
-            resource.setrlimit(limit, (most, resource.getrlimit(limit)[1]))
+        soft, hard = resource.getrlimit(limit)
+        wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
+        with suppress(OSError, ValueError):  # some systems do not allow this limit
+            resource.setrlimit(limit, (wanted, hard))

@@ -132,12 +132,12 @@ def _place_joints(
 
 
 def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
-    """Return rotations (frames, joints, 4), and translations (frames, 3) of position channels.
+    """Return quaternions (frames, joints, 4), and translations of joints with position channels.
 
-    Translations are in file units.
+    Translations (frames, 3) are by the number of the joint, in file units.
     """
     rotations = np.empty((len(values), len(joints), 4))
-    slides = {
+    translations = {
         # Position channels replace the offset per axis.
         j: np.tile(joint.offset, (len(values), 1))
         for j, joint in enumerate(joints)
@@ -154,7 +154,7 @@ def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[in
             rotation_columns, axes = [], ""
             for axis, kind in joint.channels:
                 if kind == "position":
-                    slides[j][span, "xyz".index(axis)] = columns[column]
+                    translations[j][span, "xyz".index(axis)] = columns[column]
                 else:
                     rotation_columns.append(column)
                     axes += axis
@@ -162,7 +162,7 @@ def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[in
             if rotation_columns:
                 block_rotations[j] = rot.from_euler(np.radians(columns[rotation_columns]).T, axes).T
         rotations[span] = block_rotations.transpose(2, 0, 1)
-    return rotations, slides
+    return rotations, translations
 
 
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:

@@ -94,7 +94,7 @@ def write_locally(path: Path) -> Iterator[Path]:
         try:
             remote.fs.put_file(str(draft), remote.path)
         except Exception as error:
-            reason = " ".join(str(error).split())[:200]
+            reason = " ".join(str(error).split())[:200] or type(error).__name__
             raise WriteError(path, f"cannot be written: {reason}") from error
 
 
