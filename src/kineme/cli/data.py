@@ -88,15 +88,18 @@ def _parse_numbers(text: str | None) -> list[int] | None:
         return None
     numbers: list[int] = []
     for part in text.split(","):
-        first, _, last = part.strip().partition("-")
+        first, dash, last = part.strip().partition("-")
         try:
-            numbers += range(int(first), int(last or first) + 1)
+            span = range(int(first), int(last if dash else first) + 1)
         except ValueError as error:
             reason = f"{part!r} is not a number or a range"
             raise typer.BadParameter(reason, param_hint="--trials") from error
+        if not span:
+            raise typer.BadParameter(f"{part!r} runs backwards", param_hint="--trials")
+        numbers += span
     if not numbers or min(numbers) < 1:
         raise typer.BadParameter(f"{text!r} names no trial", param_hint="--trials")
-    return numbers
+    return [*dict.fromkeys(numbers)]
 
 
 @contextmanager

@@ -243,7 +243,8 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     Parameters
     ----------
     force : (frames,) array
-        Vertical force in newtons; its sign and a constant offset do not matter.
+        Vertical force in newtons. Its sign does not matter, nor does a constant offset of less
+        than a tenth of the largest force.
     fps : float
         Frames per second.
     least : float
@@ -254,13 +255,20 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     (stands, 2) array
         Start and stop of each stand in seconds.
 
+    Raises
+    ------
+    ParameterError
+        The force is not one finite number per frame.
+
     Examples
     --------
     >>> from kineme.cycles import stands_from_force
     >>> stands_from_force([0.0] * 100 + [700.0] * 600 + [0.0] * 100, 1000.0).tolist()
     [[0.1, 0.7]]
     """
-    values = as_floats(force, "force").ravel()
+    values = as_floats(force, "force")
+    if values.ndim != 1 or not np.isfinite(values).all():
+        raise ParameterError(f"force must be one finite number per frame, not {values.shape}")
     # Frames in which the plate is empty; their median is the offset of its amplifier.
     empty = values[np.abs(values) < EMPTY * np.abs(values).max(initial=0.0)]
     offset = float(np.median(empty)) if len(empty) else 0.0

@@ -370,9 +370,15 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     >>> [*table]
     ['foot', 'start_s', 'stop_s', 'stride_s', 'stance_s', 'swing_s', 'stance_percent', ...]
     """
-    check_type(events, Events, "gait", "foot_events(recording) gives them")
+    check_type(events, Events, "strides", "foot_events(recording) gives them")
     left, right = (_measure_strides(events, side, recording) for side in SIDES)
-    return {name: np.concatenate([left[name], right[name]]) for name in left}
+    # A body without one of the feet has no path of that side.
+    return {
+        name: np.concatenate(
+            [side.get(name, np.full(len(side["foot"]), np.nan)) for side in (left, right)]
+        )
+        for name in {**left, **right}
+    }
 
 
 def _measure_strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:

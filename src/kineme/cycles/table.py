@@ -9,6 +9,7 @@ shorter way round.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
@@ -219,10 +220,16 @@ class Cycles:
                 continue
             curves, duration = self.curves[rows], self.columns["duration_s"][rows]
             # (rows, channels): distance from the median curve; a mean would follow outliers.
-            apart = _measure_distances(curves - np.median(curves, axis=0))
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RuntimeWarning)  # a channel that is never measured
+                usual = np.nanmedian(curves, axis=0)
+            apart = _measure_distances(curves - usual)
+            late = np.abs(duration - np.median(duration))
             # The factor makes a median deviation the standard one of a normal distribution.
-            for values in (DEVIATION * np.abs(duration - np.median(duration)), *apart.T):
-                far |= set(rows[values > deviations * np.median(values)].tolist())
+            for values, factor in ((late, 1 / DEVIATION), *((column, 1.0) for column in apart.T)):
+                unit = factor * np.median(values)
+                if unit > 0:
+                    far |= set(rows[values > deviations * unit].tolist())
         return self.exclude(sorted(far), FAR)
 
     def exclude_unsure(self, least: float = 0.5) -> Cycles:

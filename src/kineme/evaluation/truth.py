@@ -208,6 +208,8 @@ class Truth:
     def __post_init__(self) -> None:
         check_rate(self.fps)
         object.__setattr__(self, "labels", as_texts(self.labels, "labels"))
+        if not (np.isfinite(self.tolerance_s) and self.tolerance_s >= 0):
+            raise ParameterError(f"the tolerance must be 0 s or more, not {self.tolerance_s}")
         if not set(self.labels) - {TRANSITION}:
             raise ParameterError("a truth needs at least one action")
         if self.counts and len(self.counts) != len(self.labels):
@@ -264,6 +266,10 @@ class Truth:
         The middle of a transition is the mean. A transition at the start or the end of
         the recording stays an action. There is one count for each interval.
         """
+        if len(counts) not in (0, len(labelling.labels)):
+            raise ParameterError(
+                f"{len(labelling.labels)} intervals need as many counts, not {len(counts)}"
+            )
         # Transitions between two actions are borders; at the ends they stay rows.
         middle = [
             0 < i < len(labelling.labels) - 1 and label == TRANSITION

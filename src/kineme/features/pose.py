@@ -68,12 +68,12 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
 
     Returns
     -------
-    (frames, dims * offsets)
+    (frames, dims * number of offsets) array
 
     Raises
     ------
     ParameterError
-        The features are not two-dimensional or are empty; or offsets are empty or not distinct.
+        The features are not two-dimensional or have no rows; or offsets are empty or not distinct.
 
     Examples
     --------

@@ -106,7 +106,7 @@ def _split_overlaps(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]
     valid = [span for span in spans if span.start < span.stop]
     # Keep empty and reversed spans: they are rejected or dropped later.
     result = [span for span in spans if not span.start < span.stop]
-    waiting = sorted(valid, key=lambda span: span.start, reverse=True)
+    waiting = sorted(valid, key=lambda span: span.start)[::-1]
     active: list[Span] = []
     shared = 0
     # The set of active labels is constant between successive times.
@@ -120,7 +120,7 @@ def _split_overlaps(spans: Sequence[Span], path: Path) -> tuple[list[Span], int]
         if active:
             texts = dict.fromkeys(span.text for span in active if span.text)
             result.append(Span(start, stop, " + ".join(texts)))
-        shared += len(active) > 1
+            shared += len(texts) > 1
     return result, shared
 
 

@@ -45,7 +45,7 @@ from kineme.labels.spans import Labels, Span
 from kineme.recordings.times import is_date, parse_date
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking
+from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking, sort_rows
 
 Unit = Literal["seconds", "frames"]
 SPANS: dict[Unit, tuple[str, str]] = {
@@ -80,7 +80,10 @@ def read(path: Path) -> Segmentation | Labels:
         columns = _list_columns(rows, path, commas=comma != ",")
     comments = columns.pop(COMMENT, None)
     segmentation = _attach_provenance(columns, path)
-    return segmentation if comments is None else set_comments_by_row(segmentation, comments)
+    if comments is None:
+        return segmentation
+    # The rows of the file may be in another order than those of the table.
+    return set_comments_by_row(segmentation, [comments[row] for row in sort_rows(columns)])
 
 
 def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:

@@ -55,7 +55,7 @@ from kineme.segments.annotation import Annotation
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, find_lacking
+from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, find_lacking, sort_rows
 
 SCHEMA = "kineme.segments/2"
 INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
@@ -287,7 +287,8 @@ def read_parquet(path: Path) -> Segmentation:
     if COMMENT not in names:
         return segmentation
     comments = read_parquet_columns(content, file, [COMMENT]).column(COMMENT).to_pylist()
-    return set_comments_by_row(segmentation, [str(text or "") for text in comments])
+    texts = [str(comments[row] or "") for row in sort_rows(columns)]
+    return set_comments_by_row(segmentation, texts)
 
 
 PARQUET = LabelFormat(

@@ -129,11 +129,14 @@ def _list_classes(mapping: Path) -> dict[str, int]:
     """Return the numbers of the classes in a mapping, by name."""
     if not mapping.is_file():
         return {}
-    classes = {}
+    classes, line = {}, ""
     try:
         for line in mapping.read_text(encoding="utf-8-sig").splitlines():
-            number, text = line.split()
-            classes[text] = int(number)
+            if line.strip():
+                number, text = line.split()
+                classes[text] = int(number)
+    except UnicodeDecodeError as error:
+        raise WriteError(mapping, "is not UTF-8") from error
     except ValueError as error:
         raise WriteError(
             mapping, f'is no mapping: its lines must be like "0 walk", not {line!r:.60}'

@@ -165,7 +165,7 @@ def build(
         check_type(options, (kind, type(None)), "build", f"{kind.__name__}() makes one")
     with start_processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
-        folder = open_folder(into, [*added, *removed])
+        folder = open_folder(into, added)
         with lock_for_writing(folder, "build"), translate_remote_errors(folder):
             head = read_json(folder / HEAD)
             plan = make_plan(folder, head, added, removed, recursive, read_options, segment_options)

@@ -296,7 +296,14 @@ class Library:
         """Split the segments in some recordings off a cluster; return the new cluster's number."""
         chosen, tables = list(recordings), self._tables
         with tables.editing():
-            (number, *_) = self.numbers(cluster)
+            number, *others = self.numbers(cluster)
+            if others:
+                raise ParameterError(
+                    f"{cluster!r} is the name of several clusters: give the number of one "
+                    f"({', '.join(map(str, [number, *others]))})"
+                )
+            if unknown := set(chosen) - set(self.recordings["recording"]):
+                raise ParameterError(f"there is no recording {min(unknown)!r} in the library")
             local = tables.columns("local_clusters")
             present = set(local["recording"][local["cluster"] == number].tolist())
             if not present.intersection(chosen) or present <= set(chosen):

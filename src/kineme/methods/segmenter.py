@@ -7,7 +7,6 @@ This module converts between the two.
 from __future__ import annotations
 
 import time
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from os import PathLike
@@ -16,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._util.checks import as_features, check_flag, is_number
+from kineme._util.checks import as_features, check_flag, is_number, warn
 from kineme._version import __version__
-from kineme.errors import KinemeWarning, ParameterError
+from kineme.errors import ParameterError
 from kineme.features.effectors import Names
 from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset
 from kineme.methods.prepare import Prepared, RecordedSpan, prepare_motion, prepare_signals
@@ -205,11 +204,9 @@ def segment_with_options(
     if isinstance(source, Signals):
         n_frames, n_channels = source.values.shape
         if n_channels > max(n_frames, FEW_CHANNELS):
-            warnings.warn(
+            warn(
                 f"there are more channels ({n_channels}) than samples ({n_frames}); if the table "
-                "has a row for each channel, transpose it",
-                KinemeWarning,
-                stacklevel=2,
+                "has a row for each channel, transpose it"
             )
         standardize = features is None if options.standardize is None else options.standardize
         prepared = prepare_signals(

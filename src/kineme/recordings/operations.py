@@ -178,6 +178,7 @@ def scale(motion: Motion, factor: float) -> Motion:
     >>> bool((scale(motion, 2.0).positions == 2 * motion.positions).all())
     True
     """
+    check_motion(motion, "scale")
     if not (is_number(factor) and factor > 0):
         raise ParameterError(f"factor is {factor!r:.60}: give a number above 0")
     skeleton = motion.skeleton
@@ -213,6 +214,7 @@ def turn(motion: Motion, angle: float) -> Motion:
     >>> bool(np.allclose(half.positions[..., 0], -motion.positions[..., 0]))
     True
     """
+    check_motion(motion, "turn")
     if not is_number(angle):
         raise ParameterError(f"angle is {angle!r:.60}: give a finite number, in radians")
     # A quaternion of half the angle about y.

@@ -332,9 +332,15 @@ def make_segment_table(columns: Mapping[str, ArrayLike], fps: float) -> SegmentT
             raise ParameterError(f"column {name!r} has shape {array.shape}, 'level' has ({n},)")
     arrays = _compute_derived(arrays, fps) | arrays
     arrays["kind"] = choose_kinds(arrays["level"], arrays["kind"])
-    # `lexsort` sorts by the last key first: level, then start, then stop.
-    order = np.lexsort((arrays["stop_frame"], arrays["start_frame"], arrays["level"]))
+    order = sort_rows(arrays)
     return SegmentTable(**{name: arrays[name][order] for name in COLUMNS})
+
+
+def sort_rows(columns: Mapping[str, ArrayLike]) -> NDArray[np.intp]:
+    """Return the rows of a segment table in its order: by level, start and stop."""
+    # `lexsort` sorts by the last key first.
+    names = "stop_frame", "start_frame", "level"
+    return np.lexsort([np.asarray(columns[name]) for name in names])
 
 
 def choose_kinds(levels: NDArray[np.str_], kinds: NDArray[np.str_]) -> NDArray[np.str_]:

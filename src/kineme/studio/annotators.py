@@ -99,7 +99,9 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
         reason = f": {failures[0]}" if failures else ""
         raise ParameterError(f"no recording has labels by two of them{reason}")
     result = annotator_agreement(labelled)
-    ids = {text: entry.id for path, entry in listed.items() for text in (str(path), path.name)}
+    # `gather_labels` names a recording by its path if another one with labels has the same name.
+    paths = {path for person in people for path in person.sources}
+    ids = {text: listed[path].id for path in paths for text in (str(path), path.name)}
     return Agreement(
         annotators=list(result.annotators),
         by_names=result.by == "names",

@@ -73,7 +73,7 @@ def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
     corners = np.array([complex(x, z) for x, z in line])
     lengths = np.abs(np.diff(corners))
     total = lengths.sum()
-    if len(corners) < 2 or not FAR < total < 1e4:
+    if len(corners) < 2 or not FAR <= total < 1e4:
         raise ParameterError(
             f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
         )

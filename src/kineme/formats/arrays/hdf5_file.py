@@ -91,7 +91,7 @@ class _HDF5Reader:
         if depth > _MAX_DEPTH:
             raise ValueError("cells too deep in one another")
         # Skip empty references.
-        return [self.read_value(self.file[ref], depth + 1) for ref in item[()].ravel() if ref]
+        return [self.read_value(self.file[ref], depth + 1) for ref in np.ravel(item[()]) if ref]
 
 
 def _read_dataset(item: Any) -> Any:

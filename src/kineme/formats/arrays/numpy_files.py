@@ -84,7 +84,7 @@ def read_arrays(content: FileContent) -> dict[str, Array]:
             arrays = {}
             for info in infos:
                 data = archive.read(info)
-                if not _is_pickled(data):
+                if info.filename.endswith(".npy") and not _is_pickled(data):
                     name = info.filename.removesuffix(".npy")
                     arrays[name] = _parse_array(content, data, name)
     except (zipfile.BadZipFile, zlib.error, LZMAError, OSError, EOFError, ValueError) as error:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from itertools import compress
 
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.devices import Layout, begins_with
@@ -18,17 +19,21 @@ def lay_out(text: DelimitedText) -> DelimitedText:
     try:
         devices = [*json.loads(text.lines[1].lstrip("# ")).values()]
         rate = float(devices[0]["sampling rate"])
-        sensors = {
-            label: label if sensor in ("RAW", "") else f"{label} {sensor}"
-            for device in devices
-            for label, sensor in zip(device["label"], device["sensor"], strict=True)
-        }
-        columns = [str(column) for device in devices for column in device["column"]]
+        names, is_channel = [], []
+        for device in devices:  # Labels are unique within a device only.
+            sensors = {
+                label: label if sensor in ("RAW", "") else f"{label} {sensor}"
+                for label, sensor in zip(device["label"], device["sensor"], strict=True)
+            }
+            columns = list(map(str, device["column"]))
+            names += [sensors.get(column, column) for column in columns]
+            is_channel += [column in sensors for column in columns]
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise text.content.error(f"its header cannot be read: {error}", 2) from None
-    names = [sensors.get(column, column) for column in columns]
     table = Layout(head=r"(?!#)", names=names)(text)
-    return replace(table, rate=rate, hidden=frozenset(table.names) - {*sensors.values()})
+    return replace(
+        table, rate=rate, hidden=frozenset(table.names) - {*compress(table.names, is_channel)}
+    )
 
 
 DIALECT = Dialect("OpenSignals", begins_with("# OpenSignals Text File Format"), layout=lay_out)

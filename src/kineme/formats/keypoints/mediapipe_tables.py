@@ -22,7 +22,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.timing import find_table_timing, place_points
 from kineme.recordings import Motion
 from kineme.recordings.regular import Timing
-from kineme.recordings.times import is_timing
+from kineme.recordings.times import is_rate, is_timing
 
 _BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # three copies of four numbers
 
@@ -69,7 +69,9 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
         clock = find_table_timing(table.content, columns)
         poses, gaps = place_points(clock, poses)
         frames = np.arange(len(poses))
-    elif frame is not None:
+    # A rate takes precedence over times, so that rows are frames only by their number.
+    has_rate = any(is_rate(table.names[i]) for i in timing)
+    if frame is not None and (options.fps or has_rate or not timing):
         frames = to_frame_numbers(table.content, rows[:, -1])
     people = [
         Person(frame, pose[:, :3], pose[:, 3])
@@ -107,18 +109,24 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     poses[..., 2:] = (0.0, 1.0)
     for k, field in enumerate(field_columns, 1):
         poses[frame_index, landmarks, field] = rows[:, k]
-    fps = options.fps
-    if timing and not fps:
+    clock = Timing(options.fps or 0.0)
+    gaps = clock.gaps
+    if timing and not options.fps:
         times = np.zeros(len(frames))
         times[frame_index] = rows[:, -1]
         clock = find_table_timing(table.content, {table.names[timing[0]]: times})
-        poses, fps = place_points(clock, poses)[0], clock.fps
-        frames = np.arange(len(poses)) if clock.order is not None else frames
+        poses, gaps = place_points(clock, poses)
+        if not is_rate(table.names[timing[0]]):
+            frames = np.arange(len(poses))
     people = [
         Person(frame, pose[:, :3], pose[:, 3])
         for frame, pose in zip(frames.tolist(), poses, strict=True)
     ]
-    return landmarks_to_motion(table.content, people, options, fps=fps)
+    motion = landmarks_to_motion(
+        table.content, people, options, fps=clock.fps or None, notes=clock.notes
+    )
+    provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
+    return split_at(replace(motion, provenance=provenance), gaps)
 
 
 def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:

@@ -43,6 +43,8 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
         instances_found += [
             (numbers[-1], instance) for instance in instances if isinstance(instance, Mapping)
         ]
+    if not instances_found:
+        raise content.error("nobody is found in any frame")
     width = max((len(_get_points(instance)) for _, instance in instances_found), default=0)
     names = _find_names(data, width)
     if not names:
@@ -54,7 +56,7 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
         confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
         person = str(instance["track_id"])[:40] if has_ids else None
         people.append(Person(number, _get_points(instance)[: len(names)], confidence, person))
-    first = people[0].points[0]
+    first = next((person.points[0] for person in people if person.points), None)
     is_flat = isinstance(first, list) and len(first) == 2
     unit, up = ("pixel", "-y") if is_flat else (None, "z")
     video = Video("MMPose", names, people, LIMIT, frames=numbers, unit=unit, up=up)

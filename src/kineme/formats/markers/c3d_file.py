@@ -91,19 +91,24 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
     if channels <= 0 or total % channels:
         return np.empty((0, 0))
     values = raw.reshape(-1, channels)
-    if "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT") and values.dtype.kind == "i":
+    is_unsigned = "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT")
+    if is_unsigned and values.dtype.kind == "i":
         # Reinterpret the bytes as unsigned.
         values = values.view(values.dtype.str.replace("i", "u"))
     scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
     # Physical value = (stored - offset) * scale * general scale.
-    scaled = (values - _repeat_per_channel(file.parameters, "OFFSET", channels, 0.0)) * scale
+    # The offsets are stored like the samples.
+    offset = _repeat_per_channel(file.parameters, "OFFSET", channels, 0.0, signed=not is_unsigned)
+    scaled = (values - offset) * scale
     return np.asarray(scaled, np.float64)
 
 
-def _repeat_per_channel(parameters: Parameters, name: str, channels: int, default: float) -> Floats:
+def _repeat_per_channel(
+    parameters: Parameters, name: str, channels: int, default: float, *, signed: bool = True
+) -> Floats:
     """Return a value for each channel, ``default`` where missing."""
-    values = parameters.numbers("ANALOG", name, signed=True)[:channels]
+    values = parameters.numbers("ANALOG", name, signed=signed)[:channels]
     return np.array(values + [default] * (channels - len(values)))
 
 

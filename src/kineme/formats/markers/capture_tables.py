@@ -141,7 +141,7 @@ def _parse_nexus(content: FileContent, lines: Sequence[str]) -> Capture:
 def _parse_motive(content: FileContent, lines: Sequence[str]) -> Capture:
     axes = _find_axis_line(content, lines, 0)
     separator = find_separator(lines[axes])
-    above = [split_cells(line, separator) for line in lines[:axes] if line.strip()]
+    above = [split_cells(line, separator) for line in lines[:axes] if line.strip(' ",;\t')]
     # Names and values of the metadata alternate.
     pairs = zip(above[0][::2], above[0][1::2], strict=False)
     metadata = {key.lower(): value for key, value in pairs}

@@ -159,7 +159,7 @@ def compute_sharpness(view: NDArray[np.float32], at: Frames, side: int) -> Float
 
 
 def compute_changes(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
-    """Return the energy distance between the `side` samples before and after some samples."""
+    """Return half the energy distance between the `side` samples before and after some samples."""
     # Cumulative sums along both axes give the sum over any block from four values.
     sums = np.zeros((len(view) + 1, len(view) + 1))
     differences = view[:, None].astype(np.float64) - view

@@ -203,7 +203,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     """Replace the repetitions of clusters that do not repeat by occurrences.
 
     A cluster keeps its repetitions if they explain each other, or if occurrences explain less.
-    Segments with a single repetition in which nothing moves lose their primitives.
+    Clusters lose their primitives if each segment has one repetition and nothing moves in any.
 
     Parameters
     ----------
@@ -217,8 +217,8 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     weak = shares < preset.min_explained
     if weak.any():
         lengths = np.diff(segments.borders)
+        # Transitions are always weak. If an activity is weak, too, everything is searched.
         searched = np.repeat(weak | (weak & (segments.labels >= 0)).any(), lengths)
-        # Transitions are searched only together with weak activities.
         occurrences = find_occurrences(rows, searched, preset)
         recurring = occurrences.select_within(segments.borders, weak)
         recurring_shares = average_by_cluster(

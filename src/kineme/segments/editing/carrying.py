@@ -280,11 +280,11 @@ def _shorten_row(
 def _adopt_primitives(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
     """Give the primitives inside a fixed activity its properties; a transition gets only one."""
     inside = [i for i, row in enumerate(primitives) if _measure_overlap(row, activity)]
-    old_parent = _find_middle_row(found.activities, activity)
-    if activity.kind == "transition" and old_parent.kind != "transition":
+    if activity.kind == "transition":
         transition = replace(activity, level="primitive", label="")
         return [*primitives[: inside[0]], transition, *primitives[inside[-1] + 1 :]]
     for i in inside:
+        old_parent = _find_middle_row(found.activities, primitives[i])
         primitives[i] = change_parent(primitives[i], old_parent, activity)
     return primitives
 
