@@ -251,7 +251,7 @@ def test_data_says_what_it_took_or_why_not(kineme, data_dir, tmp_path):
     assert "gave up after 5 attempts" in ran.stderr
 
 
-@pytest.mark.parametrize("trials", ["one", "0", "", "3-1"])
+@pytest.mark.parametrize("trials", ["one", "0", "", "3-1", "1,3-1", "3-"])
 def test_trials_that_are_no_numbers_are_refused(kineme, trials):
     ran = kineme("data", "cmu", 86, "--trials", trials)
     assert ran.returncode == 2

@@ -151,6 +151,20 @@ def test_counters_and_clocks_of_a_device_are_channels_only_where_asked_for(tmp_p
         read(tmp_path, FILES["OpenSignals"], columns=["1"])
 
 
+def test_two_devices_of_opensignals_keep_their_sensors(tmp_path: Path) -> None:
+    first = {**HEADER, "column": ["nSeq", "A1"], "label": ["A1"], "sensor": ["EMG"]}
+    second = {**HEADER, "column": ["nSeq", "A1"], "label": ["A1"], "sensor": ["EDA"]}
+    text = (
+        "# OpenSignals Text File Format. Version 1\n# "
+        + json.dumps({"98:D3:31": first, "98:D3:32": second})
+        + "\n# EndOfHeader\n"
+        + "".join(f"{i % 16}\t{i % 7}\t{i % 16}\t{-(i % 5)}\n" for i in range(200))
+    )
+    signals = read(tmp_path, text)
+    assert signals.names == ("A1 EMG", "A1 EDA")
+    assert signals.values[9].tolist() == [2, -4]
+
+
 def test_counts_of_actigraph_have_the_rate_of_their_epochs(tmp_path: Path) -> None:
     header = ACTIGRAPH.replace("00:00:00\n--", "00:00:05\n--")
     assert read(tmp_path, header + "Axis1,Axis2,Axis3\n" + rows(",")).fps == 0.2

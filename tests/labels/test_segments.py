@@ -294,6 +294,17 @@ def test_comments_are_a_column_that_is_read_again(tmp_path: Path, suffix: str) -
         assert now == "=slips, twice\nand stands"
 
 
+def test_comments_stay_with_their_segments_if_rows_are_sorted_anew(tmp_path: Path) -> None:
+    path = tmp_path / "take.csv"
+    table = read_segments(bundled_truth(), fps=60)
+    third = table.table[2]
+    said = editing.comment(table, third.level, third.start_frame, "slips")
+    write_segments(said, path)
+    head, *rows = path.read_text(encoding="utf-8").splitlines()
+    path.write_text("\n".join([head, *reversed(rows)]) + "\n", encoding="utf-8")
+    assert editing.comments(read_segments(path)) == editing.comments(said)
+
+
 @pytest.mark.parametrize("separator", [";", "\t"])
 def test_a_table_that_a_spreadsheet_saved_with_decimal_commas(
     tmp_path: Path, small: Segmentation, separator: str

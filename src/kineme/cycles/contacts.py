@@ -266,9 +266,10 @@ def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) ->
     >>> stands_from_force([0.0] * 100 + [700.0] * 600 + [0.0] * 100, 1000.0).tolist()
     [[0.1, 0.7]]
     """
-    values = as_floats(force, "force")
-    if values.ndim != 1 or not np.isfinite(values).all():
-        raise ParameterError(f"force must be one finite number per frame, not {values.shape}")
+    force = as_floats(force, "force")
+    values = force.ravel()
+    if len(values) != len(force) or not np.isfinite(values).all():
+        raise ParameterError("the force must be one finite number per frame")
     # Frames in which the plate is empty; their median is the offset of its amplifier.
     empty = values[np.abs(values) < EMPTY * np.abs(values).max(initial=0.0)]
     offset = float(np.median(empty)) if len(empty) else 0.0
