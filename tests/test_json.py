@@ -42,7 +42,7 @@ class Offset(Struct):
         ('{"offset_s": [1]}', "offset_s: expected float, got array"),
         ("{}", "missing required field offset_s"),
         ("null", "expected object, got null"),
-        ('{"\\ud800": 1, "offset_s": 1}', "a name is no text"),
+        ('{"\\ud800": 1, "offset_s": 1}', "a name is not text"),
     ],
 )
 def test_what_is_no_such_thing_is_one_sentence(text: str, said: str) -> None:
@@ -127,7 +127,7 @@ def test_whether_it_is_the_benchmark_is_no_error(tmp_path: Path) -> None:
 def test_marks_of_any_length_in_the_text(tmp_path: Path) -> None:
     path = tmp_path / "mocap.txt"
     path.write_text(f"86_01\nwalk 1 2 {'9' * 5000}\n")
-    with pytest.raises(ReadError, match="neither a trial's name"):
+    with pytest.raises(ReadError, match="expected the name of a trial"):
         read_trials(path)
 
 

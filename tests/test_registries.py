@@ -111,6 +111,8 @@ def test_all_threads_see_the_whole_registry(plugin) -> None:
 def test_the_packages_own_are_there_by_their_names(registry) -> None:
     assert all(name == one.name for name, one in registry.items())
     name, one = next(iter(registry.items()))
-    with pytest.raises(ParameterError, match="already: take another, or replace=True"):
+    with pytest.raises(
+        ParameterError, match="exists already: choose another name or set replace=True"
+    ):
         registry.register(one)
     assert name in repr(registry)

@@ -153,7 +153,7 @@ def test_a_named_pipe_is_not_waited_for(kineme_process, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "slow.bvh")
     done = kineme_process("segment", "slow.bvh", "-o", "cuts.csv")
     assert done.returncode == 1
-    assert "slow.bvh: is a pipe or a device: save what comes from it in a file" in done.stderr
+    assert "slow.bvh: is a pipe or a device: save its output to a file first" in done.stderr
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")

@@ -86,7 +86,7 @@ def test_what_is_missing_is_one_sentence(kineme, tmp_path, phone) -> None:
     (tmp_path / "bare.txt").write_text("1\n2\n3\n")
     done = kineme("segment", "bare.txt")
     assert done.stderr.strip() == (
-        "error: bare.txt: nothing in it tells the frame rate: give fps (--fps)"
+        "error: bare.txt: it does not state its frame rate: give fps (--fps)"
     )
     done = kineme("segment", phone, "--columns", ",")
     assert done.returncode == 2

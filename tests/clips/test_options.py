@@ -31,7 +31,7 @@ def test_names_follow_a_template(tmp_path, motion, truth) -> None:
         "transition@in_place_01.bvh",
     ]
     assert clips_of(tmp_path / "clips")[0]["name"] == "walk_forwards_00"
-    with pytest.raises(ParameterError, match=r"would be called transition: put \{n\}"):
+    with pytest.raises(ParameterError, match=r"would have the name transition: put \{n\}"):
         split(motion, truth, tmp_path / "more", name="{label}")
     for wrong in ("walk", "{frame}", "{n.real}", "{n:q}", "{n"):
         with pytest.raises(ParameterError, match="name is "):

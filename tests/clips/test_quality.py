@@ -225,7 +225,7 @@ def test_straight_loops_do_not_turn(tmp_path: Path, motion, truth) -> None:
 def test_odd_numbers_of_loops_are_refused(tmp_path: Path, motion, truth, best) -> None:
     with pytest.raises(ParameterError, match="give a number of loops"):
         split(motion, truth, tmp_path / "clips", loops=True, best=best)
-    with pytest.raises(ParameterError, match="best is of loops only"):
+    with pytest.raises(ParameterError, match="best needs loops"):
         split(motion, truth, tmp_path / "clips", best=2)
 
 

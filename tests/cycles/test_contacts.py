@@ -80,7 +80,7 @@ def test_a_foot_stands_while_heel_or_toe_does() -> None:
     paths = [np.column_stack([0 * y, y, 0 * y]) for y in (heel, toe)]
     stands = stands_from_positions(paths, 60.0)
     np.testing.assert_allclose(stands, [[0.0, 1.0], [1.5, 2.0]], atol=0.04)
-    with pytest.raises(ParameterError, match="one point at least"):
+    with pytest.raises(ParameterError, match="at least one point"):
         stands_from_positions([], 60.0)
 
 

@@ -249,7 +249,7 @@ def test_cycles_begin_at_their_anchor(walks, anchor: str) -> None:
     elif anchor == "knee_r > 40":
         np.testing.assert_allclose(start, 40, atol=1e-6)
     last = cycles.columns["place"] == "last"
-    assert {*cycles.columns["excluded"][last].tolist()} <= {"no event ends it", "no event"}
+    assert {*cycles.columns["excluded"][last].tolist()} <= {"no event follows it", "no event"}
     assert np.isnan(cycles.columns["duration_s"][last]).all()
 
 

@@ -211,7 +211,9 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
 def test_a_score_that_fails_costs_itself_only() -> None:
     register(Score("broken", "broken", "divides by nothing", "frames", lambda _: 1 / 0))
     try:
-        with pytest.warns(KinemeWarning, match="the score 'broken' is left out, it fails: ZeroDiv"):
+        with pytest.warns(
+            KinemeWarning, match="the score 'broken' was left out, since it failed: ZeroDiv"
+        ):
             found = compute_results(Comparison([0, 0, 1], [4, 4, 4], fps=1))
     finally:
         SCORES.remove("broken")

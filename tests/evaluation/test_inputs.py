@@ -65,7 +65,7 @@ def test_one_label_per_frame_of_another_rate(tmp_path) -> None:
 @pytest.mark.parametrize(
     ("rows", "words"),
     [
-        ("0,3,a\n2,6,b", "'b' starts at frame 20, before the label ahead of it stops"),
+        ("0,3,a\n2,6,b", "'b' starts at frame 20, before the previous label stops"),
         ("3,1,a", "'a' stops at 1.0, before 3.0"),
         ("0,9,a", r"cover 9.000 s \(90 frames at 10 fps\), the recording lasts 6.000 s \(60"),
         ("0,x,a", "line 2: stop_s must be a number, not 'x'"),

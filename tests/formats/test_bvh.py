@@ -159,7 +159,7 @@ def test_a_size_that_fits_no_unit_is_told_and_unit_overrides(tmp_path: Path) -> 
     for unit, factor in (("m", 100), ("mm", 0.1), (0.02, 2)):
         motion = load(tmp_path, unit=unit)
         np.testing.assert_allclose(motion.positions, factor * plain.positions)
-        remarked = any("m tall: look whether" in note for note in motion.provenance.notes)
+        remarked = any("m tall: check the unit" in note for note in motion.provenance.notes)
         assert remarked == (factor != 2)
 
 

@@ -126,10 +126,10 @@ def test_a_folder_of_anything_else(tmp_path: Path) -> None:
         kineme.read(tmp_path, fps=30)
     (tmp_path / "frame_2.json").write_text(json.dumps(openpose(frames=1)[0]))
     (tmp_path / "frame_1.json").write_text("{}")
-    with pytest.raises(ReadError, match="frame_1.json: no 'people' in it"):
+    with pytest.raises(ReadError, match="frame_1.json: it has no 'people'"):
         kineme.read(tmp_path, fps=30)
     (tmp_path / "frame_1.json").write_text('{"people": [')
-    with pytest.raises(ReadError, match="frame_1.json, line 1: is no whole JSON file"):
+    with pytest.raises(ReadError, match="frame_1.json, line 1: is not a complete JSON file"):
         kineme.read(tmp_path, fps=30)
 
 
@@ -159,7 +159,7 @@ def test_one_of_several_people(tmp_path: Path) -> None:
     frames = []
     for i, (one, other) in enumerate(zip(left, right)):
         frames.append(openpose_frame(*([one, other] if i % 2 else [other, one])))
-    with pytest.raises(ReadError, match=r"2 people .* person= \(--person\), of 0 \(30 frames from"):
+    with pytest.raises(ReadError, match=r"2 people .* person= \(--person\): 0 \(30 frames from"):
         read(tmp_path, "a.json", frames, fps=25)
     motions = [read(tmp_path, "a.json", frames, fps=25, person=who) for who in (0, "1")]
     for motion in motions:  # the same person throughout
@@ -176,7 +176,7 @@ def test_somebody_in_passing_is_left_out(tmp_path: Path) -> None:
         openpose_frame(pixels(standing(OPENPOSE[25], 1))[0] + 700)["people"][0]
     )
     motion = read(tmp_path, "a.json", frames, fps=25)
-    assert any("1 seen only in passing are left out" in n for n in motion.provenance.notes)
+    assert any("1 seen only briefly are left out" in n for n in motion.provenance.notes)
     assert 0.6 < waves(motion) < 1.0
 
 
@@ -186,7 +186,7 @@ def test_keypoints_that_are_not_sure_are_gaps(tmp_path: Path) -> None:
     keypoints = frames[12]["people"][0]["pose_keypoints_2d"]
     keypoints[wrist : wrist + 3] = [keypoints[wrist] + 150, keypoints[wrist + 1], 0.29]
     motion = read(tmp_path, "a.json", frames, fps=25)
-    assert any("1 position less sure than 0.3 not used" in n for n in motion.provenance.notes)
+    assert any("1 position below confidence 0.3 not used" in n for n in motion.provenance.notes)
     assert np.abs(np.diff(motion.positions[:, motion.joint("left_wrist")], axis=0)).max() < 0.3
     trusting = read(tmp_path, "a.json", frames, fps=25, confidence=0.1)
     assert np.abs(np.diff(trusting.positions[:, motion.joint("left_wrist")], axis=0)).max() > 0.5
@@ -306,7 +306,7 @@ def test_mediapipe_takes_world_landmarks_where_there_are_both(tmp_path: Path) ->
 
 def test_mediapipe_landmarks_of_the_image(tmp_path: Path) -> None:
     frames = [{"landmarks": marks(pose)} for pose in image_landmarks()]
-    with pytest.warns(KinemeWarning, match="unknown shape, taken as square"):
+    with pytest.warns(KinemeWarning, match="unknown size, assumed square"):
         motion = read(tmp_path, "a.json", frames, fps=25)
     assert stands(motion)
     wide = {"width": 2000, "height": 1000, "frames": frames}
@@ -416,7 +416,7 @@ def test_hdf5_of_anything_else(tmp_path: Path) -> None:
         kineme.read(tmp_path / "a.h5", fps=30)
     with h5py.File(tmp_path / "b.h5", "w") as file:
         file.create_dataset("tracks", shape=(10**6, 2, 5, 10**6), dtype="f8", chunks=(1, 2, 5, 10))
-    with pytest.raises(ReadError, match="claims to unpack to much more than it holds"):
+    with pytest.raises(ReadError, match="claims to unpack far more than it contains"):
         kineme.read(tmp_path / "b.h5", fps=30)
 
 
@@ -433,7 +433,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         for i, row in enumerate(points)
     ]
     text = "\n".join([*head, *rows])
-    with pytest.raises(ReadError, match=r"2 individuals .*\(--person\), of ann, bob"):
+    with pytest.raises(ReadError, match=r"2 individuals .*\(--person\): ann, bob"):
         read(tmp_path, "a.csv", text, fps=30)
     assert stands(read(tmp_path, "a.csv", text, fps=30, person="bob"))
     with pytest.raises(ReadError, match="no person 'eve': choose from ann, bob"):
@@ -443,8 +443,8 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        ("{", "line 1: is no whole JSON file"),
-        ("[" * 100_000, "is no whole JSON file"),
+        ("{", "line 1: is not a complete JSON file"),
+        ("[" * 100_000, "is not a complete JSON file"),
         ("{}", "no keypoints found in it"),
         ('[{"people": 3}]', "frame 0 has no list of 'people'"),
         ('[{"people": [3]}]', "a person without keypoints"),
@@ -454,7 +454,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
             '[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]',
             "keypoints: 15, 17, 18",
         ),
-        ('[{"people": []}]', "nobody is found in any frame"),
+        ('[{"people": []}]', "no person found in any frame"),
         ('{"0": {"people": []}, "99999999999": {"people": []}}', "nobody is found|no frame num"),
     ],
 )
@@ -498,13 +498,13 @@ def test_a_body_seen_from_the_side_is_read(tmp_path: Path, world: bool) -> None:
     assert not motion.gaps
     assert stands(motion)
     sure = read(tmp_path, "a.json", data, confidence=0.5)
-    assert any("less sure than 0.5" in note for note in sure.provenance.notes)
+    assert any("below confidence 0.5" in note for note in sure.provenance.notes)
 
 
 def test_frames_of_zeros_are_no_poses(tmp_path: Path) -> None:
     poses = 1000 * image_landmarks(60)
     poses[20:40] = 0
-    with pytest.warns(KinemeWarning, match="20 frames with nothing but zeros"):
+    with pytest.warns(KinemeWarning, match="20 frames with zeros only"):
         motion = read(tmp_path, "a.json", {"fps": 30, "frames": [marks(pose) for pose in poses]})
     assert motion.gaps == ((20, 40),)
     assert stands(motion)

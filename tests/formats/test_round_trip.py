@@ -103,7 +103,7 @@ def test_what_cannot_be_written_leaves_nothing_behind(tmp_path: Path, suffix: st
 def test_unknown_suffix(tmp_path: Path) -> None:
     skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
     with pytest.raises(
-        WriteError, match=r"no writer of a motion for the suffix '.xyz': use one of .amc, .bvh"
+        WriteError, match=r"cannot write a motion with the suffix '.xyz': use one of .amc, .bvh"
     ):
         write(Motion(skeleton, np.zeros((1, 1, 3)), 30), tmp_path / "a.xyz")
 

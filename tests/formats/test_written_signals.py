@@ -64,7 +64,7 @@ def test_parquet_at_another_rate(tmp_path: Path) -> None:
 
 def test_a_mot_whose_times_are_of_another_rate_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a.mot").write_text(FILES["angles.mot"])
-    with pytest.raises(WriteError, match="its own times tell another rate"):
+    with pytest.raises(WriteError, match="its own times have another rate"):
         write(kineme.read(tmp_path / "a.mot", fps=25), tmp_path / "b.mot")
 
 

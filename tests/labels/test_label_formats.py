@@ -415,7 +415,9 @@ def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None
     (tmp_path / "l.txt").write_text(
         "0\t1\twalk\n0.5\t0.5\tclap\n\\\t100\t200\n1.0\t2.0\trun\tfast\n"
     )
-    with pytest.warns(KinemeWarning, match="shorter than a frame, left out: 1 label"):
+    with pytest.warns(
+        KinemeWarning, match="left out, since they are shorter than a frame: 1 label"
+    ):
         back = read_segments(tmp_path / "l.txt", fps=10)
     assert back.activities.label.tolist() == ["walk", "run fast"]
     assert "taken from the end of the last label" in back.provenance["notes"][0]

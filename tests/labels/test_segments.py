@@ -206,11 +206,11 @@ def test_a_foreign_file_is_one_read_error(tmp_path: Path, suffix: str, content: 
         ("a.json", '"stop_frame": 50,', "", "segment 1 has no 'stop_frame'"),
         ("a.json", '"start_frame": 50', '"start_frame": 51', "segments of a level must touch"),
         ("a.json", '"cluster": 0', '"cluster": "0"', "'cluster' must hold whole numbers"),
-        ("a.json", "  ]\n}", "", "line .*: is not valid JSON, or is cut short"),
+        ("a.json", "  ]\n}", "", "line .*: is not valid JSON or is truncated"),
         ("a.csv", ",0,120", ",0,12o", "line 2: stop_frame must be a whole number, not '12o'"),
         ("a.csv", "confidence,", "points,", "it has no column 'confidence'"),
         ("a.csv", "primitive,50,120,", "primitive,50\n#", "line 4: the line ends before column"),
-        ("a.csv", ",120,", ",121,", "at frame 121, but a.provenance.json speaks of 120 frames"),
+        ("a.csv", ",120,", ",121,", "at frame 121, but a.provenance.json states 120 frames"),
     ],
 )
 def test_a_spoilt_table_says_what_is_wrong(
@@ -349,7 +349,7 @@ def test_killed_between_the_two_renames(
     new = table(tmp_path / "new", name, form, 60.0, "walk")
     assert kineme.read_segments(new, format=form).fps == 60.0
     shutil.copy(new, old)
-    with pytest.raises(ReadError, match=r"is of 60 frames per second, but .* speaks of 120"):
+    with pytest.raises(ReadError, match=r"is of 60 frames per second, but .* states 120"):
         kineme.read_segments(old, format=form)
 
 

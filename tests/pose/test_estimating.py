@@ -224,8 +224,8 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
         ("none.mp4", write_video(tmp_path / "none.mp4", []).read_bytes(), "no pictures"),
         ("head.mp4", video.read_bytes()[:500], "is no video"),
         ("tenth.mp4", whole[: len(whole) // 10], "part of"),
-        ("half.mkv", matroska[: len(matroska) // 2], "breaks off"),
-        ("half.mp4", whole[: len(whole) // 2], "breaks off|damaged"),
+        ("half.mkv", matroska[: len(matroska) // 2], "ends after"),
+        ("half.mp4", whole[: len(whole) // 2], "ends after|damaged"),
     ]:
         path = tmp_path / name
         path.write_bytes(data)

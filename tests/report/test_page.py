@@ -162,7 +162,7 @@ def test_segments_of_another_recording_are_refused(tmp_path: Path) -> None:
 
 
 def test_only_pages_are_written(tmp_path: Path) -> None:
-    with pytest.raises(WriteError, match=r"reports are written as \.html"):
+    with pytest.raises(WriteError, match=r"the suffix of a report must be \.html"):
         write_report(RECORDING, SEGMENTS, tmp_path / "out.pdf")
     with pytest.raises(WriteError, match="does not exist"):
         write_report(RECORDING, SEGMENTS, tmp_path / "missing" / "out.html")
@@ -178,4 +178,4 @@ def test_a_lowered_rate_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     assert make_recording_message(shown, SEGMENTS, name="x").warnings == []
     slow = replace(shown, motion=msgspec.structs.replace(shown.motion, sample_fps=12.0))
     (said,) = make_recording_message(slow, SEGMENTS, name="x").warnings
-    assert "12 times a second" in said
+    assert "12 times per second" in said

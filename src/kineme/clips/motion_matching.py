@@ -79,7 +79,9 @@ class Database:
         skeleton = ("root", *(motion.skeleton.names[j] for j in bones)), (-1, *parents)
         self.skeleton = self.skeleton or skeleton
         if motion.rotations is None or self.skeleton != skeleton:
-            lacks = "bones other than those before" if motion.rotations is not None else "points"
+            lacks = (
+                "other bones than the previous motion" if motion.rotations is not None else "points"
+            )
             raise ParameterError(
                 f"motion_matching needs rotations of one skeleton, {motion.provenance.path} has "
                 f"{lacks}"
