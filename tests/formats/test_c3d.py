@@ -203,7 +203,7 @@ def test_truncated_and_wrong_files(tmp_path: Path) -> None:
     ]:
         with pytest.raises(ReadError, match=reason):
             read(tmp_path, data[:cut])
-    with pytest.raises(ReadError, match="processor type 7 is none of"):
+    with pytest.raises(ReadError, match="processor type 7 is not Intel"):
         read(tmp_path, data[:515] + b"\x07" + data[516:])
 
 

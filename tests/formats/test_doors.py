@@ -29,7 +29,9 @@ def test_surprises_of_a_reader(tmp_path: Path, request: pytest.FixtureRequest) -
     odd = registry.Format("odd", (".odd",), lambda _: False, surprise)  # type: ignore[arg-type]
     registry.register(odd)
     request.addfinalizer(lambda: registry.FORMATS.remove("odd"))
-    with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:
+    with pytest.raises(
+        ReadError, match=r"a\.odd: cannot be read, it may be damaged.*deep inside"
+    ) as caught:
         kineme.read(path)
     assert isinstance(caught.value.__cause__, SurprisingError)
 
@@ -40,7 +42,9 @@ def test_surprises_of_a_reader_of_labels(tmp_path: Path, request: pytest.Fixture
     odd = label_registry.LabelFormat("odd", "", (".odd",), "all", surprise)  # type: ignore[arg-type]
     label_registry.register(odd)
     request.addfinalizer(lambda: label_registry.FORMATS.remove("odd"))
-    with pytest.raises(ReadError, match=r"a\.odd: cannot be understood.*deep inside") as caught:
+    with pytest.raises(
+        ReadError, match=r"a\.odd: cannot be read, it may be damaged.*deep inside"
+    ) as caught:
         kineme.read_segments(path)
     assert isinstance(caught.value.__cause__, SurprisingError)
 

@@ -104,7 +104,7 @@ def test_a_file_of_blender(tmp_path: Path) -> None:
     assert motion.skeleton.names == skeleton.names
     assert motion.fps == 30
     assert np.abs(motion.positions - expected.positions).max() < 1e-5
-    assert "turned: z is up in the file" in motion.provenance.notes
+    assert "turned upright: z is up in the file" in motion.provenance.notes
 
 
 def test_takes_by_name_and_number(tmp_path: Path) -> None:

@@ -137,7 +137,7 @@ def test_several_motions_in_a_file(tmp_path: Path) -> None:
     with pytest.warns(KinemeWarning, match="2 takes are in it and 'walk' is read"):
         kineme.read(tmp_path / "clips.glb")
     other = replace(motion, skeleton=replace(motion.skeleton, offsets=motion.skeleton.offsets * 2))
-    with pytest.raises(WriteError, match="of different skeletons"):
+    with pytest.raises(WriteError, match="have different skeletons"):
         write_animations({"a": motion, "b": other}, tmp_path / "b.glb")
     bare = Motion(motion.skeleton, motion.positions, 60)
     with pytest.raises(WriteError, match="a glTF needs rotations"):
@@ -226,7 +226,7 @@ def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> Non
     file = File(nodes, (1, 2, 3, 5, 6)).animate(
         "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, 5))
     )
-    with pytest.raises(SeveralPeopleError, match=r"of Armature \(3 joints\), Other \(2 joints\)"):
+    with pytest.raises(SeveralPeopleError, match=r": Armature \(3 joints\), Other \(2 joints\)"):
         read_motion(file.save(tmp_path / "a.glb"), fps=10)
     motion = read_motion(file.save(tmp_path / "a.glb"), fps=10, person="Other")
     assert motion.skeleton.names == ("Hips", "node6")
@@ -277,7 +277,7 @@ def endless() -> File:
         (changed(asset={"version": 1}, accessors={"a": {}}), "is glTF of version 1: export"),
         (changed(asset={}, accessors={"a": {}}), "is glTF of version 1.0: export"),
         (changed(accessors=[]), "accessor 1 is not in the file|accessor 0 is not in the file"),
-        (changed(nodes=[{"children": [0]}]), "holds no skeleton"),
+        (changed(nodes=[{"children": [0]}]), "has no skeleton"),
         (endless(), "claims 3 joints in"),
     ],
 )
@@ -357,7 +357,7 @@ def test_truncated_files(tmp_path: Path) -> None:
     whole = changed().save(tmp_path / "a.glb").read_bytes()
     for data, reason in (
         (whole[:8], "ends in its header"),
-        (whole[:-9], f"is of {len(whole) - 9} bytes instead of {len(whole)}: it is truncated"),
+        (whole[:-9], f"has {len(whole) - 9} bytes instead of {len(whole)}: it is truncated"),
         (b"glTF\1\0\0\0" + whole[8:], "is a GLB of version 1"),
         (b"glTF\2\0\0\0\x0c\0\0\0", "has no JSON in it"),
     ):

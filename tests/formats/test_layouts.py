@@ -88,7 +88,7 @@ BORIS = (
 def test_labels_are_no_recording(tmp_path: Path, name: str, text: str) -> None:
     path = tmp_path / name
     path.write_text(text)
-    with pytest.raises(kineme.ReadError, match="holds labels as"):
+    with pytest.raises(kineme.ReadError, match="holds labels of"):
         kineme.read(path)
     found = kineme.read_segments(path, fps=10).activities
     spans = [(a.start_s, a.stop_s) for a in found if a.label == "squat"]

@@ -75,7 +75,7 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
 )
 def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
     (tmp_path / name).write_bytes(b"PK\x03\x04")
-    with pytest.raises(ReadError, match=f"is not read: {what}"):
+    with pytest.raises(ReadError, match=f"is not supported: {what}"):
         kineme.read(tmp_path / name)
 
 
@@ -110,7 +110,7 @@ def test_a_format_of_another_package(tmp_path: Path, monkeypatch) -> None:
         again = kineme.read(tmp_path / "a.toy", columns=["1"])
     assert again.values.tolist() == signals.values.tolist()
     assert again.provenance.notes == ("line 3: read as a toy", "fun")
-    with pytest.raises(ParameterError, match="there is a format 'toy' already"):
+    with pytest.raises(ParameterError, match="a format named 'toy' exists already"):
         register(replace(TOY, suffixes=(".toy2",)))
     register(replace(TOY, suffixes=(".toy2",)), replace=True)
     assert sum(known.name == "toy" for known in supported_formats()) == 1

@@ -118,7 +118,9 @@ def test_times_that_nobody_can_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("factor", "unit"), [(1e3, "milli"), (1e6, "micro"), (1e9, "nano")])
 def test_times_in_another_unit_are_told(tmp_path: Path, factor: float, unit: str) -> None:
     text = table(body(), time=[f"{i / 25 * factor:.0f}" for i in range(20)])
-    with pytest.warns(KinemeWarning, match=f"time is taken in {unit}seconds, by its steps"):
+    with pytest.warns(
+        KinemeWarning, match=f"time is read in {unit}seconds, inferred from its steps"
+    ):
         assert read(tmp_path, "a.csv", text).fps == 25
 
 

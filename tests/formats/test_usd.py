@@ -121,7 +121,7 @@ def test_several_animations_and_characters(tmp_path: Path) -> None:
 
 def test_stages_without_a_skeleton_and_damaged_ones(tmp_path: Path) -> None:
     new_stage(tmp_path / "a.usda").Save()
-    with pytest.raises(ReadError, match="holds no skeleton"):
+    with pytest.raises(ReadError, match="has no skeleton"):
         read_quietly(tmp_path / "a.usda")
     stage = new_stage(tmp_path / "b.usda")
     skeleton_on(stage, "/Ann")
@@ -230,7 +230,7 @@ def test_missing_layers_are_left_out_with_a_warning(
         "the layer 'char.usda' is missing or not USD, so it is left out",
     )
     scene.write_text(reference("char.usda"))
-    with pytest.raises(ReadError, match=r"holds no skeleton.*'char\.usda' is missing"):
+    with pytest.raises(ReadError, match=r"has no skeleton.*'char\.usda' is missing"):
         read_quietly(scene)
 
 

@@ -106,5 +106,5 @@ def test_a_motion_of_one_frame(tmp_path: Path, suffix: str) -> None:
 def test_what_no_label_format_can_tell_is_no_segmentation(n_frames: int, fps: float) -> None:
     columns = {"level": ["activity"], "kind": ["activity"]}
     columns |= {"start_frame": [0], "stop_frame": [n_frames]}
-    with pytest.raises(ValueError, match="no recording lasts|frame rate must be"):
+    with pytest.raises(ValueError, match="a recording cannot last|frame rate must be"):
         Segmentation.from_columns(columns, n_frames=n_frames, fps=fps)

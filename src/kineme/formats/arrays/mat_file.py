@@ -71,7 +71,7 @@ def _unpack(body: Bytes, budget: int) -> Bytes:
     # Unpack at most the budget; a remaining tail shows that the element is larger.
     unpacked = engine.decompress(body, max(1, budget))
     if engine.unconsumed_tail:
-        raise _DamagedError("it claims to unpack to far more than it contains")
+        raise _DamagedError("it claims to unpack far more than it contains")
     return memoryview(unpacked)
 
 
