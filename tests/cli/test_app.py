@@ -157,7 +157,7 @@ def test_on_a_terminal_they_are_a_table_for_people(tmp_path: Path) -> None:
     working = next(i for i, line in enumerate(lines) if line.startswith("  working_fps"))
     assert lines[working].split() == ["working_fps", "50", "Hz", "0.1", "to", "1000", "30"]
     assert lines[working + 1].strip() == "samples per second to which the recording is resampled"
-    assert any(line.startswith("Finer constants") for line in lines)
+    assert any(line.startswith("Fine constants") for line in lines)
     assert max(map(len, lines)) <= 80
 
 

@@ -74,7 +74,7 @@ def test_links_to_nothing_are_said_and_standard_input_is_refused(kineme, tmp_pat
     assert done.stderr == "skipped: linked/gone.bvh: is a link to a missing file\n"
     done = kineme("segment", "-")
     assert done.returncode == 2
-    assert "not read from standard input" in done.stderr
+    assert "cannot be read from standard input" in done.stderr
 
 
 def test_folders_deeper_down_and_their_like_are_told_apart_too() -> None:

@@ -154,7 +154,7 @@ def test_a_recording_without_feet_is_one_sentence(kineme, tmp_path: Path) -> Non
     (tmp_path / "s.csv").write_text("\n".join(lines))
     done = kineme("events", "s.csv")
     assert done.returncode == 1
-    assert "no foot was found" in done.stderr
+    assert "no foot found" in done.stderr
 
 
 def test_info_lists_what_can_be_measured(kineme, take: Path) -> None:

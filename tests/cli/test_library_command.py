@@ -89,7 +89,7 @@ SENSELESS = [
     (("query", "lib", "select nothing"), 1, "nothing"),
     (("export", "lib", "--output", "table.xlsx"), 1, "suffix"),
     (("name", "lib", "99", "walk"), 1, "no cluster is called 99"),
-    (("split", "lib", "0", "nobody.bvh"), 1, "is split by naming some"),
+    (("split", "lib", "0", "nobody.bvh"), 1, "can only be split by naming some"),
 ]  # fmt: skip
 
 

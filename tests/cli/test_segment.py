@@ -149,7 +149,7 @@ def test_no_table_takes_the_place_of_a_recording(kineme, tmp_path: Path, recordi
     for place in (".", "take.csv", tmp_path / "{name}.csv"):
         done = kineme("segment", "take.csv", "-o", place)
         assert done.returncode == 2
-        assert "place of a recording" in " ".join(done.stderr.split())
+        assert "overwrite a recording" in " ".join(done.stderr.split())
     assert (tmp_path / "take.csv").read_bytes() == before
 
 

@@ -90,7 +90,7 @@ def test_bvh(tmp_path: Path, text: str | bytes, line: int | None, reason: str) -
         (swap(AMC, "back 5.5 6 7", "back 5.5 -1e999 7"), 11, "'-1e999' is not a finite number"),
         (swap(AMC, "back 5.5 6 7", "back 5.5 x 7"), 11, "'x' is not a number"),
         (swap(AMC, "back 5.5 6 7", "back 5.5 6"), 11, "has 2 values, but the skeleton needs 3"),
-        (swap(AMC, "back 5.5 6 7", "tail 5.5 6 7"), 11, "'tail' is not in the skeleton: is it"),
+        (swap(AMC, "back 5.5 6 7", "tail 5.5 6 7"), 11, "'tail' is not in the skeleton: give"),
         (swap(AMC, "back 5.5 6 7", "leg 5.5 6 7"), 12, "'leg' appears twice in one frame"),
         (swap(AMC, "back 5.5 6 7\n", ""), 9, "a frame has no values for back"),
     ],

@@ -133,7 +133,7 @@ def test_other_layouts_are_refused(motion) -> None:
     boxes = to_movement(motion).assign_coords(space=["u", "v", "w"])
     with pytest.raises(ParameterError, match="space must be x, y and optionally z, not u, v, w"):
         from_movement(boxes)
-    with pytest.raises(ParameterError, match="the segments are of 2898 frames"):
+    with pytest.raises(ParameterError, match="the segments have 2898 frames"):
         to_movement(motion, kineme.read_segments(bundled_recording().with_suffix(".json")))
 
 

@@ -31,7 +31,7 @@ WRITTEN = [name for name, known in label_formats().items() if known.write]
         ("0\t1e300\twalk\n", {"fps": 10}, r"has a label at 1e\+300"),
         ("0\tone\twalk\n", {"fps": 10}, "line 1: the stop must be a number, not 'one'"),
         ("0\tnan\twalk\n", {"fps": 10}, "line 1: the stop must be a number, not 'nan'"),
-        ("0\t1\twalk\n5\n", {"fps": 10}, "line 2: a label is a start, a stop and a text"),
+        ("0\t1\twalk\n5\n", {"fps": 10}, "line 2: a label must be a start, a stop and a text"),
         ("0\t9\twalk\n", {"fps": 10, "n_frames": 50}, "labels up to frame 90, .* has 50"),
     ],
 )

@@ -83,7 +83,7 @@ def test_labels_counted_from_the_first_frame_are_known_by_what_they_meet(tmp_pat
         path,
     )
     assert placed(found) == EVERYTHING
-    assert any("counted from the first frame" in note for note in found.provenance["notes"])
+    assert any("relative to the first frame" in note for note in found.provenance["notes"])
 
 
 def test_what_the_package_wrote_itself_counts_frames_and_is_found_again(tmp_path) -> None:

@@ -205,7 +205,7 @@ def test_signals_that_contradict_themselves() -> None:
         Signals(np.zeros(4), 0)
     with pytest.raises(ParameterError, match="different names"):
         Signals(np.zeros((4, 2)), 10, ["a", "a"])
-    with pytest.raises(ParameterError, match="gap 2 to 1 is not a span of 4 frames"):
+    with pytest.raises(ParameterError, match="gap 2 to 1 must be within the 4 frames"):
         Signals(np.zeros(4), 10, gaps=[(2, 1)])
     with pytest.raises(ParameterError, match="cover the whole recording"):
         Signals(np.zeros(4), 10, gaps=[(0, 4)])

@@ -82,7 +82,7 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_a_picture_needs_the_recording_of_the_segments(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="of another recording"):
+    with pytest.raises(ParameterError, match="give the segments of this recording"):
         plot_segmentation(whole(9), turning(8), tmp_path / "x.png")
     with pytest.raises(ParameterError, match="Motion or Signals"):
         plot_segmentation(whole(9), np.zeros((9, 2)), tmp_path / "x.png")  # type: ignore[arg-type]

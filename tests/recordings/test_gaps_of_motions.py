@@ -52,7 +52,7 @@ def hidden(motion: Motion) -> np.ndarray:
 
 @pytest.mark.parametrize("gaps", [((5, 5),), ((-1, 3),), ((3, 101),), ((5, 9), (9, 12))])
 def test_gaps_are_checked(gaps: tuple[tuple[int, int], ...]) -> None:
-    with pytest.raises(MotionError, match="is not a span of 100 frames"):
+    with pytest.raises(MotionError, match="must be within the 100 frames"):
         body(gaps=gaps)
 
 

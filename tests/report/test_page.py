@@ -153,10 +153,10 @@ def test_tables_with_any_provenance_are_shown(tmp_path: Path) -> None:
 
 def test_segments_of_another_recording_are_refused(tmp_path: Path) -> None:
     shorter = kineme.recordings.operations.cut(RECORDING, 0, 900)
-    with pytest.raises(ParameterError, match="of 2898 frames at 60 Hz, the recording is of 900"):
+    with pytest.raises(ParameterError, match="2898 frames at 60 Hz, but the recording has 900"):
         write_report(shorter, SEGMENTS, tmp_path / "out.html")
     slower = replace(RECORDING, fps=59.0)
-    with pytest.raises(ParameterError, match="the recording is of 2898 frames at 59 Hz"):
+    with pytest.raises(ParameterError, match="the recording has 2898 frames at 59 Hz"):
         write_report(slower, SEGMENTS, tmp_path / "out.html")
     assert list(tmp_path.iterdir()) == []
 

@@ -36,7 +36,7 @@ def check_rates(old: float, new: float) -> None:
     """Raise ParameterError if resampling to a new rate would create too many frames."""
     if new > MAX_FRAMES_RATIO * old:
         raise ParameterError(
-            f"frames {1 / old:g} s apart are too far apart for {new:g} frames per second: "
+            f"frames {1 / old:g} s apart are too far for {new:g} frames per second: "
             "check the frame rate"
         )
 
@@ -258,7 +258,7 @@ class Registry(Mapping[str, T]):
     >>> tools.register(SimpleNamespace(name="saw", teeth=12))
     Traceback (most recent call last):
     ...
-    kineme.errors.ParameterError: there is a tool 'saw' already: take another, or replace=True
+    kineme.errors.ParameterError: a tool named 'saw' exists already: choose another name or set replace=True
     >>> tools.register(SimpleNamespace(name="saw", teeth=12), replace=True)
     >>> tools["saw"].teeth
     12
