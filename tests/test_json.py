@@ -146,7 +146,7 @@ def test_times_beyond_all_measure_are_cut_off(tmp_path: Path) -> None:
     found = source.of(n_frames=90, fps=60.0)
     assert found.activities.label.tolist() == ["x", "walk"]
     assert found.activities.start_frame.tolist() == [0, 60]
-    assert any("before the start" in note for note in found.provenance["notes"])
+    assert any("starting before the recording" in note for note in found.provenance["notes"])
     table.write_text("recording,start_s,stop_s,label\na.bvh,0,1e308,walk\na.bvh,2e307,1e308,x\n")
     (source,) = find_labels([Path("a.bvh")], table).values()
     assert source.of(n_frames=90, fps=60.0).activities.label.tolist() == ["walk"]

@@ -181,7 +181,7 @@ def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
     ("given", "told"),
     [
         ("min_acton=2", "kineme has no parameter 'min_acton'; did you mean min_action?"),
-        ("radius=0.3", "kineme has no parameter 'radius': it is one of voegele2014"),
+        ("radius=0.3", "kineme has no parameter 'radius': it belongs to voegele2014"),
         ("min_action=-1", "min_action must be a number from 0 to 3600 s, not -1.0"),
         ("min_action=long", "min_action must be a number, 0 to 3600 s, not 'long'"),
         ("max_clusters=2.5", "max_clusters must be a whole number, 1 to 1000000, not '2.5'"),

@@ -83,7 +83,7 @@ def test_the_line_at_fault_is_named(kineme, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("option", "place", "reason"),
     [
-        ("--output", "no/such/cuts.csv", "the folder no/such cannot be made"),
+        ("--output", "no/such/cuts.csv", "the folder no/such cannot be created"),
         ("--output", "cuts.xlsx", "the suffix must be one of .csv, .json, .parquet"),
         ("--plot", "cuts.jpeg2", "the suffix must be one of .png, .pdf, .svg"),
         ("--output", "/proc/cuts.csv", "/proc"),

@@ -160,7 +160,7 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
     [
         ("0,20,a\n10,LAST,b", "'b' starts at frame 600, before the previous label stops (1200)"),
         ("0,20,a\n30,25,b\n30,LAST,c", "'b' stops at 25.0, before 30.0"),
-        ("0,20,a\n20,1000,b", "cover 1000.000 s (60000 frames at 60 fps), the recording lasts"),
+        ("0,20,a\n20,1000,b", "cover 1000.000 s (60000 frames at 60 fps), but the recording lasts"),
         ("0,LAST,transition", "at least one action"),
         ("zero,LAST,a", "start_s must be a number, not 'zero'"),
     ],
@@ -226,7 +226,7 @@ def test_another_length_of_labels_names_both(kineme, table, seconds, tmp_path):
     (tmp_path / "labels.txt").write_text("walk\n" * 600)
     ran = kineme("evaluate", table, "--against", "labels.txt", "--fps", 60)
     assert ran.returncode == 1
-    assert f"cover 10.000 s (600 frames at 60 fps), the recording lasts {seconds:.3f}"[:60] in (
+    assert f"cover 10.000 s (600 frames at 60 fps), but the recording lasts {seconds:.3f}"[:60] in (
         ran.stderr
     )
 

@@ -160,7 +160,7 @@ def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path
     (tmp_path / "mine.eaf").write_text("corrected by hand")
     done = kineme("convert", bundled_truth(), "mine.eaf")
     assert (done.returncode, done.stdout) == (1, "")
-    assert "mine.eaf: is there already" in done.stderr
+    assert "mine.eaf: exists already" in done.stderr
     assert (tmp_path / "mine.eaf").read_text() == "corrected by hand"
     done = kineme("convert", bundled_truth(), "mine.srt", "--to", "srt")
     assert done.returncode == 2

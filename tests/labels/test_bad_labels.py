@@ -54,7 +54,7 @@ def test_bad_arguments_name_what_there_is(tmp_path) -> None:
     with pytest.raises(WriteError, match="too coarse for 2000 frames per second"):
         write_segments(example(["walk"], fps=2000.0), tmp_path / "l.eaf")
     write_segments(result, tmp_path / "l.eaf")
-    with pytest.raises(ReadError, match="says 119.88 frames per second, but fps is 60"):
+    with pytest.raises(ReadError, match="has 119.88 frames per second, but fps is 60"):
         read_segments(tmp_path / "l.eaf", fps=60)
 
 

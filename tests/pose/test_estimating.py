@@ -218,11 +218,11 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
     whole = write_video(tmp_path / "whole.mp4", np.arange(300) / 30).read_bytes()
     matroska = write_video(tmp_path / "whole.mkv", np.arange(300) / 30).read_bytes()
     for name, data, reason in [
-        ("text.mp4", b"not a video", "is no video"),
+        ("text.mp4", b"not a video", "is not a video"),
         ("empty.mp4", b"", "empty"),
         ("sound.mkv", sound.getvalue(), "sound"),
         ("none.mp4", write_video(tmp_path / "none.mp4", []).read_bytes(), "no pictures"),
-        ("head.mp4", video.read_bytes()[:500], "is no video"),
+        ("head.mp4", video.read_bytes()[:500], "is not a video"),
         ("tenth.mp4", whole[: len(whole) // 10], "part of"),
         ("half.mkv", matroska[: len(matroska) // 2], "ends after"),
         ("half.mp4", whole[: len(whole) // 2], "ends after|damaged"),

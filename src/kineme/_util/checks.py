@@ -258,7 +258,7 @@ class Registry(Mapping[str, T]):
     >>> tools.register(SimpleNamespace(name="saw", teeth=12))
     Traceback (most recent call last):
     ...
-    kineme.errors.ParameterError: a tool named 'saw' exists already: choose another name or set replace=True
+    kineme.errors.ParameterError: a tool named 'saw' exists already: choose another name or ...
     >>> tools.register(SimpleNamespace(name="saw", teeth=12), replace=True)
     >>> tools["saw"].teeth
     12
@@ -363,7 +363,7 @@ class Registry(Mapping[str, T]):
             except Exception as error:  # noqa: BLE001 (plugins may raise anything)
                 reason = f"{type(error).__name__}: {error}"
                 warnings.warn(
-                    f"plugin {point.name!r} of {self._group} was skipped, since it cannot "
+                    f"{point.name!r} of {self._group} was skipped, since it cannot "
                     f"be loaded: {reason}",
                     KinemeWarning,
                     stacklevel=2,

@@ -232,7 +232,7 @@ class Truth:
         if backwards.size:
             i = backwards[0]
             raise ParameterError(
-                f"the border after action {i + 1} ({self.labels[i]})is not in order: "
+                f"the border after action {i + 1} ({self.labels[i]}) is not in order: "
                 f"earliest {self.earliest[i]}, mean {self.mean[i]}, latest {self.latest[i]}"
             )
         # Certain part of each action: from its latest start to its earliest end.

@@ -54,7 +54,7 @@ class Journal:
         self.path = self.target.with_suffix(SUFFIX)
         self._fps, self._n_rows, self._synchronised = fps, 0, monotonic()
         if self.target.exists():
-            raise WriteError(self.target, "is there already: give another name")
+            raise WriteError(self.target, "exists already: give another name")
         refuse_link(self.path)
         try:
             self._file = self.path.open("x", encoding="utf-8", newline="")
@@ -128,7 +128,7 @@ def recover_journal(path: str | os.PathLike[str]) -> Path:
         raise ReadError(journal, f"is not a journal: its name must end in {SUFFIX}")
     target = journal.with_name(journal.name.removesuffix(SUFFIX) + ".parquet")
     if target.exists():
-        raise WriteError(target, "is there already: move it away first")
+        raise WriteError(target, "exists already: move it away first")
     with require_extra("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import csv as arrow_csv

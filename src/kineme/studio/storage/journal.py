@@ -245,7 +245,7 @@ def read_record(folder: Path) -> tuple[Record, list[str]]:
         return record, notes
     return Record(revision=record.revision), [
         *notes,
-        f"{HISTORY} was ignored, since it is incomplete",
+        f"{HISTORY} was ignored: it is incomplete",
     ]
 
 

@@ -161,7 +161,7 @@ def _read_reading(recording: Path) -> tuple[tuple[ReadOptions, tuple[str, ...]],
         people = as_texts(content.pop("people", ()), "people")
         return (options_from_json(ReadOptions, content), people), notes
     except KinemeError as error:
-        note = f"{path.name} was ignored, since it has an invalid option: {error}"
+        note = f"{path.name} was ignored: it has an invalid option: {error}"
         return (ReadOptions(), people), [*notes, note]
 
 
