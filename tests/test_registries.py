@@ -52,7 +52,7 @@ def test_a_name_that_is_taken_stays_unless_it_is_to_be_replaced(newest_first) ->
     registry.register(saw)
     registry.register(axe)
     for again in (saw, other):
-        with pytest.raises(ParameterError, match="there is a tool 'saw' already"):
+        with pytest.raises(ParameterError, match="a tool named 'saw' exists already"):
             registry.register(again)
     assert registry["saw"] is saw
     registry.register(other, replace=True)
@@ -72,10 +72,10 @@ def test_a_broken_plugin_costs_itself_only_and_is_named(plugin) -> None:
         assert list(registry) == ["saw", "axe", "file"]
     assert registry["saw"] is saw
     told = [str(one.message) for one in caught]
-    assert [text.split(" is left out")[0] for text in told] == [
+    assert [text.split(" was skipped")[0] for text in told] == [
         f"{name!r} of {GROUP}" for name in ("absent", "c_saw", "d_text")
     ]
-    assert "there is a tool 'saw' already" in told[1]
+    assert "a tool named 'saw' exists already" in told[1]
     assert list(registry) == ["saw", "axe", "file"]  # looked up, and warned of, once
 
 
@@ -111,6 +111,8 @@ def test_all_threads_see_the_whole_registry(plugin) -> None:
 def test_the_packages_own_are_there_by_their_names(registry) -> None:
     assert all(name == one.name for name, one in registry.items())
     name, one = next(iter(registry.items()))
-    with pytest.raises(ParameterError, match="already: take another, or replace=True"):
+    with pytest.raises(
+        ParameterError, match="exists already: choose another name or set replace=True"
+    ):
         registry.register(one)
     assert name in repr(registry)

@@ -89,4 +89,4 @@ def _make_folder(folder: Path | None) -> None:
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise WriteError(folder or "", f"cannot be made: {error.strerror}") from error
+        raise WriteError(folder or "", f"cannot be created: {error.strerror}") from error

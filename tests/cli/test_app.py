@@ -156,8 +156,8 @@ def test_on_a_terminal_they_are_a_table_for_people(tmp_path: Path) -> None:
     assert lines[0] == f"sensors: {PRESETS['sensors'].help}"
     working = next(i for i, line in enumerate(lines) if line.startswith("  working_fps"))
     assert lines[working].split() == ["working_fps", "50", "Hz", "0.1", "to", "1000", "30"]
-    assert lines[working + 1].strip() == "samples per second at which the recording is looked at"
-    assert any(line.startswith("Finer constants") for line in lines)
+    assert lines[working + 1].strip() == "samples per second to which the recording is resampled"
+    assert any(line.startswith("Fine constants") for line in lines)
     assert max(map(len, lines)) <= 80
 
 
@@ -181,11 +181,11 @@ def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
     ("given", "told"),
     [
         ("min_acton=2", "kineme has no parameter 'min_acton'; did you mean min_action?"),
-        ("radius=0.3", "kineme has no parameter 'radius': it is one of voegele2014"),
+        ("radius=0.3", "kineme has no parameter 'radius': it belongs to voegele2014"),
         ("min_action=-1", "min_action must be a number from 0 to 3600 s, not -1.0"),
         ("min_action=long", "min_action must be a number, 0 to 3600 s, not 'long'"),
         ("max_clusters=2.5", "max_clusters must be a whole number, 1 to 1000000, not '2.5'"),
-        ("bands=low,high", "bands must be numbers with commas between them, each above 0 to 500"),
+        ("bands=low,high", "bands must be numbers separated by commas, each above 0 to 500"),
         ("min_action", "give NAME=VALUE, such as min_action=2, not 'min_action'"),
     ],
 )

@@ -83,7 +83,7 @@ def test_the_line_at_fault_is_named(kineme, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("option", "place", "reason"),
     [
-        ("--output", "no/such/cuts.csv", "the folder no/such cannot be made"),
+        ("--output", "no/such/cuts.csv", "the folder no/such cannot be created"),
         ("--output", "cuts.xlsx", "the suffix must be one of .csv, .json, .parquet"),
         ("--plot", "cuts.jpeg2", "the suffix must be one of .png, .pdf, .svg"),
         ("--output", "/proc/cuts.csv", "/proc"),
@@ -153,7 +153,7 @@ def test_a_named_pipe_is_not_waited_for(kineme_process, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "slow.bvh")
     done = kineme_process("segment", "slow.bvh", "-o", "cuts.csv")
     assert done.returncode == 1
-    assert "slow.bvh: is a pipe or a device: save what comes from it in a file" in done.stderr
+    assert "slow.bvh: is a pipe or a device: save its output to a file first" in done.stderr
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")

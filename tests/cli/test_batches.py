@@ -71,10 +71,10 @@ def test_links_to_nothing_are_said_and_standard_input_is_refused(kineme, tmp_pat
     (tmp_path / "linked" / "gone.bvh").symlink_to(tmp_path / "nowhere.bvh")
     done = kineme("info", "linked", *UNIT, "--json")
     assert (done.returncode, len(done.stdout.splitlines())) == (0, 1)
-    assert done.stderr == "skipped: linked/gone.bvh: is a link to a file that is not there\n"
+    assert done.stderr == "skipped: linked/gone.bvh: is a link to a missing file\n"
     done = kineme("segment", "-")
     assert done.returncode == 2
-    assert "not read from standard input" in done.stderr
+    assert "cannot be read from standard input" in done.stderr
 
 
 def test_folders_deeper_down_and_their_like_are_told_apart_too() -> None:
@@ -114,7 +114,7 @@ def test_a_numbered_json_makes_no_video_of_a_folder(kineme, tmp_path, takes) -> 
     (takes / "a" / "video_1_keypoints.json").write_text(json.dumps(frame))
     done = kineme("info", "takes/a", *UNIT, "--json")
     assert (done.returncode, json.loads(done.stdout)["frames"]) == (0, 40)
-    assert "1 frame of OpenPose beside other recordings" in done.stderr
+    assert "1 frame of OpenPose next to other recordings" in done.stderr
 
 
 def test_every_command_takes_folders(kineme, tmp_path: Path) -> None:
@@ -155,7 +155,7 @@ def test_commands_for_motions_refuse_signals(kineme, tmp_path: Path) -> None:
     done = kineme("graph", "imu.csv", "-o", "graph.json")
     assert done.returncode == 1
     assert done.stderr == (
-        "error: imu.csv: holds signals without a skeleton, where a motion is needed\n"
+        "error: imu.csv: holds signals without a skeleton, but a motion is needed\n"
     )
 
 

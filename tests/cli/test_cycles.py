@@ -98,14 +98,14 @@ def test_several_recordings_are_measured_together(kineme, take: Path, tmp_path: 
         "--channels", "knee_l",
     )  # fmt: skip
     assert unnamed.returncode == 1
-    assert "name clusters alike, or say with --common" in unnamed.stderr
+    assert "clusters the same names" in unnamed.stderr
     assert (tmp_path / "unnamed.png").exists()
 
 
 def test_an_anchor_begins_each_cycle(kineme, take: Path) -> None:
     done = kineme("cycles", "take.bvh", "--segments", "truth.json", "--anchor", "knee_r max")
     assert done.returncode == 0, done.stderr
-    assert "left out: no event ends it" in done.stdout
+    assert "left out: no event follows it" in done.stdout
 
 
 @pytest.mark.parametrize(
@@ -154,7 +154,7 @@ def test_a_recording_without_feet_is_one_sentence(kineme, tmp_path: Path) -> Non
     (tmp_path / "s.csv").write_text("\n".join(lines))
     done = kineme("events", "s.csv")
     assert done.returncode == 1
-    assert "no foot was found" in done.stderr
+    assert "no foot found" in done.stderr
 
 
 def test_info_lists_what_can_be_measured(kineme, take: Path) -> None:
@@ -183,7 +183,7 @@ def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Pa
     Path("two.csv").write_text("\n".join(lines) + "\n")
     done = kineme("cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l")
     assert done.returncode == 0, done.stderr
-    assert "walk: no inner repetition; --ends counts the others" in done.stdout
+    assert "walk: no inner repetitions; --ends includes the first and last" in done.stdout
 
 
 def test_a_recording_of_other_channels_costs_itself_alone(

@@ -132,8 +132,8 @@ def test_right_borders_of_wrong_classes_are_explained(kineme, tmp_path):
     right = kineme("evaluate", "same.csv", "--against", "truth.csv", "--fps", "30")
     wrong = kineme("evaluate", "joined.csv", "--against", "truth.csv", "--fps", "30")
     assert right.returncode == wrong.returncode == 0, wrong.stderr
-    assert "Borders are better than classes" in wrong.stdout
-    assert "Borders are better than classes" not in right.stdout
+    assert "borders are better than the classes" in wrong.stdout
+    assert "borders are better than the classes" not in right.stdout
 
 
 def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
@@ -152,15 +152,15 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
     assert float(row["border_f1"]) > 0.5
     wrong = kineme("evaluate", "found.json", "--against", annotations, "--trial", "86_01")
     assert wrong.returncode == 1
-    assert "covers 38.17 s, the result 47.30 s" in wrong.stderr
+    assert "covers 38.17 s, but the result lasts 47.30 s" in wrong.stderr
 
 
 @pytest.mark.parametrize(
     ("rows", "message"),
     [
-        ("0,20,a\n10,LAST,b", "'b' starts at frame 600, before the label ahead of it stops (1200)"),
+        ("0,20,a\n10,LAST,b", "'b' starts at frame 600, before the previous label stops (1200)"),
         ("0,20,a\n30,25,b\n30,LAST,c", "'b' stops at 25.0, before 30.0"),
-        ("0,20,a\n20,1000,b", "cover 1000.000 s (60000 frames at 60 fps), the recording lasts"),
+        ("0,20,a\n20,1000,b", "cover 1000.000 s (60000 frames at 60 fps), but the recording lasts"),
         ("0,LAST,transition", "at least one action"),
         ("zero,LAST,a", "start_s must be a number, not 'zero'"),
     ],
@@ -184,7 +184,7 @@ def test_annotations_that_overlap_run_backwards_or_pass_the_end(
     [
         (("cmu86", "-o", "scores.xlsx"), 1, ".json or .csv"),
         (("cmu86", "-o", "nowhere/scores.csv"), 1, "does not exist"),
-        (("cmu86", "--against", "labels.csv"), 2, "brings its own truth"),
+        (("cmu86", "--against", "labels.csv"), 2, "has its own annotations"),
         (("found.csv",), 2, "--against LABELS is needed"),
         (("found.csv", "--against", "labels.csv"), 1, "found.csv: cannot be read"),
         (("labels.txt", "--against", "labels.csv"), 1, "give fps (--fps)"),
@@ -226,7 +226,7 @@ def test_another_length_of_labels_names_both(kineme, table, seconds, tmp_path):
     (tmp_path / "labels.txt").write_text("walk\n" * 600)
     ran = kineme("evaluate", table, "--against", "labels.txt", "--fps", 60)
     assert ran.returncode == 1
-    assert f"cover 10.000 s (600 frames at 60 fps), the recording lasts {seconds:.3f}"[:60] in (
+    assert f"cover 10.000 s (600 frames at 60 fps), but the recording lasts {seconds:.3f}"[:60] in (
         ran.stderr
     )
 

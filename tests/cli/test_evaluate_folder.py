@@ -29,8 +29,8 @@ def test_the_command_scores_methods_side_by_side(kineme, corpus, tmp_path) -> No
         *("--without-columns", "emg*", "-o", "scores.csv"),
     )
     assert ran.returncode == 0, ran.stderr
-    assert "without labels, left out: unlabelled.csv" in ran.stderr
-    assert "labels of recordings that are not there: ghost\n" in ran.stderr
+    assert "recordings without labels, left out: unlabelled.csv" in ran.stderr
+    assert "labels without a recording: ghost\n" in ran.stderr
     assert "broken.csv, kineme: " in ran.stderr
     assert "b.csv: overlapping others: 1 label" in ran.stderr
     for text in ("MoF", "Edit", "F1@50", "ARI", "NMI", "recordings scored", "2 of 3"):
@@ -140,4 +140,4 @@ def test_several_labels_tell_how_far_people_agree(kineme, corpus, tmp_path) -> N
     assert said == [["fast", "slow"], ["fast", ""]]
     ran = kineme(*people, "--method", "uniform")
     assert ran.returncode == 2
-    assert "several --labels compare people" in ran.stderr
+    assert "several --labels compare annotators" in ran.stderr

@@ -75,21 +75,21 @@ def test_clusters_are_merged_and_split(home: Path, kineme) -> None:
 
 SENSELESS = [
     (("build", "takes/none.bvh", "--into", "lib"), 1, "no such file"),
-    (("build", "takes", "--into", "takes"), 1, "is no library"),
+    (("build", "takes", "--into", "takes"), 1, "is not a library"),
     (("build", "--into", "new"), 1, "nothing to build from"),
-    (("build", "takes", "--into", "lib", "--remove", "elsewhere"), 1, "is no source"),
+    (("build", "takes", "--into", "lib", "--remove", "elsewhere"), 1, "is not a source"),
     (("build", "takes", "--into", "lib", "--preset", "none"), 2, "no preset"),
-    (("search", "takes", "--like", "takes/take.bvh"), 1, "is no library"),
+    (("search", "takes", "--like", "takes/take.bvh"), 1, "is not a library"),
     (("search", "lib"), 2, "nothing to search for"),
     (("search", "lib", "--like", "nobody.bvh"), 1, "no such file"),
     (("search", "lib", "--like", "a.bvh", "--like", "b.bvh", "--start", "1"), 2, "single"),
-    (("search", "lib", "--like", "take.bvh", "--start", "2", "--stop", "1"), 2, "lasts from"),
+    (("search", "lib", "--like", "take.bvh", "--start", "2", "--stop", "1"), 2, "must stop after"),
     (("search", "lib", "--like", "take.bvh", "--threshold", "-1"), 1, "threshold"),
     (("search", "lib", "--cluster", "swim"), 1, "no cluster is called swim"),
     (("query", "lib", "select nothing"), 1, "nothing"),
     (("export", "lib", "--output", "table.xlsx"), 1, "suffix"),
     (("name", "lib", "99", "walk"), 1, "no cluster is called 99"),
-    (("split", "lib", "0", "nobody.bvh"), 1, "is split by naming some"),
+    (("split", "lib", "0", "nobody.bvh"), 1, "can only be split by naming some"),
 ]  # fmt: skip
 
 

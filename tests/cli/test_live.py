@@ -70,7 +70,7 @@ def test_a_killed_run_is_recovered(lines, tmp_path):
 @pytest.mark.parametrize(
     ("options", "text", "code", "advice"),
     [
-        ([], "", 1, "no lines came"),
+        ([], "", 1, "no lines received"),
         ([], "x\n1\n", 1, "give --fps"),
         (["--fps", "0"], "x\n1\n", 2, "above 0"),
         (["--recover", "nowhere.journal.csv"], "", 1, "nowhere"),

@@ -40,7 +40,7 @@ def test_the_table_tells_how_sure_each_count_is(kineme, recording: Path) -> None
     for number, cells in enumerate(rows):
         inside = segments.primitives.activity == number
         assert cells[6] == f"{100 * np.nanmin(segments.primitives.confidence[inside]):.0f}"
-    assert "sure %: how probable it is" in done.stdout
+    assert "sure %: probability" in done.stdout
     others = kineme("segment", recording, "--preset", "krueger2017")  # which tells no probability
     assert "sure %" not in others.stdout
 
@@ -149,7 +149,7 @@ def test_no_table_takes_the_place_of_a_recording(kineme, tmp_path: Path, recordi
     for place in (".", "take.csv", tmp_path / "{name}.csv"):
         done = kineme("segment", "take.csv", "-o", place)
         assert done.returncode == 2
-        assert "place of a recording" in " ".join(done.stderr.split())
+        assert "overwrite a recording" in " ".join(done.stderr.split())
     assert (tmp_path / "take.csv").read_bytes() == before
 
 

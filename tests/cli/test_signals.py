@@ -86,7 +86,7 @@ def test_what_is_missing_is_one_sentence(kineme, tmp_path, phone) -> None:
     (tmp_path / "bare.txt").write_text("1\n2\n3\n")
     done = kineme("segment", "bare.txt")
     assert done.stderr.strip() == (
-        "error: bare.txt: nothing in it tells the frame rate: give fps (--fps)"
+        "error: bare.txt: it does not state its frame rate: give fps (--fps)"
     )
     done = kineme("segment", phone, "--columns", ",")
     assert done.returncode == 2
@@ -102,7 +102,7 @@ def test_real_forces_and_joint_angles(kineme, data_dir: Path) -> None:
 def test_force_plates_are_no_muscles(kineme, data_dir) -> None:
     done = kineme("segment", data_dir / "formats" / "Eb015pr.c3d", "--emg")
     assert done.returncode == 1
-    assert "which of its analog channels are muscles" in " ".join(done.stderr.split())
+    assert "which analog channels are muscles" in " ".join(done.stderr.split())
 
 
 def test_a_result_of_signals_is_scored_against_labels(kineme, tmp_path, phone) -> None:

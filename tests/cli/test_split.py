@@ -51,7 +51,7 @@ def test_the_best_loops_in_place_straight_and_mirrored(kineme, tmp_path: Path) -
         assert np.abs(motion.positions[:, 0, [0, 2]].mean(axis=0)).max() < 1e-5
     done = kineme("split", bundled_recording(), "--best", 1, "-o", "more", "-q")
     assert done.returncode == 1
-    assert "best is of loops only: ask for loops (--loop), too" in done.stderr
+    assert "best needs loops: add loops (--loop)" in done.stderr
 
 
 def test_split_takes_coarser_segments(kineme, tmp_path: Path) -> None:
@@ -125,7 +125,7 @@ def test_convert_goes_through_every_format_and_back(kineme, tmp_path: Path) -> N
 def test_convert_says_what_a_format_of_one_level_leaves_out(kineme, tmp_path: Path) -> None:
     primitives = len(package.read_segments(bundled_truth()).primitives)
     done = kineme("convert", bundled_truth(), "a.txt")
-    left_out = f"note: a.txt holds the activities alone, without the {primitives} segments of"
+    left_out = f"note: a.txt holds the activities only, without the {primitives} segments of"
     assert done.stderr.startswith(left_out)
     assert "--level primitive" in done.stderr
     assert (done.stdout, done.stderr.count("\n")) == (f"{bundled_truth()} written as a.txt\n", 1)
@@ -160,7 +160,7 @@ def test_convert_overwrites_nothing_and_knows_its_formats(kineme, tmp_path: Path
     (tmp_path / "mine.eaf").write_text("corrected by hand")
     done = kineme("convert", bundled_truth(), "mine.eaf")
     assert (done.returncode, done.stdout) == (1, "")
-    assert "mine.eaf: is there already" in done.stderr
+    assert "mine.eaf: exists already" in done.stderr
     assert (tmp_path / "mine.eaf").read_text() == "corrected by hand"
     done = kineme("convert", bundled_truth(), "mine.srt", "--to", "srt")
     assert done.returncode == 2
@@ -239,7 +239,7 @@ def test_signals_are_converted_as_they_are(kineme, tmp_path: Path, imu: Path) ->
     assert lines == [[row[1], row[2], row[3], row[4]] for row in before]
     done = kineme("convert", imu, "out.bvh")
     assert done.returncode == 1
-    assert "no writer of signals for the suffix '.bvh': use one of .csv" in done.stderr
+    assert "cannot write signals with the suffix '.bvh': use one of .csv" in done.stderr
 
 
 def test_channels_of_other_files_become_tables(kineme, tmp_path: Path, imu: Path) -> None:

@@ -68,12 +68,12 @@ def test_a_random_walk_and_a_picture(kineme, graph: Path, tmp_path: Path) -> Non
     [
         (["--actions", "wlak"], "no node is called 'wlak'; there are walk (9), squat (4)"),
         (["--actions", "walk*x"], "'walk*x' is not an action: give names with counts"),
-        (["--duration", "-1"], "the duration must be seconds above 0, not -1"),
+        (["--duration", "-1"], "the duration must be above 0 seconds, not -1"),
         ([], "give --actions, --path or both, or --duration"),
         (["--actions", "walk", "--duration", "3"], "--path or both, or --duration"),
         (["--path", "0,0"], "'0,0' is not a line on the floor: give two or more points x,z"),
         (["--path", "0,0;0,0.1"], "the line is 0.1 m long: it must have a length"),
-        (["--path", "0,0;3,0", "--actions", "walk*3"], "with --path an action has no count"),
+        (["--path", "0,0;3,0", "--actions", "walk*3"], "with --path the line sets the length"),
         (["--path", "0,0;9,0", "--actions", "squat"], "m off the line near 8.7,0.0: give a line"),
     ],
 )
@@ -99,7 +99,7 @@ def test_graphs_that_cannot_be_used_are_one_clear_error(
         assert "bad.json" in done.stderr
         return done.stderr
 
-    assert "not valid JSON, or is cut short" in refused(graph.read_text()[:-50])
+    assert "not valid JSON or is truncated" in refused(graph.read_text()[:-50])
     assert "make one with kineme graph" in refused("[1, 2]")
     assert "reads 'kineme.motion-graph/1'" in refused('{"schema": "kineme.motion-graph/9"}')
     assert "damaged (no 'nodes')" in refused(json.dumps({**whole, "nodes": None}).replace(
@@ -124,4 +124,4 @@ def test_sources_must_be_there_and_the_same(kineme, graph: Path, tmp_path: Path)
     take.unlink()
     done = kineme("synthesize", "graph.json", "--actions", "walk", "-o", "new.bvh")
     assert done.returncode == 1
-    assert "take.bvh: is not there" in done.stderr
+    assert "take.bvh: is missing" in done.stderr

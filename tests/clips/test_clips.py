@@ -198,13 +198,13 @@ def test_what_is_there_is_not_touched_and_nothing_is_left_half_written(
 ) -> None:
     (tmp_path / "clips").mkdir()
     (tmp_path / "clips" / "mine.txt").write_text("mine")
-    with pytest.raises(WriteError, match="is there already"):
+    with pytest.raises(WriteError, match="exists already"):
         split(motion, truth, tmp_path / "clips")
-    with pytest.raises(WriteError, match="cannot be made"):
+    with pytest.raises(WriteError, match="cannot be created"):
         split(motion, truth, tmp_path / "no" / "clips")
     with pytest.raises(ParameterError, match=r"no primitive is in cluster 99; there are \[0, "):
         split(motion, truth, tmp_path / "new", level="primitive", cluster=99)
-    with pytest.raises(MotionError, match="a recording of 2898 frames, this one has 10"):
+    with pytest.raises(MotionError, match="segments have 2898 frames, but the recording has 10"):
         split(cut(motion, 0, 10), truth, tmp_path / "new")
 
     def full(*_: object, **__: object) -> None:

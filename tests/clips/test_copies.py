@@ -112,7 +112,7 @@ def test_a_copy_never_takes_the_place_of_its_source(data_dir: Path, tmp_path: Pa
     source = tmp_path / "Xbot.glb"
     source.write_bytes((data_dir / "rigs" / "Xbot.glb").read_bytes())
     motion = kineme.read(source, take="walk")
-    with pytest.raises(ParameterError, match="take the place of its recording"):
+    with pytest.raises(ParameterError, match="overwrite its recording"):
         split(motion, halves(motion), source)
     with pytest.raises(ParameterError, match="choose from keep, extract, in-place"):
         split(motion, halves(motion), tmp_path / "c.glb", root_motion="stay")  # type: ignore[arg-type]

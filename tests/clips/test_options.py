@@ -31,7 +31,7 @@ def test_names_follow_a_template(tmp_path, motion, truth) -> None:
         "transition@in_place_01.bvh",
     ]
     assert clips_of(tmp_path / "clips")[0]["name"] == "walk_forwards_00"
-    with pytest.raises(ParameterError, match=r"would be called transition: put \{n\}"):
+    with pytest.raises(ParameterError, match=r"would have the name transition: put \{n\}"):
         split(motion, truth, tmp_path / "more", name="{label}")
     for wrong in ("walk", "{frame}", "{n.real}", "{n:q}", "{n"):
         with pytest.raises(ParameterError, match="name is "):
@@ -86,7 +86,7 @@ def test_all_takes_of_a_character_are_animations_of_one_copy(data_dir, tmp_path)
     assert {*list_takes(target)} == {clip["take"] for clip in clips}
     split_all(found, target)  # its own file is replaced
     (tmp_path / "mine.glb").write_bytes(b"mine")
-    with pytest.raises(WriteError, match="is there already, without a manifest"):
+    with pytest.raises(WriteError, match="exists already without a manifest"):
         split_all(found, tmp_path / "mine.glb")
     assert (tmp_path / "mine.glb").read_bytes() == b"mine"
 

@@ -210,7 +210,7 @@ def test_a_closed_loop_ends_where_it_begins(tmp_path: Path, motion, truth, root_
         turn, x, z = clip["carry"].values()
         expected = Carry(np.radians(turn), x, z).apply(after.positions[0])
         assert np.abs(after.positions[-1] - expected).max() < 1e-4
-    with pytest.raises(ParameterError, match="only loops are closed"):
+    with pytest.raises(ParameterError, match="closed needs loops"):
         split(motion, truth, tmp_path / "none", close=True)
 
 
@@ -225,7 +225,7 @@ def test_straight_loops_do_not_turn(tmp_path: Path, motion, truth) -> None:
 def test_odd_numbers_of_loops_are_refused(tmp_path: Path, motion, truth, best) -> None:
     with pytest.raises(ParameterError, match="give a number of loops"):
         split(motion, truth, tmp_path / "clips", loops=True, best=best)
-    with pytest.raises(ParameterError, match="best is of loops only"):
+    with pytest.raises(ParameterError, match="best needs loops"):
         split(motion, truth, tmp_path / "clips", best=2)
 
 

@@ -167,7 +167,9 @@ def test_what_cannot_be_compared_is_refused(walks, knees) -> None:
     other = kineme.cycles(walks.motion, walks.truth, channels=["hip_l"])
     with pytest.raises(ParameterError, match="the same channels"):
         compare_sessions(knees, other)
-    with pytest.raises(ParameterError, match="no group is in both sessions: walk and squat"):
+    with pytest.raises(
+        ParameterError, match="the sessions have no group in common: walk and squat"
+    ):
         compare_sessions(*(knees.select(knees.columns["group"] == g) for g in ("walk", "squat")))
     with pytest.raises(ParameterError, match="curves of 101 and of 51 points"):
         compare_curves(

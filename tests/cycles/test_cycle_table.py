@@ -268,7 +268,7 @@ def test_cycles_begin_at_their_anchor(walks, anchor: str) -> None:
     elif anchor == "knee_r > 40":
         np.testing.assert_allclose(start, 40, atol=1e-6)
     last = cycles.columns["place"] == "last"
-    assert {*cycles.columns["excluded"][last].tolist()} <= {"no event ends it", "no event"}
+    assert {*cycles.columns["excluded"][last].tolist()} <= {"no event follows it", "no event"}
     assert np.isnan(cycles.columns["duration_s"][last]).all()
 
 
@@ -303,9 +303,9 @@ def test_an_event_of_the_file_corrects_the_contact_near_it_and_the_others_stay(w
 
 
 def test_what_does_not_belong_together_is_refused(walks) -> None:
-    with pytest.raises(ParameterError, match="the segments are of"):
+    with pytest.raises(ParameterError, match="the segments have"):
         kineme.cycles(cut(walks.motion, 0, 100), walks.truth)
-    with pytest.raises(ParameterError, match="a segmentation of each recording"):
+    with pytest.raises(ParameterError, match="one segmentation per recording"):
         kineme.cycles([walks.motion], [walks.truth] * 2)
     with pytest.raises(ParameterError, match="several groups: choose one of walk, squat"):
         kineme.cycles(walks.motion, walks.truth).layout("knee_l")

@@ -63,12 +63,12 @@ def test_known_errors_are_mended_and_told(tmp_path):
     rows = ["walk 970 1019 1100", "stretch 2180 2250 2295", "punch 3368 3440 3500",
             "stand 4000 4074 4130", "walk 4060 5050 5090", "walk 10078 10078 10078"]  # fmt: skip
     path = write(tmp_path, "\n".join(["86_04", *rows]), "mocap.txt")
-    with pytest.warns(KinemeWarning, match="86_04, row 5 .*mended to \\(5052, 5052, 5092\\)"):
+    with pytest.warns(KinemeWarning, match="86_04, row 5 .*corrected to \\(5052, 5052, 5092\\)"):
         truth = read_trials(path)["86_04"]
     assert truth.latest[-1] == 1272
     path = write(tmp_path, "86_06\nstand 1540 1690 1685\nwalk 2000 2000 2000", "mocap.txt")
     with pytest.warns(
-        KinemeWarning, match="\\(1540, 1690, 1685\\) mended to \\(1540, 1690, 1690\\)"
+        KinemeWarning, match="\\(1540, 1690, 1685\\) corrected to \\(1540, 1690, 1690\\)"
     ):
         read_trials(path)
 
@@ -76,9 +76,9 @@ def test_known_errors_are_mended_and_told(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "holds no trial"),
+        ("", "contains no trial"),
         ("86_01\n", "trial 86_01 has no rows"),
-        ("86_01\nwalk 1 2\n", "line 2: neither a trial's name nor"),
+        ("86_01\nwalk 1 2\n", "line 2: expected the name of a trial or"),
         ("86_01\nwalk 500 550 600\nrun 400 420 440\nsit 900 900 900\n", "would last"),
         ("86_01\nwalk 500 550 600\nrun 580 580 580\n", "is not before the end"),
     ],

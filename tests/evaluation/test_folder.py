@@ -188,7 +188,7 @@ def test_labels_that_belong_to_nothing_here_are_refused(corpus, tmp_path) -> Non
     with pytest.raises(ReadError, match="no labels of any of the 4 recordings, such as 'a'"):
         find_labels(find_recordings(corpus), tmp_path / "labels.csv")
     (tmp_path / "one.csv").write_text("start_s,stop_s,label\n0,1,step\n")
-    with pytest.raises(ReadError, match="names no recording in the column 'recording'"):
+    with pytest.raises(ReadError, match="has an empty column 'recording'"):
         find_labels(find_recordings(corpus), tmp_path / "one.csv")
 
 
@@ -211,7 +211,9 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
 def test_a_score_that_fails_costs_itself_only() -> None:
     register(Score("broken", "broken", "divides by nothing", "frames", lambda _: 1 / 0))
     try:
-        with pytest.warns(KinemeWarning, match="the score 'broken' is left out, it fails: ZeroDiv"):
+        with pytest.warns(
+            KinemeWarning, match="the score 'broken' was left out, since it failed: ZeroDiv"
+        ):
             found = compute_results(Comparison([0, 0, 1], [4, 4, 4], fps=1))
     finally:
         SCORES.remove("broken")

@@ -65,9 +65,9 @@ def test_one_label_per_frame_of_another_rate(tmp_path) -> None:
 @pytest.mark.parametrize(
     ("rows", "words"),
     [
-        ("0,3,a\n2,6,b", "'b' starts at frame 20, before the label ahead of it stops"),
+        ("0,3,a\n2,6,b", "'b' starts at frame 20, before the previous label stops"),
         ("3,1,a", "'a' stops at 1.0, before 3.0"),
-        ("0,9,a", r"cover 9.000 s \(90 frames at 10 fps\), the recording lasts 6.000 s \(60"),
+        ("0,9,a", r"cover 9.000 s \(90 frames at 10 fps\), but the recording lasts 6.000 s \(60"),
         ("0,x,a", "line 2: stop_s must be a number, not 'x'"),
         ("0,nan,a", "not 'nan'"),
         ("0", "not ''"),
@@ -95,7 +95,9 @@ def test_silence_at_the_ends_counts_in_nothing(tmp_path) -> None:
 def test_frames_of_the_recording_are_named_not_those_of_the_comparison(tmp_path) -> None:
     path = tmp_path / "truth.csv"
     path.write_text("start_s,stop_s,label\n0,40,walk\n")
-    words = r"40.000 s \(2000 frames at 50 fps\), the recording lasts 35.160 s \(1758 frames at 50"
+    words = (
+        r"40.000 s \(2000 frames at 50 fps\), but the recording lasts 35.160 s \(1758 frames at 50"
+    )
     with pytest.raises(ReadError, match=words):
         read_truth(path, result(1758, 50.0))
 

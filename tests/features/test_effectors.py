@@ -148,7 +148,7 @@ def test_feet_without_toes_do_not_make_up_a_left() -> None:
         ({"head": "Skull"}, "no joint is called 'Skull'"),
         (["Head"], "five joint names are needed"),
         ("Head", "five joint names are needed"),
-        ({"head": "LeftHand"}, "'LeftHand' serves as two"),
+        ({"head": "LeftHand"}, "'LeftHand' is used for two"),
     ],
 )
 def test_wrong_names_are_refused(names: object, message: str) -> None:

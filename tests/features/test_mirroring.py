@@ -150,7 +150,7 @@ def test_names_of_all_programs_tell_the_side(left: str, right: str) -> None:
 
 
 def test_a_body_without_sides_is_refused() -> None:
-    with pytest.raises(MotionError, match="no two joints are named"):
+    with pytest.raises(MotionError, match="no joint names form a pair"):
         mirror(body("hips", "a", "b"))
 
 

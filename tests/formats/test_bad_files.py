@@ -61,7 +61,7 @@ BINARY = bytes(range(256)) * 20
         (swap(BVH, "6 Xpos", "x Xpos"), 5, "CHANNELS needs a number, found 'x'"),
         (swap(BVH, "6 Xpos", "7 Xpos"), 5, "unknown channel 'JOINT' of 7"),
         (swap(BVH, "6 Xpos", "999999999999 Xpos"), 5, "unknown channel 'JOINT'"),
-        (swap(BVH, "Yposition", "Xposition"), 5, "position channel is named twice"),
+        (swap(BVH, "Yposition", "Xposition"), 5, "position channel is listed twice"),
         (swap(BVH, "Yposition", "Wposition"), 5, "unknown channel 'Wposition'"),
         (swap(BVH, "\t}\n}", "\t}"), 28, "'}' of joint 'Hips' is missing"),
         (swap(BVH, "Head\n\t{", "Head\n\t"), 22, "'{' expected"),
@@ -84,15 +84,15 @@ def test_bvh(tmp_path: Path, text: str | bytes, line: int | None, reason: str) -
         ("", None, "the file is empty"),
         (BINARY, None, "no frame found"),
         (":FULLY-SPECIFIED\n", None, "no frame found"),
-        (":DEGREES\n1\n", 2, "a frame without any bone"),
+        (":DEGREES\n1\n", 2, "a frame has no values for any bone"),
         (AMC[: AMC.index("\n2\n")][:-1], 8, "bone 'foot' has 1 values, .* in the only frame|asks"),
         (swap(AMC, "back 5.5 6 7", "back 5.5 nan 7"), 11, "'nan' is not a finite number"),
         (swap(AMC, "back 5.5 6 7", "back 5.5 -1e999 7"), 11, "'-1e999' is not a finite number"),
         (swap(AMC, "back 5.5 6 7", "back 5.5 x 7"), 11, "'x' is not a number"),
-        (swap(AMC, "back 5.5 6 7", "back 5.5 6"), 11, "has 2 values, the skeleton asks for 3"),
-        (swap(AMC, "back 5.5 6 7", "tail 5.5 6 7"), 11, "'tail' is not in the skeleton: is it"),
-        (swap(AMC, "back 5.5 6 7", "leg 5.5 6 7"), 12, "'leg' stands twice in one frame"),
-        (swap(AMC, "back 5.5 6 7\n", ""), 9, "a frame without back"),
+        (swap(AMC, "back 5.5 6 7", "back 5.5 6"), 11, "has 2 values, but the skeleton needs 3"),
+        (swap(AMC, "back 5.5 6 7", "tail 5.5 6 7"), 11, "'tail' is not in the skeleton: give"),
+        (swap(AMC, "back 5.5 6 7", "leg 5.5 6 7"), 12, "'leg' appears twice in one frame"),
+        (swap(AMC, "back 5.5 6 7\n", ""), 9, "a frame has no values for back"),
     ],
 )
 def test_amc(tmp_path: Path, text: str | bytes, line: int | None, reason: str) -> None:
@@ -115,7 +115,7 @@ def test_amc(tmp_path: Path, text: str | bytes, line: int | None, reason: str) -
         (swap(ASF, "direction 0 -1 0", "direction 0 -1"), 26, r"3 number\(s\) expected"),
         (swap(ASF, "axis 0 0 20 XYZ", "axis 0 0 20 XYY"), 28, "'xyy' is not made of X, Y and Z"),
         (swap(ASF, "dof rz rx", "dof rz rw"), 40, "'rw' is not one of"),
-        (swap(ASF, "dof rz rx", "dof rz rz"), 40, "named twice"),
+        (swap(ASF, "dof rz rx", "dof rz rz"), 40, "listed twice"),
         (swap(ASF, "name leg", "name hip"), 25, "a second bone is called 'hip'"),
         (swap(ASF, "  end\n", ""), 22, "an 'end' is missing"),
         (
@@ -123,8 +123,8 @@ def test_amc(tmp_path: Path, text: str | bytes, line: int | None, reason: str) -
             54,
             "has a second parent, 'leg'",
         ),
-        (swap(ASF, "root hip back", "root back\n    foot hip"), None, "runs in a circle"),
-        (swap(ASF, "    leg foot\n", ""), None, "'foot' does not hang on the root"),
+        (swap(ASF, "root hip back", "root back\n    foot hip"), None, "missing or circular"),
+        (swap(ASF, "    leg foot\n", ""), None, "'foot' is not connected to the root"),
         (swap(ASF, "leg foot", "leg toe"), 54, "'toe' is not in :bonedata"),
     ],
 )
@@ -152,11 +152,11 @@ def test_files_that_are_not_there_or_not_known(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="cannot be opened"):
         read(tmp_path)
     (tmp_path / "a.xyz").write_text("hello")
-    with pytest.raises(ReadError, match="neither its content nor its suffix '.xyz' is known"):
+    with pytest.raises(ReadError, match="unknown content and suffix '.xyz'"):
         read(tmp_path / "a.xyz")
     lonely = tmp_path / "lonely.amc"
     lonely.write_text(AMC)
-    with pytest.raises(ReadError, match="no ASF skeleton found beside it.*skeleton="):
+    with pytest.raises(ReadError, match="no ASF skeleton found next to it.*skeleton="):
         read(lonely)
     with pytest.raises(ReadError, match="cannot be opened"):
         read(lonely, skeleton=tmp_path / "nothing.asf")

@@ -153,13 +153,13 @@ def test_the_unit_is_inferred_from_the_size(tmp_path: Path, unit: str) -> None:
 def test_a_size_that_fits_no_unit_is_told_and_unit_overrides(tmp_path: Path) -> None:
     tiny = BVH.replace(" -80 ", " -1e-4 ").replace(" 60 ", " 1e-4 ").replace(" 20 0\n", " 0 0\n")
     tiny = tiny.replace("10 -5 0", "0 0 0").replace("0 0 15", "0 0 0")
-    with pytest.warns(KinemeWarning, match="in no unit.*m assumed; give unit="):
+    with pytest.warns(KinemeWarning, match="not of human size in any unit: m assumed; give unit="):
         load(tmp_path, tiny)
     plain = load(tmp_path)
     for unit, factor in (("m", 100), ("mm", 0.1), (0.02, 2)):
         motion = load(tmp_path, unit=unit)
         np.testing.assert_allclose(motion.positions, factor * plain.positions)
-        remarked = any("m tall: look whether" in note for note in motion.provenance.notes)
+        remarked = any("m tall: check the unit" in note for note in motion.provenance.notes)
         assert remarked == (factor != 2)
 
 

@@ -83,10 +83,13 @@ def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        (nexus().replace("\n100\n", "\nfast\n"), r"'fast' is no frame rate: give fps= \(--fps\)"),
+        (
+            nexus().replace("\n100\n", "\nfast\n"),
+            r"'fast' is not a frame rate: give fps= \(--fps\)",
+        ),
         (nexus().replace("mm", "m", 1), "line 5: markers are in m and mm: export all"),
-        (nexus().replace("X,Y,Z", "A,B,C"), "line 4: no name stands above the axes"),
-        (motive().replace("Frame,Time", "Zeit"), "no line 'Frame'"),
+        (nexus().replace("X,Y,Z", "A,B,C"), "line 4: no name found above the axes"),
+        (motive().replace("Frame,Time", "Zeit"), "no line with 'Frame'"),
         (nexus().replace("101,0,", "101,"), "line 6: 55 cells, but 56 columns"),
     ],
 )

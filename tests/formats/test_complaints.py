@@ -24,7 +24,7 @@ def bvh(folder: Path, text: str) -> kineme.Motion:
 def test_numbers_that_are_not_apart(tmp_path: Path) -> None:
     """SlimeVR-Server#995: no blank before a minus sign."""
     sound = BVH.replace("1 91 1 11 21 31", "1 91 1 -11 21 31")
-    with pytest.warns(KinemeWarning, match="blanks before minus signs are missing in 1 frame"):
+    with pytest.warns(KinemeWarning, match="spaces missing before minus signs added in 1 frame"):
         glued = bvh(tmp_path, sound.replace("1 -11 21", "1-11 21"))
     np.testing.assert_array_equal(glued.positions, bvh(tmp_path, sound).positions)
 

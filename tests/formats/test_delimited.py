@@ -90,7 +90,7 @@ def test_what_was_sniffed_is_there_to_look_at() -> None:
     assert table.names == ["t", "a", "b", "c"]
     assert (table.head, table.first_row, table.separator) == (1, 2, ";")
     assert table.find_numeric_columns() == table.names
-    assert table.remarks == ("1 line above the names passed over",)
+    assert table.remarks == ("1 line above the names skipped",)
     bare = sniff(FileContent(Path("a.csv"), text().encode()))
     assert bare.is_headless
     assert bare.number_columns().names == ["1", "2", "3", "4"]
@@ -105,7 +105,9 @@ def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) 
     path = tmp_path / "a.csv"
     path.write_text(text("time,acc_x,acc_y,acc_z"))
     try:
-        with pytest.warns(KinemeWarning, match="broken is passed over, it cannot tell its files"):
+        with pytest.warns(
+            KinemeWarning, match="broken was skipped, since it failed to recognise files"
+        ):
             assert kineme.read(path).n_frames == len(ROWS)
     finally:
         DIALECTS.remove("broken")

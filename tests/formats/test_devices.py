@@ -240,8 +240,8 @@ def test_the_clock_is_found_beside_the_columns_that_are_asked_for(tmp_path: Path
 
 def test_a_rate_that_the_header_tells_is_said(tmp_path: Path) -> None:
     signals = read(tmp_path, FILES["ActiGraph"])
-    assert "50 Hz, as a line above the columns says" in signals.provenance.notes
-    assert "5 lines above the names passed over" in signals.provenance.notes
+    assert "50 Hz, from a line above the columns" in signals.provenance.notes
+    assert "5 lines above the names skipped" in signals.provenance.notes
 
 
 def test_the_file_of_a_wristband_tells_what_its_columns_are(tmp_path: Path) -> None:
@@ -253,7 +253,7 @@ def test_the_file_of_a_wristband_tells_what_its_columns_are(tmp_path: Path) -> N
 
 
 def test_a_rate_is_not_guessed_from_several(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match="nothing in it tells the frame rate"):
+    with pytest.raises(ReadError, match="it does not state its frame rate"):
         read(tmp_path, "EMG rate: 2000 Hz\nAcc rate: 100 Hz\nX,Y,Z\n" + rows(","))
 
 
@@ -334,6 +334,6 @@ def test_names_in_two_lines(tmp_path: Path) -> None:
     lines = "".join(f"{i},{i % 7 + 1},{i % 5},{i % 3}\n" for i in range(N))
     signals = read(tmp_path, ",left,left,right\n,acc_x,gyr_x,acc_x\n" + lines, fps=FPS)
     assert signals.names == ("left_acc_x", "left_gyr_x", "right_acc_x")
-    assert signals.provenance.notes == ("columns that are no channels: (no name)",)
+    assert signals.provenance.notes == ("columns that are not channels: (no name)",)
     toes = read(tmp_path, "frame,L_TOE,L_TOE,L_TOE\n,x,y,z\n" + lines, fps=FPS, unit="mm")
     assert "L_TOE" in toes.skeleton.names

@@ -103,7 +103,7 @@ def test_a_source_of_text_gives_the_skeleton_and_a_warning(tmp_path: Path) -> No
     source, path = tmp_path / "a.fbx", tmp_path / "b.fbx"
     source.write_bytes(make_walker().text())
     motion = kineme.read(source, take=0)
-    with pytest.warns(KinemeWarning, match=r"a\.fbx is an FBX of text, so b\.fbx has no mesh"):
+    with pytest.warns(KinemeWarning, match=r"a\.fbx is a text FBX, so b\.fbx has no mesh"):
         copy_takes({"clip": motion}, source, path)
     np.testing.assert_allclose(kineme.read(path).positions, motion.positions, atol=1e-5)
 

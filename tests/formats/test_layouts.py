@@ -38,7 +38,7 @@ def test_columns_with_a_unit_behind_the_axis_are_read_in_it(tmp_path: Path) -> N
     path = tmp_path / "take.csv"
     rows = (f"{i / 50},{0.1},{0.9},{0.2},{100},{1700},{200 + i % 3}\n" for i in range(40))
     path.write_text("time,hip_x,hip_y,hip_z,head_x_mm,head_y_mm,head_z_mm\n" + "".join(rows))
-    with pytest.warns(kineme.KinemeWarning, match="1 point tell no unit, and are taken in m"):
+    with pytest.warns(kineme.KinemeWarning, match="1 point state no unit; read in m"):
         motion = kineme.read(path, up="y")
     assert isinstance(motion, kineme.Motion)
     heights = dict(zip(motion.skeleton.names, motion.positions[0, :, 1], strict=True))
@@ -88,7 +88,7 @@ BORIS = (
 def test_labels_are_no_recording(tmp_path: Path, name: str, text: str) -> None:
     path = tmp_path / name
     path.write_text(text)
-    with pytest.raises(kineme.ReadError, match="holds labels as"):
+    with pytest.raises(kineme.ReadError, match="holds labels of"):
         kineme.read(path)
     found = kineme.read_segments(path, fps=10).activities
     spans = [(a.start_s, a.stop_s) for a in found if a.label == "squat"]

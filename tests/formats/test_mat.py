@@ -131,7 +131,7 @@ def test_version_73(tmp_path: Path) -> None:
     motion = read(tmp_path, as_hdf5({"take": qtm(z_up_millimetres(MARKERS))}, tmp_path))
     assert motion.provenance.format == "MAT of QTM"
     assert has_the_walk(motion)
-    with pytest.raises(ReadError, match="is no whole HDF5 file"):
+    with pytest.raises(ReadError, match="is not a complete HDF5 file"):
         read(tmp_path, data[: len(data) // 2])
 
 
@@ -153,11 +153,11 @@ def test_channels_are_signals(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "reason"),
     [
-        (b"MATLAB 5.0 MAT-file", "no MAT file of version 5"),
-        (mat(positions=MARKERS, fps=100)[:900], "no whole MAT file"),
-        (mat(), "no variable that can be read"),
+        (b"MATLAB 5.0 MAT-file", "not a MAT file of version 5"),
+        (mat(positions=MARKERS, fps=100)[:900], "not a complete MAT file"),
+        (mat(), "no readable variable"),
         (mat(positions=MARKERS), "no 'fps' in it: give fps="),
-        (mat(emg=np.arange(9.0)), r"nothing in it tells the frame rate: give fps \(--fps\)"),
+        (mat(emg=np.arange(9.0)), r"it does not state its frame rate: give fps \(--fps\)"),
         (mat(False, positions=np.zeros((3, 3, 3)), names=cells(["a"]), fps=1), "1 names for 3"),
     ],
 )
@@ -167,7 +167,7 @@ def test_bad_files(tmp_path: Path, data: bytes, reason: str) -> None:
 
 
 def test_archives_that_claim_too_much(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match="claims to unpack to much more than it holds"):
+    with pytest.raises(ReadError, match="claims to unpack far more than it contains"):
         read(tmp_path, mat(True, positions=np.zeros((10**5, 3, 3)), fps=30))
 
 

@@ -130,8 +130,8 @@ FILES: list[tuple[Callable[[Path], None], str, str]] = [
     (bvh_without_channels, "a.bvh", "claims 4001 joints in 20000 frames"),
     (archive_of_zeros, "a.npz", "claims to unpack to 900 MB"),
     (archive_of_zeros, "base.npz", "claims to unpack to 900 MB"),
-    (groups_in_groups, "a.h5", "claims to unpack to much more than it holds"),
-    (group_in_itself, "a.h5", "is linked into itself"),
+    (groups_in_groups, "a.h5", "claims to unpack far more than it contains"),
+    (group_in_itself, "a.h5", "contains a link to itself"),
     (landmarks_row_by_row, "a.csv", "claims 33 landmarks in 400000 frames"),
 ]
 

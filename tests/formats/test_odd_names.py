@@ -58,7 +58,7 @@ def test_a_name_comes_back_or_it_is_said(
             assert "is not text" in str(error)
             assert not path.exists()
             return
-    changed = [re.search(r"is written as (.*)$", str(each.message)) for each in said]
+    changed = [re.search(r"written as (.*)$", str(each.message)) for each in said]
     written = next((ast.literal_eval(found[1]) for found in changed if found), name)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KinemeWarning)

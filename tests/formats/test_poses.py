@@ -54,7 +54,7 @@ def test_nobody_in_the_middle_is_a_gap(tmp_path: Path) -> None:
 
 def test_nobody_at_all_is_no_motion(tmp_path: Path) -> None:
     path = write_squats(tmp_path / "a.parquet", AT_30_HZ, lambda time: [])
-    with pytest.raises(ReadError, match="nobody is found"):
+    with pytest.raises(ReadError, match="no person found"):
         kineme.read(path)
 
 

@@ -79,7 +79,7 @@ def test_names_the_format_cannot_hold_are_mended(tmp_path: Path) -> None:
     skeleton = Skeleton(names, (-1, 0, 0, 0, 0, 0), np.arange(18.0).reshape(6, 3))
     motion = Motion.from_rotations(skeleton, np.tile([1.0, 0, 0, 0], (1, 6, 1)), 30, [[0, 0, 0]])
     for suffix in (".bvh", ".amc"):
-        with pytest.warns(KinemeWarning, match=r"is written as .*, and \d more"):
+        with pytest.warns(KinemeWarning, match=r"name .* written as .*, and \d more"):
             again = written_and_read(motion, suffix)
         for position in motion.positions[0]:
             assert np.abs(again.positions[0] - position).max(axis=1).min() < 1e-7
@@ -103,7 +103,7 @@ def test_what_cannot_be_written_leaves_nothing_behind(tmp_path: Path, suffix: st
 def test_unknown_suffix(tmp_path: Path) -> None:
     skeleton = Skeleton(("a",), (-1,), np.zeros((1, 3)))
     with pytest.raises(
-        WriteError, match=r"no writer of a motion for the suffix '.xyz': use one of .amc, .bvh"
+        WriteError, match=r"cannot write a motion with the suffix '.xyz': use one of .amc, .bvh"
     ):
         write(Motion(skeleton, np.zeros((1, 1, 3)), 30), tmp_path / "a.xyz")
 

@@ -104,7 +104,7 @@ def test_dates_tell_the_rate_of_a_motion(tmp_path: Path) -> None:
     at = np.datetime64("2026-03-29T00:59:59.500") + np.arange(20) * np.timedelta64(40, "ms")
     motion = read(tmp_path, "a.csv", table(body(), timestamp=[f"{t}Z" for t in at]))
     assert (motion.n_frames, motion.fps) == (20, 25)
-    with pytest.raises(ReadError, match=r"line 3: 'noon-ish' is no ISO date"):
+    with pytest.raises(ReadError, match=r"line 3: 'noon-ish' is not an ISO date"):
         read(tmp_path, "a.csv", table(body(), timestamp=[str(at[0]), "noon-ish", *at[2:]]))
 
 
@@ -118,7 +118,9 @@ def test_times_that_nobody_can_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("factor", "unit"), [(1e3, "milli"), (1e6, "micro"), (1e9, "nano")])
 def test_times_in_another_unit_are_told(tmp_path: Path, factor: float, unit: str) -> None:
     text = table(body(), time=[f"{i / 25 * factor:.0f}" for i in range(20)])
-    with pytest.warns(KinemeWarning, match=f"time is taken in {unit}seconds, by its steps"):
+    with pytest.warns(
+        KinemeWarning, match=f"time is read in {unit}seconds, inferred from its steps"
+    ):
         assert read(tmp_path, "a.csv", text).fps == 25
 
 
@@ -148,14 +150,16 @@ def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path: Path) ->
     mixed = in_units({" [m]": 1, " [mm]": 0.001, " (cm)": 0.01})
     found = read(tmp_path, "b.csv", mixed)
     assert np.abs(found.positions - plain.positions).max() < 1e-12
-    assert any("cm and m and mm, each taken in its own" in note for note in found.provenance.notes)
-    with pytest.raises(ReadError, match=r"'left_hip_x' tells no unit: add it .* \[m\]"):
+    assert any(
+        "cm and m and mm, each read in its own unit" in note for note in found.provenance.notes
+    )
+    with pytest.raises(ReadError, match=r"'left_hip_x' states no unit: add it .* \[m\]"):
         read(tmp_path, "c.csv", in_units({" [m]": 1, "": 1, " [mm]": 0.001}))
 
 
 def test_columns_without_a_unit_are_in_that_of_the_others(tmp_path: Path) -> None:
     plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="m")
-    with pytest.warns(KinemeWarning, match="columns of 4 points tell no unit"):
+    with pytest.warns(KinemeWarning, match="columns of 4 points state no unit"):
         found = read(tmp_path, "b.csv", in_units({" [mm]": 0.001, "": 0.001}))
     assert np.abs(found.positions - plain.positions).max() < 1e-12
     once = table(1000 * body(), time=TIMES).replace("_x", "_x [mm]")
@@ -193,14 +197,14 @@ def test_keypoints_that_are_not_sure_count_as_gaps(tmp_path: Path) -> None:
     points[7, 0] = 99.0
     motion = read(tmp_path, "a.csv", table(points, time=TIMES, pelvis_confidence=sure))
     assert np.allclose(motion.positions[:, 0], body()[:, 0])
-    assert any("1 position less sure than 0.5" in note for note in motion.provenance.notes)
+    assert any("1 position below confidence 0.5" in note for note in motion.provenance.notes)
 
 
 def test_what_is_hidden_is_used(tmp_path: Path) -> None:
     text = table(body(), time=TIMES, pelvis_visibility=["0.1"] * 20)
     assert np.allclose(read(tmp_path, "a.csv", text).positions[:, 0], body()[:, 0])
     notes = read(tmp_path, "a.csv", text, confidence=0.5).provenance.notes
-    assert any("20 positions less sure than 0.5" in note for note in notes)
+    assert any("20 positions below confidence 0.5" in note for note in notes)
 
 
 def test_deeplabcut(tmp_path: Path) -> None:
@@ -276,7 +280,7 @@ def test_trc(tmp_path: Path) -> None:
     ("old", "new", "said"),
     [
         ("100\t100\t3", "100\t100\t9", "9 frames declared, 3 found"),
-        ("100\t100\t3", "50\t100\t3", "DataRate is 50, but the times are 100 Hz apart"),
+        ("100\t100\t3", "50\t100\t3", "DataRate is 50, but the times give 100 Hz"),
         ("3\t0.02\t3\t2\t3\t4\t5\t6", "3\t0.02\t3", "line 9: 3 cells, but 8 columns"),
     ],
 )
@@ -365,7 +369,7 @@ def test_npy_without_names(tmp_path: Path) -> None:
 def test_who_needs_a_body_is_told_that_there_is_none(tmp_path: Path) -> None:
     head = "Coordinates\nversion=1\nendheader\ntime\thip_flexion_r\tknee_angle_r\n"
     assert isinstance(read(tmp_path, "a.mot", head + "0\t1\t2\n0.01\t1\t3\n"), kineme.Signals)
-    with pytest.raises(ReadError, match="signals without a skeleton, where a motion is needed"):
+    with pytest.raises(ReadError, match="signals without a skeleton, but a motion is needed"):
         read_motion(tmp_path / "a.mot")
 
 

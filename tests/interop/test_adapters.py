@@ -67,13 +67,13 @@ def test_mir_eval_accepts_our_intervals(result) -> None:
 
 
 def test_wrong_ends_are_named() -> None:
-    with pytest.raises(ParameterError, match="start at 0, and each where"):
+    with pytest.raises(ParameterError, match="start at 0, and each must start where"):
         from_mir_eval([[0, 1], [2, 3]], ["a", "b"], fps=10)
     with pytest.raises(ParameterError, match=r"\(n, 2\), not of shape \(2,\)"):
         from_mir_eval([0, 1], ["a"], fps=10)
-    with pytest.raises(ParameterError, match="closed on the left"):
+    with pytest.raises(ParameterError, match="left-closed"):
         from_sktime(pd.DataFrame({"ilocs": pd.interval_range(0, 3)}), fps=10)
-    with pytest.raises(ParameterError, match="whole numbers in a row, not float64"):
+    with pytest.raises(ParameterError, match="consecutive whole numbers, not float64"):
         from_aeon([0.5], n_frames=2, fps=10)
     with pytest.raises(ParameterError, match="at least the number of frames"):
         from_ruptures([], fps=10)

@@ -120,7 +120,7 @@ def test_two_dimensions_and_frame_numbers(motion) -> None:
     back = from_movement(flat)
     assert "two-dimensional: z is 0, and image rows count downwards" in back.provenance.notes
     frames = to_movement(motion).assign_attrs(fps=None, time_unit="frames")
-    with pytest.raises(ReadError, match="counts frames and has no fps: give fps="):
+    with pytest.raises(ReadError, match="has times in frames but no fps: give fps="):
         from_movement(frames)
     assert from_movement(frames, fps=50).fps == 50
     seconds = to_movement(motion).assign_attrs(fps=None)
@@ -131,9 +131,9 @@ def test_other_layouts_are_refused(motion) -> None:
     with pytest.raises(ParameterError, match="has no position"):
         from_movement(xr.Dataset({"speed": ("time", [1.0, 2.0])}))
     boxes = to_movement(motion).assign_coords(space=["u", "v", "w"])
-    with pytest.raises(ParameterError, match="space must be x, y and perhaps z, not u, v, w"):
+    with pytest.raises(ParameterError, match="space must be x, y and optionally z, not u, v, w"):
         from_movement(boxes)
-    with pytest.raises(ParameterError, match="the segments are of 2898 frames"):
+    with pytest.raises(ParameterError, match="the segments have 2898 frames"):
         to_movement(motion, kineme.read_segments(bundled_recording().with_suffix(".json")))
 
 

@@ -95,7 +95,7 @@ def test_files_without_events_and_other_files(tmp_path) -> None:
     with pytest.raises(ReadError, match="has no events"):  # all of them after the end
         read_segments(c3d(tmp_path / "late.c3d", [(5.0, "", "late")]))
     found = read_segments(c3d(tmp_path / "gait.c3d", GAIT))
-    with pytest.raises(WriteError, match="c3d is only read: segments go into .csv, .json"):
+    with pytest.raises(WriteError, match="c3d can only be read: write segments to .csv, .json"):
         write_segments(found, tmp_path / "new.c3d")
 
 
@@ -203,7 +203,7 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
         write_events(source, tmp_path / "copy.c3d", [0.001 * i for i in range(300)], ["hop"] * 300)
     with pytest.raises(ParameterError, match="1 times and 2 names"):
         write_events(source, tmp_path / "copy.c3d", [0.5], ["hop", "hop"])
-    with pytest.raises(ReadError, match="is no C3D file, of which a copy"):
+    with pytest.raises(ReadError, match="is not a C3D file: events can only"):
         write_events(tmp_path / "walk.bvh", tmp_path / "copy.c3d", TIMES, NAMES)
     (tmp_path / "text.c3d").write_text("no recording")
     with pytest.raises(ReadError):

@@ -83,7 +83,7 @@ def test_labels_counted_from_the_first_frame_are_known_by_what_they_meet(tmp_pat
         path,
     )
     assert placed(found) == EVERYTHING
-    assert any("counted from the first frame" in note for note in found.provenance["notes"])
+    assert any("relative to the first frame" in note for note in found.provenance["notes"])
 
 
 def test_what_the_package_wrote_itself_counts_frames_and_is_found_again(tmp_path) -> None:
@@ -99,7 +99,10 @@ def test_labels_that_meet_nothing_are_named(tmp_path) -> None:
     found = truth(tmp_path, rows, path)
     assert placed(found) == [("a", 0, 600), ("c", 1201, 2401)]
     (note,) = found.provenance["notes"]
-    assert note == "meeting no frame, left out: 'rest' 100 to 130 s, 'after' 20100 to 20110 s"
+    assert (
+        note
+        == "left out, since they contain no frame: 'rest' 100 to 130 s, 'after' 20100 to 20110 s"
+    )
     with pytest.raises(ReadError, match="has no labels of this recording .*'b' 900000 to 900001 s"):
         truth(tmp_path, "walk,900000,900001,b", path)
 
@@ -138,7 +141,7 @@ def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
         f"start_s,stop_s,label\n{BEGUN},{BEGUN + 40},a\n{BEGUN + 100},{BEGUN + 101},rest\n"
         f"{BEGUN + AFTER},{BEGUN + AFTER + 40},b\n"
     )
-    with pytest.warns(KinemeWarning, match="meeting no frame, left out: 'rest'"):
+    with pytest.warns(KinemeWarning, match="left out, since they contain no frame: 'rest'"):
         annotation = read_truth(tmp_path / "labels.csv", found)
     assert (annotation.labels, annotation.mean.tolist()) == (("a", "b"), [1201])
 

@@ -300,7 +300,7 @@ def test_a_bids_sidecar_keeps_what_others_wrote_and_a_segment_table_is_not_taken
     assert "HED" in json.loads((tmp_path / "a.json").read_text())["trial_type"]
     write_segments(result, tmp_path / "b.json")
     before = (tmp_path / "b.json").read_bytes()
-    with pytest.raises(WriteError, match="is in the way"):
+    with pytest.raises(WriteError, match="would be overwritten"):
         write_segments(result, tmp_path / "b.tsv")
     assert (tmp_path / "b.json").read_bytes() == before
     assert not (tmp_path / "b.tsv").exists()
@@ -415,10 +415,12 @@ def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None
     (tmp_path / "l.txt").write_text(
         "0\t1\twalk\n0.5\t0.5\tclap\n\\\t100\t200\n1.0\t2.0\trun\tfast\n"
     )
-    with pytest.warns(KinemeWarning, match="shorter than a frame, left out: 1 label"):
+    with pytest.warns(
+        KinemeWarning, match="left out, since they are shorter than a frame: 1 label"
+    ):
         back = read_segments(tmp_path / "l.txt", fps=10)
     assert back.activities.label.tolist() == ["walk", "run fast"]
-    assert "taken from the end of the last label" in back.provenance["notes"][0]
+    assert "inferred from the end of the last label" in back.provenance["notes"][0]
 
 
 def test_elan_names_the_video_of_the_recording(tmp_path: Path) -> None:

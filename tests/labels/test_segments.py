@@ -201,16 +201,16 @@ def test_a_foreign_file_is_one_read_error(tmp_path: Path, suffix: str, content: 
         ("a.json", '"kineme.segments/2"', '"kineme.segments/3"', "reads .*: upgrade"),
         ("a.json", '"kineme.segments/2"', '"other/1"', "is not a segment table"),
         ("a.json", '"fps": 120.0', '"fps": "120"', '"fps" must be a positive number'),
-        ("a.json", '"fps": 120.0', '"fps": 1e999', "a number that is none, or too large"),
+        ("a.json", '"fps": 120.0', '"fps": 1e999', "a number that is not finite or is too large"),
         ("a.json", '"n_frames": 120', '"n_frames": 119', "must cover frames 0 to 119"),
         ("a.json", '"stop_frame": 50,', "", "segment 1 has no 'stop_frame'"),
         ("a.json", '"start_frame": 50', '"start_frame": 51', "segments of a level must touch"),
         ("a.json", '"cluster": 0', '"cluster": "0"', "'cluster' must hold whole numbers"),
-        ("a.json", "  ]\n}", "", "line .*: is not valid JSON, or is cut short"),
+        ("a.json", "  ]\n}", "", "line .*: is not valid JSON or is truncated"),
         ("a.csv", ",0,120", ",0,12o", "line 2: stop_frame must be a whole number, not '12o'"),
         ("a.csv", "confidence,", "points,", "it has no column 'confidence'"),
         ("a.csv", "primitive,50,120,", "primitive,50\n#", "line 4: the line ends before column"),
-        ("a.csv", ",120,", ",121,", "at frame 121, but a.provenance.json speaks of 120 frames"),
+        ("a.csv", ",120,", ",121,", "at frame 121, but a.provenance.json states 120 frames"),
     ],
 )
 def test_a_spoilt_table_says_what_is_wrong(
@@ -360,7 +360,7 @@ def test_killed_between_the_two_renames(
     new = table(tmp_path / "new", name, form, 60.0, "walk")
     assert kineme.read_segments(new, format=form).fps == 60.0
     shutil.copy(new, old)
-    with pytest.raises(ReadError, match=r"is of 60 frames per second, but .* speaks of 120"):
+    with pytest.raises(ReadError, match=r"is of 60 frames per second, but .* states 120"):
         kineme.read_segments(old, format=form)
 
 
@@ -370,7 +370,7 @@ def test_cuts_of_another_table_are_said(
 ) -> None:
     path = table(tmp_path / "a", name, form, 60.0, "walk")
     path.write_text(path.read_text().replace("60", "61"))
-    said = f"not the table that {beside(path).name} was written with"
+    said = f"does not match {beside(path).name}"
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KinemeWarning)
         moved = kineme.read_segments(path, format=form)

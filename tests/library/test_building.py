@@ -276,7 +276,7 @@ def test_a_build_that_was_killed_goes_on_to_the_same_bytes(
         time.sleep(0.01)
     os.kill(process.pid, signal.SIGKILL)  # its workers end by themselves
     process.wait()
-    with pytest.raises(ReadError, match="is no library"):
+    with pytest.raises(ReadError, match="is not a library"):
         Library(folder)
     made = len(pieces_in(folder))
     deadline = time.monotonic() + 60
@@ -326,7 +326,7 @@ def test_a_worker_that_dies_costs_its_recording_only(takes: Path, tmp_path: Path
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "3 recordings" in done.stdout
-    assert "b.deadly: the process that worked on it died" in done.stderr
+    assert "b.deadly: the process that read it died" in done.stderr
 
 
 def test_a_full_disk_ends_the_build_and_leaves_what_was_there(
@@ -352,11 +352,11 @@ def test_one_build_at_a_time(folder: Path) -> None:
 
 
 def test_what_is_no_library_is_not_written_into(takes: Path, tmp_path: Path) -> None:
-    with pytest.raises(WriteError, match="is no library"):
+    with pytest.raises(WriteError, match="is not a library"):
         build(takes, takes)
     with pytest.raises(ParameterError, match="nothing to build from"):
         build((), tmp_path / "library")
-    with pytest.raises(ParameterError, match="is no source"):
+    with pytest.raises(ParameterError, match="is not a source"):
         build((), tmp_path / "other", remove=[takes])
 
 

@@ -60,6 +60,6 @@ def _bear_deaths(dask_scheduler: Any, most: int) -> None:
 
 def test_an_address_where_nobody_answers_is_said(takes: Path, tmp_path: Path) -> None:
     soon = dask.config.set({"distributed.comm.timeouts.connect": "200ms"})
-    with soon, pytest.raises(ParameterError, match="no scheduler answers"):
+    with soon, pytest.raises(ParameterError, match="no scheduler responds"):
         build(takes, tmp_path / "library", client="tcp://127.0.0.1:1")
     assert not (tmp_path / "library").exists()

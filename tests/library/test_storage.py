@@ -70,7 +70,7 @@ def test_takes_in_a_store_fill_a_library_here(
 
 
 def test_what_no_store_holds_is_one_sentence(store: fsspec.AbstractFileSystem) -> None:
-    with pytest.raises(ReadError, match="is no library"):
+    with pytest.raises(ReadError, match="is not a library"):
         Library("memory://data/nothing")
     with pytest.raises(ParameterError, match="cannot be reached"):
         Library("nowhere://bucket/lib")

@@ -85,5 +85,5 @@ def test_what_is_there_is_not_replaced(tmp_path):
     with pytest.raises(WriteError, match="another name"):
         Journal(tmp_path / "other.parquet", ["x"], 50.0)
     (tmp_path / "table.csv").write_text("a\n1\n")
-    with pytest.raises(ReadError, match="no journal"):
+    with pytest.raises(ReadError, match="not a journal"):
         recover_journal(tmp_path / "table.csv")

@@ -161,9 +161,9 @@ def test_notes_are_five_at_most_and_the_worst_comes_first(links, borders, counts
 def test_notes_say_what_to_look_at_and_where() -> None:
     known = columns([0.9, 0.4], [np.nan, 0.3], [0.2, 0.9])
     assert list_doubts(known, 10.0) == [
-        "look at the number of repetitions at 0.00 to 1.00 s (20 % sure)",
-        "look at the border at 1.00 s (30 % sure)",
-        "look at the cluster of the activity at 1.00 to 2.00 s (40 % sure)",
+        "check the number of repetitions at 0.00 to 1.00 s (20 % sure)",
+        "check the border at 1.00 s (30 % sure)",
+        "check the cluster of the activity at 1.00 to 2.00 s (40 % sure)",
     ]
 
 
@@ -171,6 +171,6 @@ def test_of_what_happens_once_no_count_is_doubted() -> None:
     known = columns([0.9], [np.nan], [0.1])
     once = {name: values[:2] for name, values in known.items()}
     assert list_doubts(known, 10.0) == [
-        "look at the number of repetitions at 0.00 to 1.00 s (10 % sure)"
+        "check the number of repetitions at 0.00 to 1.00 s (10 % sure)"
     ]
     assert list_doubts(once, 10.0) == []

@@ -110,7 +110,7 @@ def test_rows_at_any_times_have_states() -> None:
     x = np.where(t < 20, np.sin(9 * t), 3 + np.sin(4 * t))
     frame = pd.DataFrame({"acc": x}, index=pd.to_timedelta(t, unit="s"))
     order = np.random.default_rng(1).permutation(1500)
-    with pytest.warns(KinemeWarning, match="in no order of time"):
+    with pytest.warns(KinemeWarning, match="not in order of time"):
         estimator = Segmenter().fit(frame.iloc[order])
     states = np.empty(1500, int)
     states[order] = estimator.labels_
@@ -184,5 +184,5 @@ def test_a_name_that_is_no_parameter_is_refused_when_it_is_set() -> None:
 
 
 def test_a_recording_is_told_where_it_belongs() -> None:
-    with pytest.raises(ParameterError, match="kineme.segment takes recordings"):
+    with pytest.raises(ParameterError, match="kineme.segment for recordings"):
         Segmenter().fit_predict(kineme.read(kineme.bundled_recording()))

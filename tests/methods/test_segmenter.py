@@ -154,7 +154,7 @@ def test_presets_that_are_none_and_presets_for_signals_are_refused() -> None:
         ParameterError, match="a preset is a name or a Preset, not float: there are"
     ):
         segment(motion, preset=0.5)
-    with pytest.raises(ParameterError, match="in standard deviations, for signals"):
+    with pytest.raises(ParameterError, match="is for signals"):
         segment(motion, preset=resolve_preset("krueger2017", signals=True))
     told = "radius must be a number above 0 to 10000 metres, not 'big'"
     with pytest.raises(ParameterError, match=told):

@@ -82,7 +82,7 @@ def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_a_picture_needs_the_recording_of_the_segments(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="of another recording"):
+    with pytest.raises(ParameterError, match="give the segments of this recording"):
         plot_segmentation(whole(9), turning(8), tmp_path / "x.png")
     with pytest.raises(ParameterError, match="Motion or Signals"):
         plot_segmentation(whole(9), np.zeros((9, 2)), tmp_path / "x.png")  # type: ignore[arg-type]
@@ -186,5 +186,5 @@ def test_points_and_channels_are_drawn_without_bones() -> None:
 @pytest.mark.parametrize("span", [(9.0, None), (2.0, 1.0), (-1.0, 2.0), (0.0, "end")])
 def test_a_span_that_is_none_is_refused(span: tuple[float, float]) -> None:
     signals = Signals(np.zeros((90, 2)), 30, ("a", "b"))
-    with pytest.raises(ParameterError, match="a span lies within the 3.00 s"):
+    with pytest.raises(ParameterError, match="a span must be within the 3.00 s"):
         plot_strip(signals, *span, ax=Figure().subplots())

@@ -98,7 +98,7 @@ def test_rows_of_another_estimator_are_not_gone_on_with(video: Path, pictures: l
 def test_a_file_of_somebody_else_stays(video: Path, pictures: list[float]) -> None:
     mine = video.with_name("mine.parquet")
     mine.write_text("mine")
-    with pytest.raises(WriteError, match="holds no poses"):
+    with pytest.raises(WriteError, match="has no poses"):
         estimate_poses(video, mine)
     assert mine.read_text() == "mine"
 
@@ -160,11 +160,11 @@ def faint(time: float) -> Pose:
 
 def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float]) -> None:
     register(drawn_estimator(people=lambda time: [faint(time)]), replace=True)
-    with pytest.raises(ReadError, match="nobody is found"):
+    with pytest.raises(ReadError, match="no person found"):
         kineme.read(video)
     result = CliRunner().invoke(app, ["pose", str(video)])
     assert result.exit_code == 1
-    assert "nobody is found" in result.output
+    assert "no person found" in result.output
 
 
 def test_while_nobody_is_seen_there_is_a_gap(video: Path, pictures: list[float]) -> None:
@@ -218,14 +218,14 @@ def test_bad_videos_are_refused(video: Path, pictures: list[float], tmp_path: Pa
     whole = write_video(tmp_path / "whole.mp4", np.arange(300) / 30).read_bytes()
     matroska = write_video(tmp_path / "whole.mkv", np.arange(300) / 30).read_bytes()
     for name, data, reason in [
-        ("text.mp4", b"not a video", "is no video"),
+        ("text.mp4", b"not a video", "is not a video"),
         ("empty.mp4", b"", "empty"),
         ("sound.mkv", sound.getvalue(), "sound"),
         ("none.mp4", write_video(tmp_path / "none.mp4", []).read_bytes(), "no pictures"),
-        ("head.mp4", video.read_bytes()[:500], "is no video"),
+        ("head.mp4", video.read_bytes()[:500], "is not a video"),
         ("tenth.mp4", whole[: len(whole) // 10], "part of"),
-        ("half.mkv", matroska[: len(matroska) // 2], "breaks off"),
-        ("half.mp4", whole[: len(whole) // 2], "breaks off|damaged"),
+        ("half.mkv", matroska[: len(matroska) // 2], "ends after"),
+        ("half.mp4", whole[: len(whole) // 2], "ends after|damaged"),
     ]:
         path = tmp_path / name
         path.write_bytes(data)

@@ -59,7 +59,7 @@ def test_what_is_no_model_is_refused(tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.task"
     wrong.write_bytes(b"no model")
     with (
-        pytest.raises(ReadError, match="is no model of the Pose Landmarker"),
+        pytest.raises(ReadError, match="is not a model of the Pose Landmarker"),
         start_mediapipe(wrong),
     ):
         pass

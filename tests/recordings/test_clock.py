@@ -183,7 +183,7 @@ def test_the_command_joins_files_and_names_rows(tmp_path) -> None:
     assert (found.exit_code, out.is_file()) == (0, True)
     assert len(kineme.read_segments(out).activities) == 2
     frame, times = lost()
-    with pytest.warns(KinemeWarning, match="nothing in common: taken to begin at once"):
+    with pytest.warns(KinemeWarning, match="no common clock: assumed to begin together"):
         join_signals(as_signals(frame, times=times + 1.7e9), as_signals(frame, times=times))
     with pytest.raises(ParameterError, match="do not overlap in time"):
         join_signals(as_signals(frame, times=times), as_signals(frame, fps=50), offsets=[0, 900])
@@ -201,8 +201,8 @@ def test_frozen_and_saturated_channels_are_named() -> None:
     with pytest.warns(KinemeWarning) as caught:
         as_signals(frame, fps=50)
     (said,) = caught
-    assert "do not change for a while: acc_y (20 s at 20 s)" in str(said.message)
-    assert "cut off at their largest values: acc_z" in str(said.message)
+    assert "stay constant for a while: acc_y (20 s at 20 s)" in str(said.message)
+    assert "clipped at their largest values: acc_z" in str(said.message)
 
 
 @pytest.mark.parametrize("name", ["set", "reps", "weight", "label", "Set number", "frame"])

@@ -52,7 +52,7 @@ def hidden(motion: Motion) -> np.ndarray:
 
 @pytest.mark.parametrize("gaps", [((5, 5),), ((-1, 3),), ((3, 101),), ((5, 9), (9, 12))])
 def test_gaps_are_checked(gaps: tuple[tuple[int, int], ...]) -> None:
-    with pytest.raises(MotionError, match="is not a span of 100 frames"):
+    with pytest.raises(MotionError, match="must be within the 100 frames"):
         body(gaps=gaps)
 
 
@@ -115,7 +115,7 @@ def test_files_of_positions_hold_gaps(suffix: str, gaps: tuple) -> None:
 
 def test_a_gap_is_said_and_splits_the_recording(tmp_path: Path) -> None:
     kineme.write(body(gaps=((30, 60),)), tmp_path / "a.csv")
-    with pytest.warns(KinemeWarning, match=r"not seen whole in frames 30 to 59 \(0.60 s\)"):
+    with pytest.warns(KinemeWarning, match=r"is incomplete in frames 30 to 59 \(0.60 s\)"):
         motion = kineme.read(tmp_path / "a.csv")
     assert motion.gaps == ((30, 60),)
     assert any("the recording is split there" in note for note in motion.provenance.notes)
@@ -139,7 +139,7 @@ def test_what_is_missing_with_the_body_only_stays(tmp_path: Path) -> None:
     said = again.provenance.warnings
     assert str(warning.message) == f"{path}: {'; '.join(said)}"
     assert said[0] == "left out for gaps above 0.2 s: elbow (frames 30 to 93)"
-    assert said[1].startswith("the body is not seen whole in frames 30 to 59")
+    assert said[1].startswith("the body is incomplete in frames 30 to 59")
     assert again.gaps == ((30, 60),)
     knee = again.positions[:, again.joint("knee"), 0]
     assert knee == pytest.approx(np.arange(100) / 100)

@@ -124,5 +124,7 @@ def test_values_are_checked(operation: object, value: object) -> None:
 
 def test_a_rate_beyond_all_measure_is_refused() -> None:
     motion = Motion(Skeleton(("a",), (-1,), np.zeros((1, 3))), np.zeros((10, 1, 3)), 0.001)
-    with pytest.raises(ParameterError, match="frames 1000 s apart are too far for 30 a second"):
+    with pytest.raises(
+        ParameterError, match="frames 1000 s apart are too far for 30 frames per second"
+    ):
         resample(motion, 30)

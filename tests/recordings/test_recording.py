@@ -82,10 +82,10 @@ def test_slices_by_seconds(make) -> None:
     np.testing.assert_array_equal(numbers(recording.seconds(1.0, 2.5)), numbers(recording)[20:50])
     assert recording.seconds(4.5, 99).n_frames == recording.seconds(4.5).n_frames == 10
     for times, said in [
-        ((-1, 2), "-1 is no time"),
+        ((-1, 2), "-1 is not a time"),
         ((3, 2), "no frame from 3 s to 2 s"),
         ((9,), "no frame from 9 s to the end in a recording of 5 s"),
-        (("a",), "'a' is no time"),
+        (("a",), "'a' is not a time"),
     ]:
         with pytest.raises(ParameterError, match=said):
             recording.seconds(*times)

@@ -153,16 +153,16 @@ def test_tables_with_any_provenance_are_shown(tmp_path: Path) -> None:
 
 def test_segments_of_another_recording_are_refused(tmp_path: Path) -> None:
     shorter = kineme.recordings.operations.cut(RECORDING, 0, 900)
-    with pytest.raises(ParameterError, match="of 2898 frames at 60 Hz, the recording is of 900"):
+    with pytest.raises(ParameterError, match="2898 frames at 60 Hz, but the recording has 900"):
         write_report(shorter, SEGMENTS, tmp_path / "out.html")
     slower = replace(RECORDING, fps=59.0)
-    with pytest.raises(ParameterError, match="the recording is of 2898 frames at 59 Hz"):
+    with pytest.raises(ParameterError, match="the recording has 2898 frames at 59 Hz"):
         write_report(slower, SEGMENTS, tmp_path / "out.html")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_only_pages_are_written(tmp_path: Path) -> None:
-    with pytest.raises(WriteError, match=r"reports are written as \.html"):
+    with pytest.raises(WriteError, match=r"the suffix of a report must be \.html"):
         write_report(RECORDING, SEGMENTS, tmp_path / "out.pdf")
     with pytest.raises(WriteError, match="does not exist"):
         write_report(RECORDING, SEGMENTS, tmp_path / "missing" / "out.html")
@@ -178,4 +178,4 @@ def test_a_lowered_rate_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     assert make_recording_message(shown, SEGMENTS, name="x").warnings == []
     slow = replace(shown, motion=msgspec.structs.replace(shown.motion, sample_fps=12.0))
     (said,) = make_recording_message(slow, SEGMENTS, name="x").warnings
-    assert "12 times a second" in said
+    assert "12 times per second" in said

@@ -76,7 +76,7 @@ def test_it_is_whole_and_texts_stay_texts(squats: tuple[Cycles, Cycles], tmp_pat
 
 
 def test_what_cannot_be_compared_is_refused(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="no group is in both sessions"):
+    with pytest.raises(ParameterError, match="the sessions have no group in common"):
         write_sessions(squats[0], session(1.0, 3, "walk"), tmp_path / "sheet.html")
     with pytest.raises(WriteError, match=r"written as \.html"):
         write_sessions(*squats, tmp_path / "sheet.pdf")

@@ -78,7 +78,7 @@ def test_what_picks_no_rows_is_said() -> None:
     for row in (8, -9, [0, 8]):
         with pytest.raises(IndexError, match="of a table of 8"):
             table[row]
-    with pytest.raises(ParameterError, match="a mask of 3 does not fit a table of 8 rows"):
+    with pytest.raises(ParameterError, match="a mask of 3 does not match a table of 8 rows"):
         table[np.array([True, False, True])]
     for rows in ("label", 1.5, None, (0, "a"), [[0, 1]], np.ones((2, 2))):
         with pytest.raises(ParameterError, match="slice, a mask or row numbers"):

@@ -198,7 +198,7 @@ def test_a_recording_that_is_replaced_is_opened_anew(studio) -> None:
     studio.path.write_text("\n".join(lines[: start + 122]) + "\n")
     message = studio.recording()
     assert (message["n_frames"], message["revision"]) == (120, state["revision"] + 1)
-    assert "left alone" in message["warnings"][0]
+    assert "was not used" in message["warnings"][0]
     studio.path.unlink()
     assert studio.get(f"/api/recordings/{studio.id}").status_code == 404
 

@@ -50,7 +50,7 @@ def test_a_folder_that_nothing_can_be_written_to_is_said(studio: Studio, folder:
         ("/api/labels", {"labels": ["walk"]}),
     ):
         answer = studio.client.post(address, json=sent)
-        assert "cannot be made" in answer.json()["error"], address
+        assert "cannot be created" in answer.json()["error"], address
     assert sidecars.read_video_offset(folder / "take.bvh") == 0.0
 
 

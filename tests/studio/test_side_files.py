@@ -30,7 +30,7 @@ def test_the_recording_opens_and_the_file_is_named(
     place.write_bytes(content)
     studio = make_studio()
     message = studio.recording()
-    said = f"{place.name} was left alone: it "
+    said = f"{place.name} was ignored: it "
     assert [note.startswith(said) for note in message["warnings"] if ".json" in note] == [True]
     assert message["read_options"] == {}
     assert message["video"] == {"name": "take.mp4", "offset_s": 0.0}
@@ -46,5 +46,5 @@ def test_marks_of_another_shape_are_not_believed(make_studio, folder: Path) -> N
     told["annotation"]["checked"] = [["activity", [], {}]]
     studio.table.write_text(json.dumps(told))
     message = make_studio().recording()
-    assert any("take.segments.json was left alone" in note for note in message["warnings"])
+    assert any("take.segments.json was not used" in note for note in message["warnings"])
     assert studio.get("/api/state").status_code == 200

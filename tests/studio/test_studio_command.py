@@ -53,5 +53,5 @@ def test_pages_from_their_sources_may_ask_and_a_port_in_use_is_refused(start) ->
     headers = {"x-kineme-token": studio.token, "origin": DEVELOPMENT}
     answer = httpx.get(f"http://127.0.0.1:{port}/api/state", headers=headers, timeout=300)
     assert answer.status_code == 200
-    with pytest.raises(RuntimeError, match=f"port {port} is not free"):
+    with pytest.raises(RuntimeError, match=f"port {port} is not available"):
         start("--port", str(port))

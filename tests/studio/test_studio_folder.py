@@ -304,7 +304,7 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
         "turned",
     ]
     assert named("short") == ("short", set())
-    assert not any("left alone" in each for each in takes.recording()["warnings"])
+    assert not any("was not used" in each for each in takes.recording()["warnings"])
     refused = studio.client.post(address, json={"options": {"take": "run"}})
     assert (refused.status_code, refused.json()["reading"]) == (400, True)
     assert takes.recording()["take"] == "short"

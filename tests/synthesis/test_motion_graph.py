@@ -126,7 +126,7 @@ def test_actions_pass_through_nameless_nodes_only() -> None:
     assert action_route(made, [("a", 2), ("b", 1)]) == [0, 0, 1, 2]
     assert find_following(made, "a") == ["a", "b"]
     with pytest.raises(
-        ParameterError, match="'a' one can go on to a, b, and 'c' is reached from b"
+        ParameterError, match="'a' can be followed by a, b, and 'c' is reached from b"
     ):
         action_route(made, [("a", 1), ("c", 1)])
     with pytest.raises(ParameterError, match=r"no node is called 'd'; there are a \(1\), b"):
@@ -167,9 +167,9 @@ def test_a_random_walk_repeats_by_its_seed_and_never_ends_early(graph: MotionGra
     assert walk == random_route(graph, 30, 7) != random_route(graph, 30, 8)
     made = small("abc", [(0, 1), (1, 0), (0, 2)])
     assert set(random_route(made, 20, 0)) == {0, 1}
-    with pytest.raises(ParameterError, match="every walk through this graph ends"):
+    with pytest.raises(ParameterError, match="every route through this graph ends"):
         random_route(small("ab", [(0, 1)]), 1, 0)
-    with pytest.raises(ParameterError, match="above 0 and below 1e6 s, not -1"):
+    with pytest.raises(ParameterError, match="above 0 seconds, not -1"):
         random_route(graph, -1, 0)
 
 

@@ -109,7 +109,7 @@ def test_a_still_recording_is_not_stretched_to_a_moving_one() -> None:
 def test_signals_of_other_channels_share_nothing() -> None:
     one, found = still_and_shaken([True, False])
     other = kineme.Signals(one.values, one.fps, ["a", "b"])
-    with pytest.raises(ParameterError, match="of the same channels, not of 1, 2 and of a, b"):
+    with pytest.raises(ParameterError, match="with the same channels, not 1, 2 and of a, b"):
         share_clusters([one, other], [found, found])
 
 

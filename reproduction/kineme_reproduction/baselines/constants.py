@@ -37,7 +37,7 @@ class BaselineConstants(Preset):
 
     unit: Unit = "any"
     working_fps: float = constant(
-        "samples per second at which the recording is looked at", unit="Hz", limits=RATE,
+        "samples per second to which the recording is resampled", unit="Hz", limits=RATE,
         default=120.0,
     )  # fmt: skip
 

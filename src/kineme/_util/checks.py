@@ -36,7 +36,8 @@ def check_rates(old: float, new: float) -> None:
     """Raise ParameterError if resampling to a new rate would create too many frames."""
     if new > MAX_FRAMES_RATIO * old:
         raise ParameterError(
-            f"frames {1 / old:g} s apart are too far for {new:g} a second: is the frame rate right?"
+            f"frames {1 / old:g} s apart are too far for {new:g} frames per second: "
+            "check the frame rate"
         )
 
 
@@ -257,7 +258,7 @@ class Registry(Mapping[str, T]):
     >>> tools.register(SimpleNamespace(name="saw", teeth=12))
     Traceback (most recent call last):
     ...
-    kineme.errors.ParameterError: there is a tool 'saw' already: take another, or replace=True
+    kineme.errors.ParameterError: a tool named 'saw' exists already: choose another name or ...
     >>> tools.register(SimpleNamespace(name="saw", teeth=12), replace=True)
     >>> tools["saw"].teeth
     12
@@ -315,8 +316,8 @@ class Registry(Mapping[str, T]):
         if new.name in self._objects:
             if not replace:
                 raise ParameterError(
-                    f"there is a {self._what} {new.name!r:.60} already: take another, or "
-                    f"replace=True"
+                    f"a {self._what} named {new.name!r:.60} exists already: choose another "
+                    "name or set replace=True"
                 )
             self._objects[new.name] = new
         elif self._newest_first:
@@ -362,7 +363,8 @@ class Registry(Mapping[str, T]):
             except Exception as error:  # noqa: BLE001 (plugins may raise anything)
                 reason = f"{type(error).__name__}: {error}"
                 warnings.warn(
-                    f"{point.name!r} of {self._group} is left out, it cannot be loaded: {reason}",
+                    f"{point.name!r} of {self._group} was skipped, since it cannot "
+                    f"be loaded: {reason}",
                     KinemeWarning,
                     stacklevel=2,
                 )

@@ -37,7 +37,7 @@ POSES = ".poses.parquet"
 if sys.platform != "win32":  # Windows does not delete open files anyway
     import fcntl
 
-PIPE = "is a pipe or a device: save what comes from it in a file"
+PIPE = "is a pipe or a device: save its output to a file first"
 ABANDONED_S = 3600.0
 """Age in seconds after which an unlocked draft counts as left by a killed process."""
 
@@ -80,13 +80,13 @@ def atomic_folder(target: Path) -> Iterator[Path]:
         ``target`` exists and is not empty, or the folder cannot be created or written.
     """
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
-        raise WriteError(target, "is there already: name a new folder, or empty this one")
+        raise WriteError(target, "exists already: name a new folder or empty this one")
     _remove_abandoned_drafts(target.parent)
     draft = target.with_name(f".kineme-{secrets.token_hex(6)}")
     try:
         draft.mkdir()
     except OSError as error:
-        reason = f"cannot be made: {target.parent}: {error.strerror or error}"
+        reason = f"cannot be created: {target.parent}: {error.strerror or error}"
         raise WriteError(target, reason) from error
     with _write_draft(draft, target, target):
         yield draft
@@ -161,14 +161,16 @@ def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
         raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
     except MemoryError as error:
         raise ReadError(
-            path, "needs more memory than there is: it is damaged, or cut it"
+            path,
+            "needs more memory than is available: it may be damaged; if not, cut it into "
+            "shorter files",
         ) from error
     except RecursionError as error:
-        raise ReadError(path, "holds too much inside one another: it is damaged") from error
+        raise ReadError(path, "is nested too deeply: it is damaged") from error
     except Exception as error:
         message = shorten_error(error)
         reason = f"{type(error).__name__}: {message}" if message else type(error).__name__
-        raise ReadError(path, f"cannot be understood, it is damaged ({reason})") from error
+        raise ReadError(path, f"cannot be read, it may be damaged ({reason})") from error
 
 
 @dataclass(frozen=True)
@@ -195,7 +197,7 @@ class OwnedFolder:
         try:
             path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise WriteError(path, f"cannot be made: {error.strerror or error}") from error
+            raise WriteError(path, f"cannot be created: {error.strerror or error}") from error
         return path
 
     def delete(self, *names: str, is_ours: Callable[[str], object]) -> None:
@@ -411,4 +413,4 @@ class NoEntities:
         """Reject document types, which could define entities that expand without bounds."""
         from xml.etree.ElementTree import ParseError
 
-        raise ParseError("it has a document type")
+        raise ParseError("it has a document type declaration, which is not allowed")

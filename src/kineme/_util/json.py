@@ -22,7 +22,7 @@ DEEPEST = 64
 """Largest nesting depth of lists and objects."""
 LARGEST = sys.float_info.max
 """Largest absolute value of a number, also of integers."""
-TOO_DEEP = f"holds more than {DEEPEST} lists and objects inside one another"
+TOO_DEEP = f"nests more than {DEEPEST} lists and objects"
 
 Shape = TypeVar("Shape")
 Options = TypeVar("Options")
@@ -66,7 +66,7 @@ def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
         raise ReadError(path, TOO_DEEP) from error
     except ValueError as error:
         line = error.lineno if isinstance(error, json.JSONDecodeError) else None
-        raise ReadError(path, "is not valid JSON, or is cut short", line=line) from error
+        raise ReadError(path, "is not valid JSON or is truncated", line=line) from error
     if fault := find_fault(content):
         raise ReadError(path, fault)
     if shape is Any:
@@ -74,7 +74,7 @@ def decode_json(text: str | bytes, path: AnyPath, shape: Any = Any) -> Any:
     try:
         return convert_json(content, shape)
     except ValueError as error:
-        raise ReadError(path, f"is not as it was written: {error}") from error
+        raise ReadError(path, f"has unexpected content: {error}") from error
 
 
 def convert_json(content: Any, shape: type[Shape]) -> Shape:
@@ -86,7 +86,7 @@ def convert_json(content: Any, shape: type[Shape]) -> Shape:
     except msgspec.ValidationError as error:
         raise ValueError(format_problem(str(error))) from error
     except ValueError as error:  # a lone surrogate in a name
-        raise ValueError("a name is no text") from error
+        raise ValueError("a name is not text") from error
 
 
 def format_problem(problem: str, everything: str = "the whole of it") -> str:
@@ -125,7 +125,7 @@ def options_from_json(kind: type[Options], content: object) -> Options:
     ('acc_*',)
     """
     if not isinstance(content, dict):
-        raise ParameterError(f"options must be values by their names, not {content!r:.60}")
+        raise ParameterError(f"options must be an object of names and values, not {content!r:.60}")
     names = vars(kind())
     if unknown := content.keys() - names:
         raise ParameterError(
@@ -139,7 +139,7 @@ def _as_plain(value: object) -> Any:
         return fspath(value)
     if isinstance(value, Mapping):
         return dict(value)
-    raise ParameterError(f"options are kept as names, numbers and texts, not as {value!r:.60}")
+    raise ParameterError(f"options must be names, numbers or texts, not {value!r:.60}")
 
 
 def _as_tuples(value: Any) -> Any:
@@ -163,7 +163,7 @@ def find_fault(content: Any) -> str:
                     inner.append(value)
                 elif (kind is float or kind is int) and not -LARGEST <= value <= LARGEST:
                     # `not ... <=` also catches nan, for which every comparison is False.
-                    return "holds a number that is none, or too large"
+                    return "holds a number that is not finite or is too large"
         if not inner:
             return ""
         level = inner

@@ -66,8 +66,8 @@ def convert(
         list[Path],
         typer.Argument(
             metavar="FROM… TO",
-            help="Segment tables, label files or recordings, or folders of recordings; last the "
-            "new file to write, for several with {name} in it.",
+            help="Segment tables, label files, recordings or folders of recordings; then the "
+            "new file to write, with {name} in it if there are several.",
         ),
     ],
     read_options: ReadOptions,
@@ -75,7 +75,7 @@ def convert(
         str | None,
         option(
             INPUT,
-            f"Format of labels to read, by default by the suffix: {LABELS}.",
+            f"Format of the labels to read, by default from the suffix: {LABELS}.",
             "--from",
             metavar="FORMAT",
             callback=_check_format,
@@ -85,17 +85,18 @@ def convert(
         str | None,
         option(
             OUTPUT,
-            "Format of labels to write, one of the same.",
+            "Format of the labels to write, by default from the suffix: one of the same.",
             "--to",
             metavar="FORMAT",
             callback=_check_format,
         ),
     ] = None,
     level: Annotated[
-        Level | None, option(OUTPUT, "Segments to write; by default all that the format can hold.")
+        Level | None,
+        option(OUTPUT, "Level to write; by default every level that the format supports."),
     ] = None,
     frames: Annotated[
-        int | None, option(INPUT, "Length of the recording in frames, where labels end before it.")
+        int | None, option(INPUT, "Length of the recording in frames, if the labels end earlier.")
     ] = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -107,7 +108,9 @@ def convert(
     times in seconds only, --fps is the frame rate of their recording.
     """
     if len(files) < 2:
-        raise typer.BadParameter("give what to read and the file to write", param_hint="FROM… TO")
+        raise typer.BadParameter(
+            "give the files to read, then the file to write", param_hint="FROM… TO"
+        )
     *sources, target = files
 
     batch = Batch(sources, recursive=recursive)
@@ -115,13 +118,14 @@ def convert(
     if several and "{" not in str(target):
         folder, suffix = target.with_suffix(""), target.suffix or ".bvh"
         raise typer.BadParameter(
-            f"name the file of each, such as '{folder}/{{name}}{suffix}'", param_hint="TO"
+            f"several inputs need {{name}} in the output, such as '{folder}/{{name}}{suffix}'",
+            param_hint="TO",
         )
     targets = batch.files("TO", target) if several else [target]
     for path, target_path in zip(batch.paths, targets, strict=True):
         with batch.catch_errors(path):
             if target_path.exists():
-                raise WriteError(target_path, "is there already: remove it or name another file")
+                raise WriteError(target_path, "exists already: remove it or name another file")
             if several:
                 make_parent_folder(target_path)
             is_table = read_options.columns is not None
@@ -146,9 +150,9 @@ def _note_missing_primitives(segments: Segmentation, path: Path, name: str | Non
     label_format, primitives = find_write_format(path, name), segments.primitives
     if len(primitives) and label_format.holds == "level":
         typer.echo(
-            f"note: {path} holds the activities alone, without the "
-            f"{format_count(len(primitives), 'segment')} of the level primitive: --level primitive "
-            "writes these instead",
+            f"note: {path} holds the activities only, without the "
+            f"{format_count(len(primitives), 'segment')} of level primitive; use --level "
+            "primitive to write those",
             err=True,
         )
 

@@ -73,7 +73,7 @@ def cycles(
         str | None,
         option(
             MEASUREMENT,
-            'Where a cycle begins: "knee_r max", "knee_r > 40", left_foot_strike, '
+            'Start of each cycle: "knee_r max", "knee_r > 40", left_foot_strike, '
             "or an event of the file; by default at equal phase.",
             metavar="EVENT",
         ),
@@ -91,17 +91,21 @@ def cycles(
         list[str] | None,
         option(
             MEASUREMENT,
-            "Leave a row out of means by its number, or all far from the mean (far), or of "
-            "uncertain start (unsure).",
+            "Exclude rows from the means: row numbers, far (all far from the mean) or "
+            "unsure (all with an uncertain start).",
             metavar="ROW|RULE",
         ),
     ] = None,
     ends: Annotated[
-        bool, option(MEASUREMENT, "Count first and last repetitions, too.", "--ends")
+        bool, option(MEASUREMENT, "Include first and last repetitions in the means.", "--ends")
     ] = False,
     common: Annotated[
         bool,
-        option(MEASUREMENT, "Cluster numbers in --segments tables are shared.", "--common"),
+        option(
+            MEASUREMENT,
+            "Treat equal cluster numbers in --segments tables as the same movement.",
+            "--common",
+        ),
     ] = False,
     segments: SegmentTable = None,
     recursive: Recursive = False,
@@ -237,7 +241,7 @@ def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:
                 rows = [int(row) for row in rule.split(",")]
             except ValueError:
                 raise typer.BadParameter(
-                    f"{rule!r} is no row and no rule: give a number, {FAR} or {UNSURE}",
+                    f"{rule!r} is neither a row nor a rule: give row numbers, {FAR} or {UNSURE}",
                     param_hint="--exclude",
                 ) from None
             cycles = cycles.exclude(rows)
@@ -251,7 +255,7 @@ def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
     from kineme.report.sessions import write_sessions
 
     if len(sessions) < 2:
-        raise ParameterError("there are no repetitions in both recordings to compare")
+        raise ParameterError("two recordings with repetitions are needed to compare them")
     first, second = sessions
     if path.suffix.lower() in PAGES:
         write_sessions(first, second, path, ends=ends)
@@ -374,12 +378,14 @@ def _show(
         console.print(f"{format_count(reasons.count(reason), 'cycle')} left out: {reason}.")
     if without_inner and not ends:
         groups = ", ".join(dict.fromkeys(without_inner))
-        console.print(f"{groups}: no inner repetition; --ends counts the others.")
+        console.print(f"{groups}: no inner repetitions; --ends includes the first and last.")
     if len(cycles) == 0:
         why = (
-            "the segments given have no primitives" if has_table else "nothing repeats itself here"
+            "the segments given have no primitives"
+            if has_table
+            else "nothing repeats in this recording"
         )
-        console.print(f"no repetition: {why}.")
+        console.print(f"no repetitions: {why}.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
 

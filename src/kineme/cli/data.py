@@ -38,7 +38,7 @@ def data(
         Path | None,
         option(
             OUTPUT,
-            "Where to keep the files, instead of the cache of kineme.",
+            "Folder for the files, by default the cache of kineme.",
             "--output",
             "-o",
             metavar="FOLDER",
@@ -49,7 +49,7 @@ def data(
         str | None, typer.Option(envvar="KINEME_CMU_ANNOTATIONS", hidden=True)
     ] = None,
     timeout: Annotated[
-        float, option(INPUT, "Seconds of silence after which a connection is tried again.")
+        float, option(INPUT, "Seconds without data after which kineme connects again.")
     ] = 30.0,
     quiet: Quiet = False,
 ) -> None:
@@ -98,8 +98,8 @@ def _parse_numbers(text: str | None) -> list[int] | None:
             raise typer.BadParameter(f"{part!r} runs backwards", param_hint="--trials")
         numbers += span
     if not numbers or min(numbers) < 1:
-        raise typer.BadParameter(f"{text!r} names no trial", param_hint="--trials")
-    return [*dict.fromkeys(numbers)]
+        raise typer.BadParameter(f"{text!r} contains no trial number", param_hint="--trials")
+    return numbers
 
 
 @contextmanager

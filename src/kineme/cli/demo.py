@@ -25,7 +25,7 @@ def demo(
             "--output",
             "-o",
             metavar="FOLDER",
-            show_default="the one you are in",
+            show_default="current folder",
         ),
     ] = Path(),
     quiet: Quiet = False,

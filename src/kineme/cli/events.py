@@ -31,8 +31,8 @@ def events(
         Path | None,
         option(
             OUTPUT,
-            "Write a table of the events: .csv or .parquet; of several recordings a folder, "
-            "or a path with {name} in it.",
+            "Write a table of the events: .csv or .parquet; for several recordings, a "
+            "folder or a path with {name} in it.",
             "--output",
             "-o",
         ),
@@ -41,8 +41,8 @@ def events(
         Path | None,
         option(
             OUTPUT,
-            "Write means of strides, stands, swings and steps: .csv or .parquet, and each stride "
-            "beside it (.strides.csv).",
+            "Write means of strides, stands, swings and steps: .csv or .parquet, and each "
+            "stride next to it (.strides.csv).",
         ),
     ] = None,
     labels: Annotated[

@@ -39,7 +39,8 @@ def graph(
         float,
         option(
             METHOD,
-            "Largest mean distance of joints in metres where one primitive is followed by another.",
+            "Largest mean distance of joints, in metres, at which one primitive may follow "
+            "another.",
         ),
     ] = 0.08,
     window: Annotated[

@@ -105,7 +105,7 @@ def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
             for part, joint in zip(PARTS, effector_joints.indices, strict=True)
         }
     except EndEffectorError as error:
-        until = "until then segments come from the distances between points"
+        until = "without them, kineme segments by the distances between points"
         notes = [*notes, f"{error}; {until}"]
     return facts | {
         "joints": [name for j, name in enumerate(skeleton.names) if j not in skeleton.end_sites],

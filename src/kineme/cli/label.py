@@ -34,14 +34,14 @@ def label(
         Path,
         option(
             INPUT,
-            "Labels: a segment table, or a label file of another program; of several "
-            "recordings a folder, or a path with {name} in it.",
+            "Labels: a segment table, or a label file of another program; for several "
+            "recordings, a folder or a path with {name} in it.",
             metavar="TABLE",
         ),
     ],
     knowledge: Annotated[
         Path,
-        option(OUTPUT, "Knowledge base to add to, .npz; made if it is not there.", metavar="FILE"),
+        option(OUTPUT, "Knowledge base to add to, .npz; created if missing.", metavar="FILE"),
     ],
     recursive: Recursive = False,
     quiet: Quiet = False,

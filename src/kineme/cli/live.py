@@ -52,33 +52,33 @@ def live(
     speed: Annotated[float, option(INPUT, "Speed factor of --replay; 0: no delay.")] = 1.0,
     lsl: Annotated[
         str | None,
-        option(INPUT, "Take an LSL stream, by name or type.", metavar="NAME"),
+        option(INPUT, "Read an LSL stream, by name or type.", metavar="NAME"),
     ] = None,
     osc: Annotated[
         int | None,
-        option(INPUT, "Take OSC, such as VMC, at this UDP port.", metavar="PORT"),
+        option(INPUT, "Receive OSC, such as VMC, on this UDP port.", metavar="PORT"),
     ] = None,
-    osc_host: Annotated[str, option(INPUT, "Address for --osc; 0.0.0.0 for any.")] = "127.0.0.1",
+    osc_host: Annotated[
+        str, option(INPUT, "Local address for --osc; 0.0.0.0 for any.")
+    ] = "127.0.0.1",
     delay: Annotated[
-        float, option(METHOD, "Seconds after which segments are final.", min=0.1)
+        float, option(METHOD, "Delay in seconds after which segments are final.", min=0.1)
     ] = 5.0,
-    interval: Annotated[
-        float, option(METHOD, "Seconds between two analyses of the recent past.", min=0.1)
-    ] = 2.0,
+    interval: Annotated[float, option(METHOD, "Seconds between analyses.", min=0.1)] = 2.0,
     output: Annotated[
         Path | None,
         option(OUTPUT, f"Write the segments at the end: {TABLES}.", "--output", "-o"),
     ] = None,
     record: Annotated[
         Path | None,
-        option(OUTPUT, "Save the rows in NAME.journal.csv, at the end in NAME.parquet."),
+        option(OUTPUT, "Save the rows in NAME.journal.csv, converted to NAME.parquet at the end."),
     ] = None,
     recover: Annotated[
         Path | None,
         option(OUTPUT, "Convert the journal of a killed run to Parquet, then exit."),
     ] = None,
     page: Annotated[
-        bool, option(OUTPUT, "Show it in the browser, until Ctrl+C.", "--page")
+        bool, option(OUTPUT, "Show the stream in the browser until Ctrl+C.", "--page")
     ] = False,
     json: Annotated[bool, option(OUTPUT, "Print JSON, one line per event.", "--json")] = False,
     quiet: Quiet = False,
@@ -95,7 +95,7 @@ def live(
     sources = {"--replay": replay, "--lsl": lsl, "--osc": osc}
     given_sources = [name for name, value in sources.items() if value is not None]
     if len(given_sources) > 1:
-        raise typer.BadParameter("one source at a time", param_hint=" / ".join(given_sources))
+        raise typer.BadParameter("give one source only", param_hint=" / ".join(given_sources))
     try:
         if recover is not None:
             typer.echo(f"wrote {recover_journal(recover)}")
@@ -170,7 +170,7 @@ def _open_page(stream: Stream) -> Iterator[Send]:
 
 
 def _wait_for_interrupt() -> None:
-    typer.echo("the page stays until Ctrl+C", err=True)
+    typer.echo("the page stays open until Ctrl+C", err=True)
     with suppress(KeyboardInterrupt):
         while True:
             sleep(1)

@@ -23,8 +23,8 @@ def pose(
         Path | None,
         option(
             OUTPUT,
-            "Write the poses here (.parquet) instead of beside the video; of several videos: a "
-            "folder, or a path with {name} in it.",
+            "Write the poses to this .parquet file instead of next to the video; for "
+            "several videos, a folder or a path with {name} in it.",
             "--output",
             "-o",
         ),
@@ -39,14 +39,14 @@ def pose(
         ),
     ] = None,
     pose_model: Annotated[
-        Path | None, option(METHOD, "Model file of the estimator, in place of its own.")
+        Path | None, option(METHOD, "Model file of the estimator, instead of its own.")
     ] = None,
     pose_rate: Annotated[
         float | None,
         option(
             METHOD,
-            "Poses per second: every n-th frame is used, with the largest n that leaves at least "
-            "so many; default 12.5, which is 15 of 30 frames per second.",
+            "Least number of poses per second; kineme uses every n-th frame, so 12.5 (the "
+            "default) gives 15 from 30 frames per second.",
             metavar="HZ",
             min=0.1,
         ),
@@ -101,7 +101,7 @@ def _estimate(
     written = estimate_poses(path, table, estimator=estimator, model=model, rate=rate)
     poses = read_poses(written)
     if not len(poses.rows):
-        raise ReadError(path, "nobody is found in any frame")
+        raise ReadError(path, "no person found in any frame")
     facts = {name: poses.head[name] for name in ("estimator", "frames", "fps", "duration")}
     people = len(set(poses.rows["person"].tolist()))
     return {"path": str(path), **facts, "seen": poses.seen, "people": people, "poses": str(written)}

@@ -25,7 +25,7 @@ INDENT = " " * 6
 
 def presets(
     name: Annotated[
-        str | None, typer.Argument(help="A preset, to list its constants.", show_default=False)
+        str | None, typer.Argument(help="Preset whose constants to list.", show_default=False)
     ] = None,
 ) -> None:
     """List the presets, or the constants of one.
@@ -54,7 +54,7 @@ def presets(
     fine = [constant for constant in constants if constant.fine]
     _show("Constants", constants[: len(constants) - len(fine)])
     if fine:
-        _show("Finer constants, which hardly anybody needs to change", fine)
+        _show("Fine constants, which rarely need to be changed", fine)
 
 
 def _write_rows(constants: Sequence[Constant]) -> None:

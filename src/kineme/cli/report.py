@@ -27,8 +27,8 @@ def report(
         Path,
         option(
             OUTPUT,
-            "Page to write: .html; of several recordings a folder, or a path with {name} in "
-            "it.  [default: beside you, named as the recording is]",
+            "Page to write: .html; for several recordings, a folder or a path with {name} "
+            "in it.  [default: the name of the recording, in the current folder]",
             "--output",
             "-o",
             show_default=False,

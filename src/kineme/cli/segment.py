@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from kineme.segments.segmentation import Segmentation
 
 PrintedLevel = Annotated[
-    Level, option(OUTPUT, "Print activities with what lies between them, or each primitive.")
+    Level,
+    option(OUTPUT, "Level to print: activities with transitions between them, or primitives."),
 ]
 
 
@@ -49,14 +50,17 @@ def segment(
     ] = None,
     plot: Annotated[
         Path | None,
-        option(OUTPUT, "Draw them: .png, .pdf, .svg; or a folder, or a path with {name} in it."),
+        option(
+            OUTPUT,
+            "Draw the segments: .png, .pdf or .svg; or a folder, or a path with {name} in it.",
+        ),
     ] = None,
     report: Annotated[
         Path | None,
         option(
             OUTPUT,
-            "Write a page that plays the recording beside them: .html; or a folder, or a path "
-            "with {name} in it.",
+            "Write a page that plays the recording next to its segments: .html; or a "
+            "folder, or a path with {name} in it.",
         ),
     ] = None,
     level: PrintedLevel = "activity",
@@ -64,7 +68,7 @@ def segment(
         bool,
         option(
             INPUT,
-            "Take the files for sensors of one recording and join them by time.",
+            "Treat the files as sensors of one recording and join them by time.",
             "--join",
         ),
     ] = False,
@@ -111,7 +115,9 @@ def _read_joined(paths: Sequence[Path], options: ReadOptions) -> Signals:
     for path in paths:
         part = read(path, **vars(options))
         if not isinstance(part, Signals):
-            raise ReadError(path, "is a motion, and --join takes channels of sensors: leave it out")
+            raise ReadError(
+                path, "is a motion, but --join needs sensor channels: leave this file out"
+            )
         parts.append(part)
     return join_signals(*parts)
 

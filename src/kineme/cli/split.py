@@ -36,20 +36,25 @@ def split(
         Path,
         option(
             OUTPUT,
-            "Folder, or .glb or .fbx of all clips; of several with {name}.",
+            "Folder for the clips, or one .glb or .fbx; {name} if there are several recordings.",
             "--output",
             "-o",
         ),
     ],
     level: Annotated[
-        Level, option(OUTPUT, "activity or primitive.", "--level", metavar="LEVEL")
+        Level,
+        option(OUTPUT, "Level to split at: activity or primitive.", "--level", metavar="LEVEL"),
     ] = "activity",
     cluster: Annotated[int | None, option(OUTPUT, "Write this cluster only.")] = None,
-    loop: Annotated[bool, option(OUTPUT, "Blend the ends: each clip loops.", "--loop")] = False,
+    loop: Annotated[
+        bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
+    ] = False,
     best: Annotated[
-        int | None, option(OUTPUT, "Loops of each cluster.", "--best", metavar="NUMBER")
+        int | None, option(OUTPUT, "Number of loops per cluster.", "--best", metavar="NUMBER")
     ] = None,
-    straight: Annotated[bool, option(OUTPUT, "Take out each clip's turn.", "--straight")] = False,
+    straight: Annotated[
+        bool, option(OUTPUT, "Remove the turn of each clip.", "--straight")
+    ] = False,
     mirror: Annotated[bool, option(OUTPUT, "Exchange left and right.", "--mirror")] = False,
     segments: SegmentTable = None,
     recursive: Recursive = False,
@@ -90,7 +95,7 @@ def split(
         )
         if not quiet:
             loop_table = loop and folder.is_dir()
-            where = "; manifest.csv tells how good each loop is (cost, less is better)" * loop_table
+            where = "; manifest.csv lists the cost of each loop (lower is better)" * loop_table
             typer.echo(f"{format_count(len(clips), 'clip')} in {folder}{where}")
 
     for name in ("sheet", "motion_matching"):

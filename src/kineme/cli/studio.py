@@ -29,7 +29,7 @@ def studio(
         list[Path] | None,
         typer.Argument(
             metavar="FILES|FOLDER",
-            help="Recordings, a folder of them, or a library; by default the folder you are in.",
+            help="Recordings, a folder of them, or a library; by default the current folder.",
         ),
     ] = None,
     port: Annotated[
@@ -52,7 +52,9 @@ def studio(
     ] = True,
     dev: Annotated[
         bool,
-        typer.Option("--dev", hidden=True, help="For `npm run dev`: pages from their sources."),
+        typer.Option(
+            "--dev", hidden=True, help="Serve the pages from their sources, for `npm run dev`."
+        ),
     ] = False,
 ) -> None:
     """See and correct segments in the browser.
@@ -74,7 +76,7 @@ def studio(
         if recordings is None and (root / HEAD).is_file():
             if are_given(context, OPTIONS):
                 raise ParameterError(
-                    f"{root} is a library, which is read as it was built: leave out these options"
+                    f"{root} is a library, which already has reading options: leave these out"
                 )
             from kineme.studio.library import StudioLibrary
 

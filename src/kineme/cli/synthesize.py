@@ -24,8 +24,8 @@ def synthesize(
         str | None,
         option(
             CONTENT,
-            "Labels or cluster numbers in order, as in walk,run*3,jump; "
-            "with --path the allowed ones, without counts.",
+            "Labels or cluster numbers in order, as in walk,run*3,jump; with --path, the "
+            "allowed ones without counts.",
             metavar="NAME*COUNT,…",
         ),
     ] = None,
@@ -33,7 +33,7 @@ def synthesize(
         str | None,
         option(
             CONTENT,
-            "Line on the floor to follow, in metres, such as 0,0;3,0;3,3.",
+            "Line on the floor to follow, as x,z in metres, such as 0,0;3,0;3,3.",
             metavar="X,Z;X,Z;…",
         ),
     ] = None,
@@ -91,7 +91,7 @@ def _drop_counts(actions: list[tuple[str, int]]) -> list[str]:
     for name, count in actions:
         if count > 1:
             raise ParameterError(
-                f"{name}*{count}: with --path an action has no count, for the line says how far "
-                f"to go; give {name}"
+                f"{name}*{count}: with --path the line sets the length, so give {name} "
+                "without a count"
             )
     return [name for name, _ in actions]

@@ -22,12 +22,12 @@ Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """Title and rows; a row is a name and its cells."""
 
 CONFIDENCE = "sure %"
-CONFIDENCE_NOTE = "sure %: how probable it is that the number of repetitions is right"
+CONFIDENCE_NOTE = "sure %: probability that the number of repetitions is right"
 TEXT_COLUMNS = ("kind", "cluster", "label", "recording", "example")
 """Columns without numbers, aligned left."""
 _NOTHING_FOUND = (
-    "no activity found: nothing stays similar or repeats for long enough; for a recording of a few "
-    "seconds --set min_action=0.5 or --preset krueger2017 may find more"
+    "no activity found: nothing repeats or stays similar for long enough. For a recording "
+    "of a few seconds, try --set min_action=0.5 or --preset krueger2017"
 )
 
 
@@ -143,7 +143,7 @@ def _tabulate_activities(segmentation: Segmentation) -> Table:
         cells = count, format_per_cent(probability), format_cluster(row.cluster), row.label
         table.add_row(*_format_span(number, row), *cells, style=_choose_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
-        captions.append("(+n): primitives of the activity that are in other clusters, or in none")
+        captions.append("(+n): primitives of the activity in other clusters or in none")
     if keep_if_filled(table, CONFIDENCE):
         captions.append(CONFIDENCE_NOTE)
     table.caption, table.caption_justify = "\n".join(captions) or None, "left"

@@ -35,7 +35,7 @@ def transfer(
         list[Path],
         option(
             INPUT,
-            "Knowledge base that `kineme label` made, .npz; may be given again.",
+            "Knowledge base that `kineme label` made, .npz; may be repeated.",
             metavar="FILE",
         ),
     ],
@@ -50,14 +50,18 @@ def transfer(
     ] = None,
     spread: Annotated[
         bool,
-        option(METHOD, "Give a whole cluster the label of most of its primitives.", "--spread"),
+        option(
+            METHOD,
+            "Give every primitive of a cluster the most frequent label of the cluster.",
+            "--spread",
+        ),
     ] = False,
     output: Annotated[
         Path | None,
         option(
             OUTPUT,
-            f"Segment table or labels: {TABLES}. Of several recordings: a folder, or a path "
-            "with {name} in it.",
+            f"Segment table or labels: {TABLES}. For several recordings, a folder, or a "
+            "path with {name} in it.",
             "--output",
             "-o",
         ),

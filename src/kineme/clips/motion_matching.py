@@ -77,8 +77,11 @@ class Database:
         numbers = {joint: bone for bone, joint in enumerate(bones, 1)}
         parents = tuple(numbers.get(motion.skeleton.parents[joint], 0) for joint in bones)
         skeleton = ("root", *(motion.skeleton.names[j] for j in bones)), (-1, *parents)
-        if motion.rotations is None or (self.skeleton or skeleton) != skeleton:
-            lacks = "bones other than those before" if motion.rotations is not None else "points"
+        self.skeleton = self.skeleton or skeleton
+        if motion.rotations is None or self.skeleton != skeleton:
+            lacks = (
+                "other bones than the previous motion" if motion.rotations is not None else "points"
+            )
             raise ParameterError(
                 f"motion_matching needs rotations of one skeleton, {motion.provenance.path} has "
                 f"{lacks}"

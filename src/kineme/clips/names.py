@@ -89,9 +89,7 @@ def check_template(template: str) -> None:
         if not unknown:
             fill_template(template, dict.fromkeys(FIELDS, "") | {"n": 0, "cluster": 0})
     except (ValueError, AttributeError, TypeError) as error:
-        raise ParameterError(
-            f"name is {template!r:.60}, which cannot be filled in: {error}"
-        ) from error
+        raise ParameterError(f"name is {template!r:.60}, which is not valid: {error}") from error
     if unknown or not fields:
         names = ", ".join(f"{{{field}}}" for field in FIELDS)
         raise ParameterError(f"name is {template!r:.60}: give a text with some of {names} in it")

@@ -78,7 +78,7 @@ def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion
         across * sin(facing) + ahead * cos(facing),
         start.turn,
     )
-    return _add_note(settled, "root motion taken out, put to the origin"), removed
+    return _add_note(settled, "root motion removed, moved to the origin"), removed
 
 
 def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
@@ -112,7 +112,7 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
 def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
     """Return the motion without its turn, so that the body keeps its initial direction."""
     shift = _solve_even_shift(_move_origin(carry, _find_start(motion)))
-    straight = _add_note(_follow_path(motion, carry, shift), "turn taken out")
+    straight = _add_note(_follow_path(motion, carry, shift), "turn removed")
     return straight, Carry(0.0, float(shift[0]), float(shift[2]))
 
 

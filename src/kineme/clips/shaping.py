@@ -80,11 +80,11 @@ class Shape:
         best = self.best
         if best is not None:
             if not is_number(best) or best != int(best) or best < 1:
-                raise ParameterError(f"best is {best!r:.60}: give a number of loops, 1 at least")
+                raise ParameterError(f"best is {best!r:.60}: give a number of loops, at least 1")
             if not self.loops:
-                raise ParameterError("best is of loops only: ask for loops (--loop), too")
+                raise ParameterError("best needs loops: add loops (--loop)")
         if self.close and not self.loops:
-            raise ParameterError("only loops are closed: ask for loops (--loop), too")
+            raise ParameterError("closed needs loops: add loops (--loop)")
         if self.fps is not None and not (is_number(self.fps) and self.fps > 0):
             raise ParameterError(f"fps is {self.fps!r:.60}: give frames per second, above 0")
 

@@ -159,8 +159,8 @@ def split_all(
     for recording, segmentation in inputs:
         if segmentation.n_frames != recording.n_frames:
             raise MotionError(
-                f"the segments are of a recording of {segmentation.n_frames} frames, "
-                f"this one has {recording.n_frames}"
+                f"the segments have {segmentation.n_frames} frames, but the recording has "
+                f"{recording.n_frames}"
             )
         rows = [row for row in segmentation.level(level) if cluster in (None, row.cluster)]
         clips.append((recording, rows))
@@ -238,15 +238,17 @@ def _write_one_file(
         raise ParameterError(f"{target.name} holds clips of one recording: give a folder")
     source, lists = Path(first.provenance.path or ""), name_manifests(target)
     if source.name and source.exists() and target.exists() and source.samefile(target):
-        raise ParameterError(f"{target} would take the place of its recording: give another name")
+        raise ParameterError(f"{target} would overwrite its recording: give another name")
     if target.exists() and not lists[1].exists():
-        raise WriteError(target, "is there already, without a manifest: give another name")
+        raise WriteError(target, "exists already without a manifest: give another name")
     number, names = 0, set[str]()
     entries, animations = list[Clip](), dict[str, Motion]()
     companions = Companions(chosen.given)
     for recording, rows, *ranked in sources:
         if isinstance(recording, Signals):
-            raise ParameterError(f"signals are no animations of {target.name}: give a folder")
+            raise ParameterError(
+                f"signals cannot be written as animations to {target.name}: give a folder"
+            )
         run = _ClipNamer(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
         number += len(rows)
         shaped = _make_clips(run, recording, rows, companions, *ranked)
@@ -355,7 +357,9 @@ class _ClipNamer:
         name, own = self.named(index, segment, tags, loop=is_loop)
         for key in {name.casefold(), f"{own.casefold()}{suffix}"} if self.chosen.name else ():
             if key in self.names:
-                raise ParameterError(f"two clips would be called {name}: put {{n}} in their name")
+                raise ParameterError(
+                    f"two clips would have the name {name}: put {{n}} in their name"
+                )
             self.names.add(key)
         return Clip(
             name=name,

@@ -215,13 +215,15 @@ def _check_comparable(first: Cycles, second: Cycles) -> None:
             each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
         )
     if first.channels != second.channels:
-        raise ParameterError("two sessions are compared by the same channels: choose them by name")
+        raise ParameterError(
+            "two sessions can only be compared by the same channels: choose them by name"
+        )
     if not {*first.groups} & {*second.groups}:
         raise ParameterError(
-            f"no group is in both sessions: {', '.join(first.groups) or 'none'} and "
-            f"{', '.join(second.groups) or 'none'}; name clusters alike, or say with --common "
-            "(common=True) that equal numbers are equal movements: in the studio, or by `kineme "
-            "library name` and `export`, whose table --segments takes"
+            f"the sessions have no group in common: {', '.join(first.groups) or 'none'} and "
+            f"{', '.join(second.groups) or 'none'}. Give clusters the same names (in the "
+            "studio, or with `kineme library name` and `export` for --segments), or use "
+            "--common (common=True) if equal numbers are equal movements"
         )
 
 

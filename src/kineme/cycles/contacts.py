@@ -202,10 +202,10 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     [[0.0, 0.48], [1.02, 1.5]]
     """
     if not points:
-        raise ParameterError("a foot needs one point at least: its heel, its toe or its ankle")
+        raise ParameterError("a foot needs at least one point: heel, toe or ankle")
     paths = [_check_points(each, "points") for each in points]
     if len({len(path) for path in paths}) > 1:
-        raise ParameterError("the points of a foot must be of the same frames")
+        raise ParameterError("the points of a foot must have the same number of frames")
     # (frames, 3): how far the ground has moved since the start.
     ground_shift = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)

@@ -182,7 +182,9 @@ def foot_events(
     is_body = isinstance(recording, Motion)
     for side, pattern in zip(SIDES, (left, right), strict=True):
         if is_body and pattern is not None:
-            raise ParameterError("left= and right= name channels of signals; this is a body")
+            raise ParameterError(
+                "left= and right= name channels of signals, but this is a body: leave them out"
+            )
         foot = find_foot(recording, side, pattern)
         if not foot:
             continue
@@ -201,9 +203,9 @@ def foot_events(
             names += [f"{side} {event}"] * len(seconds)
     if not sources:
         raise ParameterError(
-            "no foot was found: a body needs heels or ankles by a usual name; of signals name the "
-            "channels of its gyroscope, as in left='lf_gyr_*' (--left 'lf_gyr_*'), or the force "
-            "under it (of a C3D --columns '*' --left Fz1 --right Fz2)"
+            "no foot found: a body needs heels or ankles with usual names. For signals, "
+            "name each foot's gyroscope or force channels, as in left='lf_gyr_*' (--left "
+            "'lf_gyr_*'; for a C3D --columns '*' --left Fz1 --right Fz2)"
         )
     # The stable sort keeps the left foot first at equal times.
     order = np.argsort(times, kind="stable")
@@ -230,7 +232,7 @@ def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None
         if len(chosen) not in (1, 3):
             raise ParameterError(
                 f"{side}={pattern!r} names {format_count(len(chosen), 'channel')} of "
-                f"{join_names(names, NAMED)}: three axes of a gyroscope are needed, or one force"
+                f"{join_names(names, NAMED)}: name three axes of a gyroscope or one force"
             )
         return chosen
     for place in ("*_foot_sensor", "*_shank_sensor"):
@@ -332,7 +334,7 @@ def _warn_implausible(gait: Columns) -> None:
     for i, measure in enumerate(gait["measure"].tolist()):
         if measure == "stance_percent":
             remarks += [
-                f"the {side} foot stands for {mean:.0f} % of a stride"
+                f"the {side} foot is on the ground for {mean:.0f} % of a stride"
                 for side in SIDES
                 if (mean := gait[f"{side}_mean"][i]) < STANCE[0] or mean > STANCE[1]
             ]

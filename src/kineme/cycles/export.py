@@ -135,7 +135,7 @@ def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
     for name, columns in _make_tables(cycles, ends).items():
         n = len(next(iter(columns.values()))) if columns else 0
         if n > SHEET_ROWS:
-            raise WriteError(path, f"a sheet cannot hold {n} rows of {name}: write .parquet")
+            raise WriteError(path, f"a spreadsheet cannot hold {n} rows of {name}: write .parquet")
         sheet = book.create_sheet(name)
         sheet.append([*columns])
         # Excel stores None as an empty cell, and "" as a text.

@@ -122,13 +122,15 @@ def cycles(
     for each, name in zip(measured, names, strict=True):
         if other := sorted({*first} ^ {channel.name for channel in each}):
             raise ParameterError(
-                f"{names[0]} and {name} do not have the same channels: {', '.join(other[:8])}; "
-                "choose such as both have with channels="
+                f"{names[0]} and {name} do not have the same channels: "
+                f"{', '.join(other[:8])}; choose channels that both have with channels="
             )
     repetitions = find_repetitions(items, tables, groups)
     if anchor is not None:
         if not isinstance(anchor, str) and len(items) > 1:
-            raise ParameterError("seconds of events belong to one recording: name them instead")
+            raise ParameterError(
+                "seconds of events apply to one recording only: give the names of events instead"
+            )
         repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
     columns = _make_columns(repetitions, tables, names, groups)
     provenance = _make_provenance(items, tables, repetitions, columns)
@@ -185,16 +187,16 @@ def _check_inputs(
         check_type(signals, Signals, "cycles", "beside= takes a list of signals")
     if not items or len(items) != len(tables):
         raise ParameterError(
-            f"cycles takes a segmentation of each recording, not {len(tables)} of {len(items)}"
+            f"cycles takes one segmentation per recording, not {len(tables)} of {len(items)}"
         )
     for recording, table in zip(items, tables, strict=True):
         if (table.n_frames, table.fps) != (recording.n_frames, recording.fps):
             raise ParameterError(
-                f"the segments are of {table.n_frames} frames at {table.fps:g} Hz, "
-                f"the recording has {recording.n_frames} at {recording.fps:g} Hz"
+                f"the segments have {table.n_frames} frames at {table.fps:g} Hz, but the "
+                f"recording has {recording.n_frames} at {recording.fps:g} Hz"
             )
     if beside and len(items) > 1:
-        raise ParameterError("beside= belongs to one recording: measure several one by one")
+        raise ParameterError("beside= works with one recording only: measure several one by one")
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
     return list(items), list(tables)
@@ -376,8 +378,9 @@ def _make_provenance(
             for (name, activity, group), by in moved.items()
         ],
         "notes": [
-            f"{group} in activity {activity} of {name} begins {abs(round(by, 4)):.0%} of a cycle "
-            f"{'later' if by > 0 else 'earlier'} than its segments, where others of it begin"
+            f"{group} in activity {activity} of {name} begins {abs(round(by, 4)):.0%} of a "
+            f"cycle {'later' if by > 0 else 'earlier'} than its segments, to match the "
+            "other repetitions"
             for (name, activity, group), by in moved.items()
         ],
     }

@@ -299,7 +299,7 @@ def anchor_repetitions(
     for i, each in enumerate(repetitions):
         # Repetitions are sorted by time, so the next one of the run is the next in the list.
         start, stop = starts[i], starts[i + 1] if each.place in ("first", "inner") else np.nan
-        lacking = "no event" if np.isnan(start) else "no event ends it" if np.isnan(stop) else ""
+        lacking = "no event" if np.isnan(start) else "no event follows it" if np.isnan(stop) else ""
         # Events in the wrong order; False where one of them is nan.
         if stop <= start:
             start, stop, lacking = np.nan, np.nan, "no event"
@@ -319,7 +319,7 @@ Curve = tuple[Floats, float]
 def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:
     channels = channels_of(recording, [name], beside=beside)
     if len(channels) > 1:
-        raise ParameterError(f"an anchor is one channel, and {name!r} names {len(channels)}")
+        raise ParameterError(f"an anchor must be one channel, but {name!r} names {len(channels)}")
     return channels[0].values(), channels[0].fps
 
 
@@ -409,6 +409,7 @@ def _find_event_times(
         return np.sort(marked)
     names = sorted({text for _, text in events})
     raise ParameterError(
-        f"no event {anchor!r}; there are {', '.join([*names, 'left foot strike, and so on'])}; "
-        "of a channel give its largest value or a threshold, as in 'knee_r max', 'knee_r > 40'"
+        f"no event {anchor!r}; there are "
+        f"{', '.join([*names, 'left foot strike, and so on'])}. For a channel, give its "
+        "maximum or a threshold, as in 'knee_r max' or 'knee_r > 40'"
     )

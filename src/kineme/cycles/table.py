@@ -58,7 +58,7 @@ STATISTICS = ("range", "min", "max", "min_at", "max_at", "mean", "start", "stop"
 """Statistics of each channel in each cycle; ``_at`` in per cent of the cycle, ``start`` and
 ``stop`` at its borders."""
 INNER = "inner"
-BY_HAND, INCOMPLETE, FAR, UNSURE = "by hand", "incomplete", "far from the mean", "border not sure"
+BY_HAND, INCOMPLETE, FAR, UNSURE = "by hand", "incomplete", "far from the mean", "uncertain border"
 FEWEST = 5
 """Least number of cycles in a group to find outliers."""
 DEVIATION = 0.6745
@@ -190,7 +190,9 @@ class Cycles:
         chosen = as_indices(rows, "rows")
         for row in chosen:
             if not 0 <= row < len(self):
-                raise ParameterError(f"there is no cycle {row}: they are 0 to {len(self) - 1}")
+                raise ParameterError(
+                    f"there is no cycle {row}: choose one from 0 to {len(self) - 1}"
+                )
         # Fixed-width strings would truncate longer reasons.
         reasons = self.columns["excluded"].astype(object)
         for row in chosen:

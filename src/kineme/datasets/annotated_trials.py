@@ -89,11 +89,14 @@ def _read_text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
         elif row and rows is not None:
             rows.append(Action(row[1], *map(int, row.groups()[1:])))
         elif line.strip():
-            reason = f"neither a trial's name nor 'label earliest mean latest': {line.strip()!r}"
+            reason = (
+                "expected the name of a trial or 'label earliest mean latest', found: "
+                f"{line.strip()!r}"
+            )
             raise ReadError(path, reason, line=number)
     if not trials or not all(trials.values()):
         empty = next((name for name, actions in trials.items() if not actions), None)
-        raise ReadError(path, f"trial {empty} has no rows" if empty else "holds no trial")
+        raise ReadError(path, f"trial {empty} has no rows" if empty else "contains no trial")
     return trials
 
 
@@ -105,7 +108,8 @@ def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
         fixed = Action(row.label, min(frames), frames[1], max(frames))
         if fixed != row:
             warnings.warn(
-                f"trial {trial}, row {number} ({row.label}): marks {row[1:]} mended to {fixed[1:]}",
+                f"trial {trial}, row {number} ({row.label}): marks {row[1:]} corrected to "
+                f"{fixed[1:]}",
                 KinemeWarning,
                 stacklevel=4,
             )

@@ -98,7 +98,7 @@ def fetch_subject(
     """
     for number in (subject, *(trials or ())):
         if number < 1:
-            raise ParameterError(f"subjects and trials count from 1, not {number}")
+            raise ParameterError(f"subjects and trials are numbered from 1, not {number}")
     home = Path(folder) if folder is not None else find_cache_folder() / f"cmu{subject:02d}"
     base = f"{site.rstrip('/')}/subjects/{subject:02d}/{subject:02d}"
 
@@ -120,7 +120,7 @@ def fetch_subject(
     if subject == 86:
         text = get(annotations)
         if text is None:
-            raise ReadError(annotations, "the annotations are not there any more")
+            raise ReadError(annotations, "the annotations were removed meanwhile: fetch them again")
         yield text
 
 

@@ -84,7 +84,7 @@ class _Download:
             self.check(self.part)
         except FileError as error:
             self.part.unlink()
-            reason = f"the server sent something else: {error.reason}"
+            reason = f"the server sent another file: {error.reason}"
             raise ReadError(url, reason, line=error.line) from error
         self.part.replace(output_file)
 
@@ -100,7 +100,7 @@ class _Download:
                 furthest = max(furthest, self._size())
                 if failures == ATTEMPTS:
                     raise ReadError(
-                        url, f"gave up after {ATTEMPTS} attempts in vain: {error}"
+                        url, f"gave up after {ATTEMPTS} failed attempts: {error}"
                     ) from error
                 time.sleep(min(self.timeout_s, 2.0**failures) / 4)
 
@@ -133,10 +133,10 @@ class _Download:
             if response.headers.get("Content-Range", "").startswith(f"bytes {size}-"):
                 return size
             self.part.unlink()
-            raise _BrokenOffError("the server sends another part than it was asked for")
+            raise _BrokenOffError("the server sent another part than requested")
         if response.status_code == 416:  # the file on the server became shorter
             self.part.unlink()
-            raise _BrokenOffError("the server refuses to send the rest")
+            raise _BrokenOffError("the server refused to send the rest")
         if response.status_code != 200:
             raise ReadError(url, f"the server answers {response.status_code} {response.reason}")
         return 0
@@ -156,7 +156,7 @@ class _Download:
             if not complete:
                 self._date(response)
         if not complete:
-            raise _BrokenOffError(f"only {size} of {total} bytes came")
+            raise _BrokenOffError(f"only {size} of {total} bytes arrived")
 
     def _date(self, response: Response) -> None:
         """Set the file's date to the server's; delete the file if there is none."""
@@ -175,10 +175,10 @@ def _explain_error(error: Any, timeout_s: float) -> str:
     import requests
 
     if isinstance(error, requests.ConnectTimeout | requests.ReadTimeout):
-        return f"the server was silent for {timeout_s:g} s"
+        return f"the server sent nothing for {timeout_s:g} s"
     if isinstance(error, requests.exceptions.ChunkedEncodingError):
-        return "the connection broke off"
+        return "the connection was lost"
     if isinstance(error, requests.ConnectionError):
         silent = "timed out" in str(error)
-        return f"the server was silent for {timeout_s:g} s" if silent else "no connection"
+        return f"the server sent nothing for {timeout_s:g} s" if silent else "no connection"
     return str(error)

@@ -191,7 +191,7 @@ def fleiss_kappa(counts: ArrayLike) -> float:
     people = table.sum(axis=1)
     n = float(people[0])
     if n < 2 or (people != n).any():
-        raise ParameterError("every subject needs as many people, and two at least")
+        raise ParameterError("every subject needs the same number of annotators, at least two")
     # Share of ordered pairs of people who agree, averaged over subjects.
     agreed = float(np.mean((np.square(table).sum(axis=1) - n) / (n * (n - 1))))
     # Expected agreement: squared shares of the classes in all assignments.
@@ -429,7 +429,7 @@ def gather_labels(
                 failures.append(f"{name}, {who}: {error}")
             else:
                 if "activity" not in sides[who].activities.kind:
-                    failures.append(f"{name}, {who}: {source.path} says nothing of it")
+                    failures.append(f"{name}, {who}: {source.path} has no labels for it")
                     del sides[who]
     return labelled, failures
 

@@ -312,7 +312,7 @@ def compare(
     """
     if truth.n_frames != found.n_frames:
         raise ParameterError(
-            f"the labels are of {truth.n_frames} frames, the result of {found.n_frames}"
+            f"the labels have {truth.n_frames} frames, but the result has {found.n_frames}"
         )
     truth = add_repetitions(truth)
     numbers = {} if classes is None else classes
@@ -335,7 +335,7 @@ def compare(
     labels, clusters = _expand_to_frames(truth, row_classes), _expand_to_frames(found, row_clusters)
     counted = labels != UNLABELLED
     if not counted.any():
-        raise ParameterError("the labels say nothing of this recording: every frame is unlabelled")
+        raise ParameterError("the labels do not cover this recording: every frame is unlabelled")
     # Remove frames without a label from both sides.
     compared = Comparison(labels[counted], clusters[counted], found.fps)
     spans = compared.spans

@@ -279,7 +279,7 @@ def read_selected(
         return read(path, **vars(options))
     signals = read(path, **vars(replace(options, columns=())))
     if not isinstance(signals, Signals):
-        raise ParameterError(f"{path}: has no columns to choose from")
+        raise ParameterError(f"{path}: has no columns to select")
     columns = options.columns or ("*",)
     kept = [
         name
@@ -288,7 +288,7 @@ def read_selected(
     ]
     if not kept:
         names = ", ".join(signals.names)
-        raise ParameterError(f"{path}: no column is left of {names:.200}")
+        raise ParameterError(f"{path}: no column remains of {names:.200}")
     unmet = [
         p for p in (*columns, *without) if not any(_matches_any(name, p) for name in signals.names)
     ]

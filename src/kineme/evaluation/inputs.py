@@ -168,7 +168,7 @@ def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
         trials = read_trials(path, fps=fps)
     if name not in trials:
         names = ", ".join(trials)
-        raise ReadError(path, f"holds no trial {name!r}: name one of {names} with --trial")
+        raise ReadError(path, f"contains no trial {name!r}: name one of {names} with --trial")
     return trials[name]
 
 

@@ -298,7 +298,7 @@ def _compute_result(score: Score, compared: Comparison) -> Value:
         raise
     except Exception as error:  # noqa: BLE001 (scores of other packages may raise anything)
         reason = f"{type(error).__name__}: {error}"
-        text = f"the score {score.name!r:.60} is left out, it fails: {reason:.200}"
+        text = f"the score {score.name!r:.60} was left out, since it failed: {reason:.200}"
         warnings.warn(text, KinemeWarning, stacklevel=2)
         return None
 
@@ -351,9 +351,9 @@ def explain_disagreement(columns: Mapping[str, Mapping[str, float]]) -> str:
         # The comparison is False for nan.
         if values.get("border_f1", math.nan) - by_class > DISAGREEMENT:
             return (
-                "Borders are better than classes: Edit, F1@k and shares of frames also need the "
-                "right class, and a cluster stands for one label only. Look at labels that share a "
-                "cluster, or one label that has several."
+                "The borders are better than the classes: Edit, F1@k and frame accuracy "
+                "also need the right class, and each cluster is matched with one label. "
+                "Look for labels that share a cluster or have several."
             )
     return ""
 

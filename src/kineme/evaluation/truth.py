@@ -62,14 +62,15 @@ class Labelling:
         object.__setattr__(self, "borders", np.asarray(self.borders, np.int64))
         object.__setattr__(self, "labels", tuple(map(str, self.labels)))
         if self.borders.size < 2 or self.borders[0] != 0:
-            raise ParameterError("a labelling starts at frame 0 and has at least one interval")
+            raise ParameterError("labels must start at frame 0 and have at least one interval")
         falls = np.flatnonzero(np.diff(self.borders) <= 0)
         if falls.size:
             before, after = self.borders[falls[0] : falls[0] + 2]
-            raise ParameterError(f"borders must rise: {after} follows {before}")
+            raise ParameterError(f"borders must increase: {after} follows {before}")
         if len(self.labels) != self.borders.size - 1:
             raise ParameterError(
-                f"{self.borders.size - 1} intervals need as many labels, not {len(self.labels)}"
+                f"{self.borders.size - 1} intervals need the same number of labels, not "
+                f"{len(self.labels)}"
             )
 
     @classmethod
@@ -89,7 +90,7 @@ class Labelling:
         """Create a labelling from one label per frame: one interval per run of equal labels."""
         names = np.array([str(label) for label in labels], dtype=object)
         if not names.size:
-            raise ParameterError("one label per frame is needed, there are none")
+            raise ParameterError("no labels: give one label per frame")
         # + 1: the first frame of each new label.
         cuts = np.flatnonzero(names[1:] != names[:-1]) + 1
         starts = np.concatenate([[0], cuts])
@@ -211,10 +212,10 @@ class Truth:
         if not (np.isfinite(self.tolerance_s) and self.tolerance_s >= 0):
             raise ParameterError(f"the tolerance must be 0 s or more, not {self.tolerance_s}")
         if not set(self.labels) - {TRANSITION}:
-            raise ParameterError("a truth needs at least one action")
+            raise ParameterError("annotations need at least one action")
         if self.counts and len(self.counts) != len(self.labels):
             raise ParameterError(
-                f"{len(self.labels)} actions need as many counts, not {len(self.counts)}"
+                f"{len(self.labels)} actions need the same number of counts, not {len(self.counts)}"
             )
         if self.repetitions is not None and self.repetitions.frames != self.frames:
             raise ParameterError(
@@ -233,8 +234,8 @@ class Truth:
         if backwards.size:
             i = backwards[0]
             raise ParameterError(
-                f"the border after action {i + 1} ({self.labels[i]}) runs backwards: earliest "
-                f"{self.earliest[i]}, mean {self.mean[i]}, latest {self.latest[i]}"
+                f"the border after action {i + 1} ({self.labels[i]}) is not in order: "
+                f"earliest {self.earliest[i]}, mean {self.mean[i]}, latest {self.latest[i]}"
             )
         # Certain part of each action: from its latest start to its earliest end.
         begins = np.concatenate([[0], self.latest])
@@ -319,7 +320,7 @@ def check_length(frames: int, fps: float, others: int, rate: float) -> None:
     # Tolerate one frame of the slower rate, for rounding.
     if abs(length - other) > 1 / min(fps, rate) + 1e-9:
         raise ParameterError(
-            f"the labels cover {length:.3f} s ({frames} frames at {fps:g} fps), the "
+            f"the labels cover {length:.3f} s ({frames} frames at {fps:g} fps), but the "
             f"recording lasts {other:.3f} s ({others} frames at {rate:g} fps)"
         )
 

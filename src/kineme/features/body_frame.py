@@ -118,15 +118,15 @@ def find_parting(
     # Both chains begin at the root and are equal down to the joint where the limbs branch.
     shared = sum(1 for a, b in zip(left, right, strict=False) if a == b)
     if shared == 0:
-        raise MotionError(f"the {limbs} hang on different roots: nothing joins them")
+        raise MotionError(f"the {limbs} belong to different roots, so no joint connects them")
     pelvis = left[shared - 1]
     # Some skeletons have several joints at the same place below it.
     for left_hip, right_hip in zip(left[shared:], right[shared:], strict=False):
         if np.linalg.norm(_measure_hip_axis(skeleton, pelvis, left_hip, right_hip)) > 0:
             return pelvis, left_hip, right_hip
     raise MotionError(
-        f"left and right {limbs} coincide below {skeleton.names[pelvis]!r}, so nothing tells the "
-        "facing"
+        f"left and right {limbs} coincide below {skeleton.names[pelvis]!r}, so the facing "
+        "direction is unknown"
     )
 
 

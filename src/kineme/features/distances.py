@@ -83,7 +83,9 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
     """
     array = np.asarray(positions, np.float64)
     if array.shape[1] < 2:
-        raise MotionError("a single point is in no distance: segment its coordinates as signals")
+        raise MotionError(
+            "a single point has no distances to others: segment its coordinates as signals"
+        )
     points = choose_spread_points(array)
     features = _filter_median(_compute_distances(array[:, points]))
     # Before centring: the largest mean distance measures the overall size.

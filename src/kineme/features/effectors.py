@@ -120,7 +120,7 @@ def end_effectors(source: Skeleton | Motion, *, names: Names | None = None) -> E
     # A joint must not serve as two parts.
     if len(set(joints)) < len(PARTS):
         duplicate = next(joint for joint in joints if joints.count(joint) > 1)
-        reason = f"joint {skeleton.names[duplicate]!r} serves as two end effectors"
+        reason = f"joint {skeleton.names[duplicate]!r} is used for two end effectors"
         raise EndEffectorError(
             f"{reason}; name five different joints with --effectors", reason=reason
         )
@@ -131,8 +131,8 @@ def suggest_remedy(skeleton: Skeleton) -> str:
     """Say how to make the end effectors of a recording known, if they were not found."""
     if max(skeleton.parents) < 0:  # markers: the body's own frame also needs a pelvis
         return (
-            "to be looked at as a body, the markers of pelvis, ankles, head and wrists need the "
-            "names of a marker set (LASI, RASI, LPSI, RPSI, LANK, ...)"
+            "rename the markers of pelvis, ankles, head and wrists as in a marker set "
+            "(LASI, RASI, LPSI, RPSI, LANK, ...) to segment them as a body"
         )
     parts = ",".join(PARTS).upper()
     return f"name all five with --effectors {parts} (effectors=... in Python)"
@@ -219,7 +219,7 @@ def measure_body_size(motion: Motion, effectors: EndEffectors) -> float:
     if not size > 0:
         remedy = "" if max(motion.skeleton.parents) >= 0 else f": {suggest_remedy(motion.skeleton)}"
         raise MotionError(
-            "the bones between ankles and head have no length, as among markers without a pelvis"
+            "the bones between ankles and head have no length, as in markers without a pelvis"
             + remedy
         )
     return size

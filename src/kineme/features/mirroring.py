@@ -221,9 +221,7 @@ def _find_partners(skeleton: Skeleton) -> list[int]:
         for joint, name in enumerate(names)
     ]
     if partners == list(range(len(names))):
-        raise MotionError(
-            f"no two joints are named as left and right of each other: {', '.join(names)}"
-        )
+        raise MotionError(f"no joint names form a pair of left and right: {', '.join(names)}")
     for joint, parent in enumerate(skeleton.parents):
         partner = partners[joint]
         beside = skeleton.parents[partner]

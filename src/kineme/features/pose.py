@@ -119,7 +119,8 @@ def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
     frames = tuple(sorted(round(offset * fps) for offset in offsets_s))
     if len(set(frames)) < len(frames):
         raise ParameterError(
-            f"offsets {tuple(offsets_s)} s fall on the same frame at {fps:g} Hz; space them wider"
+            f"offsets {tuple(offsets_s)} s fall on the same frame at {fps:g} Hz: choose "
+            "wider offsets"
         )
     return frames
 

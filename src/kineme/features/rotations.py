@@ -37,7 +37,7 @@ def compute_joint_quaternions(motion: Motion) -> Floats:
         The motion has no rotations, or lacks one of these joints.
     """
     if motion.rotations is None:
-        raise MotionError("the motion has positions only; these methods need its rotations")
+        raise MotionError("these methods need rotations, but the motion has positions only")
     names = motion.skeleton.names
     missing = [joint for joint in JOINTS if joint not in names]
     if missing:

@@ -115,11 +115,11 @@ def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
         signal = np.asarray(values, np.float64)
     except (ValueError, TypeError):
         raise ParameterError(
-            "a signal is frames x channels of numbers: columns of texts?"
+            "a signal must be frames x channels of numbers: remove columns of text"
         ) from None
     signal = signal[:, None] if signal.ndim == 1 else signal
     if signal.ndim != 2 or 0 in signal.shape:
-        raise ParameterError(f"a signal is frames x channels, not of shape {signal.shape}")
+        raise ParameterError(f"a signal must be frames x channels, not of shape {signal.shape}")
     if not (np.isfinite(fps) and fps > 0):
         raise ParameterError(f"the frame rate must be a positive number, not {fps}")
     averaged = max(1, int(fps / (2 * RATE)))  # frames whose mean is compared: 0.05 s

@@ -76,7 +76,7 @@ def columns_to_motion(
     positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)
     if n_unsure:
-        notes.append(f"{format_count(n_unsure, 'position')} less sure than {limit:g} not used")
+        notes.append(f"{format_count(n_unsure, 'position')} below confidence {limit:g} not used")
     unit, stated_unit, up = options.unit, None, options.up
     if unit is None:
         stated_unit, unit_notes = _find_common_unit(content, joints, positions)
@@ -140,28 +140,30 @@ def _find_common_unit(
         if not (units and unstated):
             return (units[0] if units else None), []
         unit = _match_unit(positions, [joint in unstated for joint in joints], units[0])
-        remark = f"columns of {format_count(len(unstated), 'point')} tell no unit, and are taken in"
+        remark = f"columns of {format_count(len(unstated), 'point')} state no unit; read in"
         if unit == units[0]:
-            return unit, [Note(f"{remark} that of the others, {unit}", "warning")]
+            return unit, [Note(f"{remark} the unit of the others, {unit}", "warning")]
         stated_joints = [j for j, joint in enumerate(joints) if joint not in unstated]
         # Convert the other joints to the unit of those without one.
         positions[:, stated_joints] *= to_metres(units[0]) / to_metres(unit)
         return unit, [
-            Note(f"{remark} {unit}, as large as they are; others in {units[0]}", "warning")
+            Note(f"{remark} {unit}, which fits their size; others in {units[0]}", "warning")
         ]
     listed = " and ".join(units)
     if "pixel" in units:
-        raise content.error(f"columns are in {listed}, which no scale relates: keep those of one")
+        raise content.error(
+            f"columns are in {listed}, which cannot be converted: keep columns of one unit"
+        )
     if unstated:
         column = next(iter(joints[unstated[0]].values()))
         raise content.error(
-            f"columns are in {listed}, and {column!r} tells no unit: add it to the name, as in "
-            f"'{column} [{units[0]}]', or give unit= (--unit) for all of them"
+            f"columns are in {listed}, and {column!r} states no unit: add it to the name, "
+            f"as in '{column} [{units[0]}]', or give unit= (--unit) for all of them"
         )
     for j, axes in enumerate(by_joint.values()):
         for axis, stated in axes.items():
             positions[:, j, "xyz".index(axis)] *= to_metres(stated or "m")
-    return "m", [f"columns are in {listed}, each taken in its own"]
+    return "m", [f"columns are in {listed}, each read in its own unit"]
 
 
 def _match_unit(positions: Floats, is_unstated: list[bool], stated: str) -> str:

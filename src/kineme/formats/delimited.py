@@ -223,7 +223,7 @@ class DelimitedText:
                     # Only a short last row is what a truncated file looks like.
                     if reader.line_num < len(self.rows) or len(cells) > width:
                         raise content.error(reason, line)
-                    content.warn(f"{reason}: the last row breaks off, left out", line)
+                    content.warn(f"{reason}: the last row is truncated and left out", line)
                     break
                 for i in dates:
                     cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
@@ -256,8 +256,8 @@ class DelimitedText:
             if differing and all(one[i] == other[i] for i in times):
                 k = differing[0]
                 raise self.content.error(
-                    f"rows of one time are told apart by column {names[k]!r} "
-                    f"({one[k]:.20}, {other[k]:.20}): give each a file or columns of its own"
+                    f"several rows have the same time and differ in column {names[k]!r} "
+                    f"({one[k]:.20}, {other[k]:.20}): write each to its own file or columns"
                 )
 
 

@@ -100,7 +100,7 @@ class FileContent:
         if size > self.memory_limit:
             raise self.error(
                 f"claims {what}: {size / 1e6:.0f} MB of memory, too much for a file of "
-                f"{len(self.data) / 1e6:.2g} MB, so it is damaged"
+                f"{len(self.data) / 1e6:.2g} MB: it is damaged"
             )
 
     def line_at(self, offset: int) -> int:
@@ -159,7 +159,8 @@ def find_sibling(content: FileContent, relative: str | PathLike[str]) -> Path:
     # Resolve links on both sides, so that a link cannot lead out of the folder.
     if not Path(realpath(path)).is_relative_to(realpath(folder)):
         raise content.error(
-            f"names {str(relative)!r:.90}, which leads out of its folder: put that file in it"
+            f"names {str(relative)!r:.90}, which is outside its folder: put that file into "
+            "the folder"
         )
     refuse_pipe(path)
     return path
@@ -204,7 +205,7 @@ def clean_names(path: Path, names: Sequence[str], clean: Callable[[str], str]) -
     if changed:
         name, new = changed[0]
         more = f", and {len(changed) - 1} more" if len(changed) > 1 else ""
-        warn(f"{path.name}: the name {name!r:.60} is written as {new!r:.60}{more}")
+        warn(f"{path.name}: the name {name!r:.60} written as {new!r:.60}{more}")
     return cleaned
 
 
@@ -213,7 +214,7 @@ def require_rotations(motion: Motion, path: Path, what: str) -> NDArray[np.float
     if motion.rotations is None:
         raise WriteError(
             path,
-            f"{what} needs rotations, and this motion has positions only: write .trc, .csv or .npz",
+            f"{what} needs rotations, but this motion has positions only: write .trc, .csv or .npz",
         )
     return motion.rotations
 

@@ -110,8 +110,8 @@ def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
     seconds = sum((b - a) / motion.fps for motion in motions for a, b in motion.gaps)
     if seconds:
         warn(
-            f"{path.name}: gaps of {seconds:.1f} s become movement, since the format has none: "
-            "leave these clips out, or write .npz, .csv or .trc"
+            f"{path.name}: gaps of {seconds:.1f} s become movement, since the format cannot "
+            "store gaps: leave these clips out, or write .npz, .csv or .trc"
         )
 
 

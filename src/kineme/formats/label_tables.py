@@ -40,6 +40,6 @@ def refuse_labels(content: FileContent) -> None:
     """Raise ReadError if a text file holds labels."""
     if program := find_label_program(content.text[:HEAD]):
         raise content.error(
-            f"holds labels as {program} exports them, not a recording: read it with "
-            "kineme.read_segments, or kineme convert it to a table of labels with --fps"
+            f"holds labels of {program}, not a recording: read it with "
+            "kineme.read_segments, or use kineme convert with --fps"
         )

@@ -86,8 +86,8 @@ def scan_folder(folder: Path, *, recursive: bool = False) -> Listing:
             recordings = [path for path in recordings if not is_video(path)]
         if frames and recordings:
             reason = (
-                f"{format_count(len(frames), 'frame')} of OpenPose beside other recordings: give "
-                "them a folder of their own"
+                f"{format_count(len(frames), 'frame')} of OpenPose next to other "
+                "recordings: put them into their own folder"
             )
             listing.passed_over.append((frames[0][1], reason))
         listing.recordings.extend(recordings or ([current] if frames else []))
@@ -119,7 +119,7 @@ def _find_recordings(folder: Path, names: list[str], listing: Listing) -> Iterat
             continue
         try:
             if path.is_symlink() and not path.exists():
-                listing.passed_over.append((path, "is a link to a file that is not there"))
+                listing.passed_over.append((path, "is a link to a missing file"))
             elif path.is_file() and _is_recording(path):
                 yield path
         except Exception as error:  # noqa: BLE001 (one file must not stop the listing)

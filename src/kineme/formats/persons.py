@@ -25,7 +25,7 @@ def choose_person(
     if person is not None and person in people:
         return person
     question = (
-        f"{len(people)} {what} are in it: choose one with person= (--person), of"
+        f"{len(people)} {what} are in it: choose one with person= (--person):"
         if person is None
         else f"there is no person {person!r}: choose from"
     )

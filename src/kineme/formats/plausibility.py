@@ -48,23 +48,21 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
     if empty.any() and not empty.all():
         points[empty] = np.nan
         at_origin[empty] = False
-        remark = (
-            f"{format_count(int(empty.sum()), 'frame')} with nothing but zeros: taken as not seen"
-        )
+        remark = f"{format_count(int(empty.sum()), 'frame')} with zeros only: read as missing"
         notes.append(Note(remark, "warning"))
     # A point that never leaves the origin defines it: only points that come and go were lost.
     lost = at_origin.any(axis=0) & ~(at_origin | empty[:, None]).all(axis=0)
     if lost.any():
         points[at_origin & lost] = np.nan
         named = join_names([names[i] for i in np.flatnonzero(lost).tolist()])
-        remark = f"exactly at the origin in some frames, taken as not seen there: {named}"
+        remark = f"points exactly at the origin in some frames, read as missing there: {named}"
         notes.append(Note(remark, "warning"))
     jumps, others = _find_jumps(points, fps)
     for point, start, stop in jumps:
         points[start:stop, point] = np.nan
     if jumps:
         parts = [f"{names[point]} (frames {a} to {b - 1})" for point, a, b in jumps]
-        remark = f"points that jump away and back, taken as not seen there: {join_names(parts)}"
+        remark = f"points that jump away and back, read as missing there: {join_names(parts)}"
         notes.append(Note(remark, "warning"))
     if others:
         first: dict[int, int] = {}
@@ -90,7 +88,9 @@ def check_rigid_points(
             changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
     if not changes:
         return []
-    return [Note(f"points on one bone change their distance: {join_names(changes)}", "warning")]
+    return [
+        Note(f"points on the same bone change their distance: {join_names(changes)}", "warning")
+    ]
 
 
 def check_bone_lengths(motion: Motion) -> Motion:

@@ -99,12 +99,10 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     missing = bridge_gaps(positions, gaps, body_points, points.fps)
     is_visible = ~mark_spans(missing, len(positions))
     if not kept_points:
-        raise ReadError(path, f"no marker is seen throughout: each has a gap above {LONGEST_S} s")
+        raise ReadError(path, f"every marker has a gap above {LONGEST_S} s")
     if not is_visible.any():
         hidden_names = join_names([names[i] for i in sorted(body_points & gaps.open.keys())])
-        raise ReadError(
-            path, f"the body is whole in no frame: {hidden_names} are never seen together"
-        )
+        raise ReadError(path, f"the body is never complete: {hidden_names} are never seen together")
     kept_points = sorted(
         [
             *kept_points,
@@ -168,8 +166,8 @@ def describe_body(body: Body, names: Sequence[str]) -> str:
 def _describe_subject(path: str, subjects: list[str], person: str | None) -> Note:
     """Return a note on the chosen subject; raise SeveralPeopleError if it does not exist."""
     if person is None:
-        sentence = f"{len(subjects)} subjects: the body is that of {subjects[0]!r}"
-        return Note(f"{sentence}; person= (--person) takes another", "warning")
+        sentence = f"{len(subjects)} subjects: the body used is that of {subjects[0]!r}"
+        return Note(f"{sentence}; choose another with person= (--person)", "warning")
     return Note(f"person {choose_person(path, subjects, person)} of {len(subjects)}")
 
 
@@ -229,7 +227,7 @@ def _describe_splits(
     spans = [f"frames {a} to {b - 1} ({(b - a) / fps:.2f} s)" for a, b in missing]
     hidden = [names[point] for point in sorted(used & gaps.open.keys())]
     note = (
-        f"the body is not seen whole in {join_names(spans)}, for gaps above {LONGEST_S} s in "
+        f"the body is incomplete in {join_names(spans)}, for gaps above {LONGEST_S} s in "
         f"{join_names(hidden)}: the recording is split there"
     )
     return [Note(note, "warning")]
@@ -248,7 +246,9 @@ def _describe_gaps(
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
-        notes.append(f"never seen, left out: {join_names([names[p] for p in never])}")
+        notes.append(
+            f"left out, since they are never seen: {join_names([names[p] for p in never])}"
+        )
     broken = [p for p in gaps.open if p not in never and p not in kept_points]
     if broken:
         parts = [

@@ -255,7 +255,7 @@ def read_motion(path: AnyPath, **options: Any) -> Motion:
     """
     recording = read(path, **options)
     if not isinstance(recording, Motion):
-        raise ReadError(path, "holds signals without a skeleton, where a motion is needed")
+        raise ReadError(path, "holds signals without a skeleton, but a motion is needed")
     return recording
 
 
@@ -292,7 +292,7 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
         kind = "a motion" if isinstance(recording, Motion) else "signals"
         raise WriteError(
             path,
-            f"no writer of {kind} for the suffix {target.suffix!r}: use one of "
+            f"cannot write {kind} with the suffix {target.suffix!r}: use one of "
             f"{', '.join(sorted(writers))}",
         )
     writers[target.suffix.lower()](recording, target)
@@ -308,11 +308,11 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
         raise content.error("the file is empty")
     candidate = recognise(content)
     if candidate.read is None:
-        raise content.error("this format can be written but not read")
+        raise content.error("this format can only be written, not read")
     if options.channels and not candidate.channels:
         raise content.error(
-            f"is {candidate.name}, which is not read as channels (columns, emg): load them as an "
-            "array and give it to kineme.Signals"
+            f"is {candidate.name}, which cannot be read as channels (columns, emg): load "
+            "them as an array and pass it to kineme.Signals"
         )
     recording: object = candidate.read(content, options)  # may be another package's reader
     if not isinstance(recording, Motion | Signals):
@@ -331,6 +331,5 @@ def _read_folder(path: Path, options: ReadOptions) -> Motion | Signals:
             return recording
     raise ReadError(
         path,
-        "cannot be opened: a folder without the file for each frame (*_keypoints.json) that "
-        "OpenPose leaves; give the files in it one by one",
+        "is a folder without OpenPose files (*_keypoints.json): give the files in it one by one",
     )

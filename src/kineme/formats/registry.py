@@ -209,15 +209,14 @@ def recognise(content: FileContent) -> Format:
     ]
     by_suffix = [candidate for candidate in formats if suffix in candidate.suffixes]
     if suffix in ADVICE and not by_suffix:
-        raise ReadError(content.path, f"{suffix} is not read: {ADVICE[suffix]}")
+        raise ReadError(content.path, f"{suffix} is not supported: {ADVICE[suffix]}")
     # Prefer a format that matches both, then the content, then the suffix.
     for candidate in (*(f for f in by_content if f in by_suffix), *by_content, *by_suffix):
         return candidate
     suffixes = sorted({s for candidate in formats for s in candidate.suffixes})
     raise ReadError(
         content.path,
-        f"neither its content nor its suffix {suffix!r} is known: kineme reads "
-        f"{', '.join(suffixes)}",
+        f"unknown content and suffix {suffix!r}: kineme reads {', '.join(suffixes)}",
     )
 
 
@@ -227,5 +226,5 @@ def recognises_safely(name: str, recognises: Callable[..., bool], *evidence: Any
         return recognises(*evidence)
     except Exception as error:  # noqa: BLE001 (formats of other packages may raise anything)
         reason = f"{type(error).__name__}: {error}"
-        warn(f"the format {name} is passed over, it cannot tell its files: {reason:.200}")
+        warn(f"the format {name} was skipped, since it failed to recognise files: {reason:.200}")
         return False

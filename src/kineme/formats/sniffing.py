@@ -100,7 +100,7 @@ def sniff(content: FileContent) -> DelimitedText:
     ):
         cells, skipped = joined, skipped[1:]
     is_headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
-    remark = "holds no numbers and is passed over"
+    remark = "has no numbers and was skipped"
     notes = [f"line {i + 1} {remark}: {lines[i]:.60}" for i in skipped]
     return DelimitedText(
         content,
@@ -124,7 +124,7 @@ def is_text_line(line: str) -> bool:
 
 def note_skipped_lines(count: int, name: str) -> tuple[str, ...]:
     """Return a note on the number of lines above the table, if there are any."""
-    return (f"{format_count(count, 'line')} above the {name} passed over",) if count else ()
+    return (f"{format_count(count, 'line')} above the {name} skipped",) if count else ()
 
 
 def split_head(content: FileContent, line: str, row: str, separator: str) -> list[str]:

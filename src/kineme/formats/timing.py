@@ -43,12 +43,12 @@ def find_table_timing(
         try:
             times, guessed_unit = as_seconds(columns[column], unit)
         except (ValueError, TypeError) as error:
-            raise content.error(f"column {column!r} does not tell times: {error}") from None
+            raise content.error(f"column {column!r} cannot be read as times: {error}") from None
         times = read_column(content, {column: times}, column)
         timing = find_timing(content, times, values)
         notes = list(timing.notes)
         if guessed_unit:
-            remark = f"{column} is taken in {UNITS_NAMED[guessed_unit]}, by its steps"
+            remark = f"{column} is read in {UNITS_NAMED[guessed_unit]}, inferred from its steps"
             notes.insert(0, Note(remark, "warning"))
         elif timing.fps <= _MIN_RATE and not unit:
             raise content.error(
@@ -56,7 +56,7 @@ def find_table_timing(
                 f"(--fps; {1e3 * timing.fps:g} for milliseconds)"
             )
         if stopped:
-            remark = f"no time in {join_names(stopped)}: {column} taken"
+            remark = f"{join_names(stopped)} does not advance: {column} used for times"
             notes.insert(0, Note(remark, "warning"))
         return timing.noted(notes)
     raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")

@@ -116,7 +116,7 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
     errors = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
     unit = list(UNITS)[int(np.abs(errors).argmin())]
     remark = (
-        f"in no unit is this skeleton, about {height:.3g} units tall, of human size: "
+        f"this skeleton, about {height:.3g} units tall, is not of human size in any unit: "
         f"{unit} assumed; give unit= (--unit)"
     )
     return unit, Note(remark, "warning")
@@ -194,7 +194,7 @@ def infer_scale(
     spread = float(np.median(np.ptp(positions, axis=1).max(axis=1)))
     if unit == "pixel":
         return _HEIGHT / (spread or 1.0), [
-            f"no unit: {spread:.3g}, the larger side of the body, taken as {_HEIGHT} m"
+            f"no unit: {spread:.3g}, the larger side of the body, scaled to {_HEIGHT} m"
         ]
     if stated:
         return _check_scale(stated, spread, is_body=is_body)
@@ -205,8 +205,8 @@ def infer_scale(
     # No unit fits: small numbers are more likely metres, large ones millimetres.
     name = "m" if spread < 1 else "mm"
     remark = (
-        f"markers {spread:.3g} units apart are in no unit those of a person: "
-        f"{name} assumed; give unit= (--unit)"
+        f"markers {spread:.3g} units apart do not fit a person in any unit: {name} assumed; "
+        "give unit= (--unit)"
     )
     return UNITS[name], [Note(remark, "warning")]
 
@@ -217,7 +217,7 @@ def _check_scale(stated: str, spread: float, *, is_body: bool) -> tuple[float, l
     if other is None or (size <= POINT_EXTENTS[1] and (size >= POINT_EXTENTS[0] or not is_body)):
         return to_metres(stated), []
     remark = (
-        f"the points spread over {size:.4g} m by the file's unit {stated}: {other} assumed "
+        f"in the file's unit {stated}, the points spread over {size:.4g} m: {other} assumed "
         f"({spread * UNITS[other]:.2f} m); unit= (--unit) overrides"
     )
     return UNITS[other], [Note(remark, "warning")]

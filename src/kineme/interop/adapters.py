@@ -58,7 +58,7 @@ def from_ruptures(breakpoints: Sequence[int], *, fps: float) -> Segmentation:
     """
     stops = _check_frames(breakpoints, "breakpoints")
     if not len(stops):
-        raise ParameterError("breakpoints must hold at least the number of frames")
+        raise ParameterError("breakpoints must contain at least the number of frames")
     return _make_activities([0, *stops], [""] * len(stops), fps)
 
 
@@ -131,7 +131,7 @@ def from_sktime(segments: pd.DataFrame, *, fps: float) -> Segmentation:
     """
     spans = segments["ilocs"].array
     if getattr(spans, "closed", None) != "left":
-        raise ParameterError("ilocs must be intervals closed on the left")
+        raise ParameterError("ilocs must be left-closed intervals")
     starts, stops = _check_frames(spans.left, "ilocs"), _check_frames(spans.right, "ilocs")
     texts = segments["labels"] if "labels" in segments else [""] * len(spans)
     return _join_intervals(starts, stops, list(map(str, texts)), fps)
@@ -179,7 +179,9 @@ def _join_intervals(
     if len(starts) != len(texts) or not len(starts):
         raise ParameterError(f"{len(starts)} intervals and {len(texts)} labels: give one for each")
     if starts[0] != 0 or (starts[1:] != stops[:-1]).any():
-        raise ParameterError("intervals must start at 0, and each where the one before it stops")
+        raise ParameterError(
+            "intervals must start at 0, and each must start where the previous one stops"
+        )
     return _make_activities([0, *stops], texts, fps)
 
 
@@ -199,5 +201,5 @@ def _make_activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -
 def _check_frames(values: ArrayLike, name: str) -> NDArray[np.int64]:
     frames = np.asarray(values)
     if frames.ndim != 1 or (frames.size and frames.dtype.kind not in "iu"):
-        raise ParameterError(f"{name} must be whole numbers in a row, not {frames.dtype}")
+        raise ParameterError(f"{name} must be consecutive whole numbers, not {frames.dtype}")
     return frames.astype(np.int64)

@@ -147,7 +147,7 @@ def from_movement(
     position = person["position"].transpose("time", "keypoints", "space")
     axes = [str(axis) for axis in position["space"].values]
     if sorted(axes) not in (["x", "y"], ["x", "y", "z"]):
-        raise ParameterError(f"space must be x, y and perhaps z, not {', '.join(axes)}")
+        raise ParameterError(f"space must be x, y and optionally z, not {', '.join(axes)}")
     # A missing z axis stays 0.
     places = np.zeros((*position.shape[:2], 3))
     for axis in axes:
@@ -200,7 +200,7 @@ def _read_timing(source: FileContent, dataset: xr.Dataset, fps: float | None) ->
         return Timing(float(rate))
     if dataset.attrs.get("time_unit") == "seconds":
         return find_timing(source, np.asarray(dataset["time"], np.float64))
-    raise ReadError(source.path, "the dataset counts frames and has no fps: give fps=")
+    raise ReadError(source.path, "the dataset has times in frames but no fps: give fps=")
 
 
 def _make_frame_variables(
@@ -208,7 +208,8 @@ def _make_frame_variables(
 ) -> list[tuple[str, NDArray[Any]]]:
     if segmentation.n_frames != motion.n_frames:
         raise ParameterError(
-            f"the segments are of {segmentation.n_frames} frames, the motion has {motion.n_frames}"
+            f"the segments have {segmentation.n_frames} frames, but the motion has "
+            f"{motion.n_frames}"
         )
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     primitives = segmentation.level(level)

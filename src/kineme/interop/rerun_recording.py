@@ -66,7 +66,8 @@ def write_rerun(
         import rerun as rr
     if segmentation is not None and segmentation.n_frames != motion.n_frames:
         raise ParameterError(
-            f"the segments are of {segmentation.n_frames} frames, the motion has {motion.n_frames}"
+            f"the segments have {segmentation.n_frames} frames, but the motion has "
+            f"{motion.n_frames}"
         )
     with atomic_write(path) as draft:
         recording = rr.RecordingStream("kineme", recording_id=Path(path).stem)

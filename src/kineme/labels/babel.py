@@ -65,7 +65,7 @@ def read(path: Path) -> Labels:
     if isinstance(content, dict) and "dur" not in content:
         if len(content) > 1:
             raise ReadError(
-                path, f"has {len(content)} recordings: save the one you want in a file of its own"
+                path, f"has {len(content)} recordings: save the one you need to its own file"
             )
         content = next(iter(content.values()), None)
     if not isinstance(content, dict) or "dur" not in content:
@@ -90,7 +90,7 @@ def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
         for label in labels
     ]
     disjoint, shared = _split_overlaps(spans, path)
-    note = f"labels overlap; with the texts of several: {format_count(shared, 'segment')}"
+    note = f"overlapping labels joined with the texts of several: {format_count(shared, 'segment')}"
     return Labels(disjoint, "seconds", None, length, (note,) if shared else ())
 
 

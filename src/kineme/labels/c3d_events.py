@@ -116,7 +116,7 @@ def write_events(
     if target.exists() and Path(source).exists() and target.samefile(source):
         raise WriteError(target, "is the recording itself: name another file")
     if Path(source).suffix.lower() != ".c3d":
-        raise ReadError(source, "is no C3D file, of which a copy could take the events")
+        raise ReadError(source, "is not a C3D file: events can only be written to a copy of a C3D")
     if target.suffix.lower() != ".c3d":
         raise WriteError(target, "must end in .c3d")
     with translate_read_errors(source):
@@ -155,7 +155,7 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
     file = parse_c3d(load(path))
     length = len(file.points) / file.rate if file.rate else 0.0
     if not length:
-        raise ReadError(path, "has no frame rate, which the times of events need")
+        raise ReadError(path, "has no frame rate, so the times of events are unknown")
     inside = [(at, name) for at, name in file.events if 0 <= at < length]
     if not inside:
         raise ReadError(path, "has no events")

@@ -71,7 +71,7 @@ class LabelSource:
             labels = convert_to_frames(timed, rate, n_frames=n_frames)
             return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
         if content.n_frames != n_frames:
-            claim = f"is of {content.n_frames} frames, but the recording has {n_frames}"
+            claim = f"has {content.n_frames} frames, but the recording has {n_frames}"
             raise ReadError(self.path, claim)
         if not isclose(content.fps, fps, rel_tol=SAME_RATE):
             claim = f"is of {content.fps:g} frames per second, but the recording has {fps:g}"
@@ -172,9 +172,9 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     result.reverse()
     counts = {
         "overlapping others": overlaps,
-        "running backwards, left out": backward,
-        "beginning before the start, cut off there": before,
-        "reaching beyond the end, cut off there": beyond,
+        "with a stop before the start, left out": backward,
+        "starting before the recording, cut at its start": before,
+        "stopping after the recording, cut at its end": beyond,
     }
     notes = [f"{what}: {format_count(count, 'label')}" for what, count in counts.items() if count]
     notes += note_lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
@@ -211,7 +211,9 @@ def _read_table(path: Path) -> dict[str, LabelSource]:
     with translate_read_errors(path):
         tables = csv_table.read_intervals(path)
     if "" in tables:
-        raise ReadError(path, "names no recording in the column 'recording', which is needed")
+        raise ReadError(
+            path, "has an empty column 'recording': give the name of a recording in each row"
+        )
     return {name: LabelSource(path, labels) for name, labels in tables.items()}
 
 

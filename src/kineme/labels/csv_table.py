@@ -95,8 +95,9 @@ def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentatio
         if head.get("n_frames") != max(columns["stop_frame"]):
             raise ReadError(
                 path,
-                f"ends at frame {max(columns['stop_frame'])}, but {provenance_path.name} speaks of "
-                f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
+                f"ends at frame {max(columns['stop_frame'])}, but {provenance_path.name} "
+                f"states {head.get('n_frames')!r} frames: remove that file if it belongs to "
+                "another table",
             )
         rest = {name: value for name, value in head.items() if name != "hierarchy"}
         table = join_head(columns, rest, path)
@@ -235,7 +236,9 @@ def _guess_head(columns: dict[str, list[Any]], path: Path) -> dict[str, Any]:
     n_frames, fps = max(columns["stop_frame"]), _read_rate(columns)
     if fps is None:
         seconds = max(columns["stop_s"])
-        raise ReadError(path, f"ends at frame {n_frames}, {seconds} s: no frame rate follows")
+        raise ReadError(
+            path, f"ends at frame {n_frames}, {seconds} s, so its frame rate cannot be computed"
+        )
     note = (
         f"frame rate {fps:g} Hz computed from frames and seconds: no {name_provenance(path).name}"
     )

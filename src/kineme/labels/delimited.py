@@ -169,11 +169,11 @@ def find_differences(
     if len(rates) == 2 and not isclose(*rates, rel_tol=SAME_RATE):
         raise ReadError(
             path,
-            f"is of {row_rate:g} frames per second, but {beside.name} speaks of {head_rate:g}, "
-            "and was written with another table: remove that file, or write both again",
+            f"is of {row_rate:g} frames per second, but {beside.name} states {head_rate:g}, "
+            "so it belongs to another table: remove that file or write both again",
         )
     note = (
-        f"{path.name} is not the table that {beside.name} was written with: its cuts were moved "
-        "since, or writing broke off between the two"
+        f"{path.name} does not match {beside.name}: the table was edited since, or writing "
+        "was interrupted"
     )
     return () if side[CUTS_KEY] == found else (note,)

@@ -60,16 +60,16 @@ COLUMNS = {
     "level": {
         "Description": "Level of the segment",
         "Levels": {
-            "activity": "Movement of one kind, or a transition between two",
+            "activity": "One kind of movement, or a transition between two",
             "primitive": "One repetition inside an activity",
         },
     },
     "cluster": {"Description": "Equal numbers are equal movements; n/a: in no cluster"},
-    "confidence": {"Description": "How probable it is that what its kind claims is right"},
+    "confidence": {"Description": "Probability that its kind is right"},
     "start_frame": {"Description": "First frame, counted from 0"},
     "stop_frame": {"Description": "One past the last frame"},
-    "action": {"Description": "Cluster of the activity that it lies in; n/a: in no cluster"},
-    "border_confidence": {"Description": "How probable it is that its start is right"},
+    "action": {"Description": "Cluster of the activity that contains it; n/a: in no cluster"},
+    "border_confidence": {"Description": "Probability that its start is right"},
 }
 MISSING = "n/a"
 
@@ -166,9 +166,12 @@ def _read_sidecar_to_keep(path: Path) -> dict[str, Any]:
     try:
         found = _read_sidecar(path)
     except ReadError as error:
-        raise WriteError(path, f"is in the way of the sidecar: {error.reason}") from error
+        raise WriteError(path, f"would be overwritten as the sidecar: it {error.reason}") from error
     if "schema" in found:
-        raise WriteError(path, "is in the way: it is a segment table, and would be the sidecar")
+        raise WriteError(
+            path,
+            "would be overwritten as the sidecar, but it is a segment table: choose another name",
+        )
     return found
 
 
@@ -263,7 +266,7 @@ def read_boris(path: Path) -> Labels:
     )
     points = Counter(cells["Behavior"] for _, cells in rows if _parse_kind(cells) == "POINT")
     listed = ", ".join(f"{name} ({count})" for name, count in points.items())
-    notes = (f"point events last no time and are left out: {listed:.200}",) if points else ()
+    notes = (f"point events have no duration and are left out: {listed:.200}",) if points else ()
     return Labels(spans, "seconds", _parse_fact(rows, RATES), _parse_fact(rows, LENGTHS), notes)
 
 
@@ -288,7 +291,9 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
                 parse_level(cells.get("Behavioral category")),
             )
         else:
-            reason = f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP alternate"
+            reason = (
+                f"{cells['Behavior']!r:.60} has a {kind!r:.20} where START and STOP must alternate"
+            )
             raise ReadError(path, reason, line=line)
     if starts:
         raise ReadError(path, f"{next(iter(starts))[2]!r:.60} has a START without a STOP")

@@ -163,7 +163,7 @@ def join_head(columns: dict[str, Any], head: dict[str, Any], path: Path) -> Segm
     try:
         return replace(segmentation, hierarchy=_parse_hierarchy(head["hierarchy"], segmentation))
     except (ValueError, LookupError, TypeError, AttributeError) as error:
-        raise ReadError(path, f'"hierarchy" is none: {error}') from error
+        raise ReadError(path, f'"hierarchy" is not valid: {error}') from error
 
 
 def _make_levels(hierarchy: Hierarchy) -> dict[str, Any]:

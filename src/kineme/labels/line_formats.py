@@ -65,7 +65,9 @@ def _read_audacity(path: Path) -> Labels:
             if cells == [""] or cells[0].startswith("\\"):
                 continue
             if len(cells) < 2:
-                raise ReadError(path, "a label is a start, a stop and a text with tabs", line=line)
+                raise ReadError(
+                    path, "a label must be a start, a stop and a text separated by tabs", line=line
+                )
             start = parse_number(cells[0], "the start", path, line)
             stop = parse_number(cells[1], "the stop", path, line)
             spans.append(Span(start, stop, cells[2] if len(cells) > 2 else ""))
@@ -91,7 +93,7 @@ AUDACITY = LabelFormat(
 
 def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
     if path.parent.name != FOLDER:
-        raise WriteError(path, f"must lie in a folder called {FOLDER}: give {FOLDER}/{path.name}")
+        raise WriteError(path, f"must be in a folder called {FOLDER}: give {FOLDER}/{path.name}")
     with suppress(OSError):  # atomic_write says why there is none
         path.parent.mkdir(exist_ok=True)
     texts = [
@@ -139,7 +141,7 @@ def _list_classes(mapping: Path) -> dict[str, int]:
         raise WriteError(mapping, "is not UTF-8") from error
     except ValueError as error:
         raise WriteError(
-            mapping, f'is no mapping: its lines must be like "0 walk", not {line!r:.60}'
+            mapping, f'is not a mapping: its lines must be like "0 walk", not {line!r:.60}'
         ) from error
     return classes
 

@@ -304,9 +304,9 @@ def read_segments(
         if warning_texts:
             warnings.warn(f"{path}: {'; '.join(warning_texts)}", KinemeWarning, stacklevel=2)
     if fps is not None and rate is not None and not isclose(rate, fps, rel_tol=1e-6):
-        raise ReadError(path, f"says {rate:g} frames per second, but fps is {fps:g}")
+        raise ReadError(path, f"has {rate:g} frames per second, but fps is {fps:g}")
     if n_frames is not None and content.n_frames != n_frames:
-        raise ReadError(path, f"is of {content.n_frames} frames, but n_frames is {n_frames}")
+        raise ReadError(path, f"has {content.n_frames} frames, but n_frames is {n_frames}")
     if clock is None or "clock" in content.provenance:
         return content
     return replace(content, provenance={**content.provenance, "clock": clock.to_json()})
@@ -345,7 +345,7 @@ def find_write_format(path: str | PathLike[str], name: str | None = None) -> Lab
         # Prefer a format that usually writes this suffix over one that also reads it.
         return min(writers, key=lambda candidate: candidate.written_suffix.lower() != suffix)
     if candidates:
-        raise WriteError(path, f"{candidates[0].name} is only read: segments go into {stored}")
+        raise WriteError(path, f"{candidates[0].name} can only be read: write segments to {stored}")
     raise WriteError(path, f"segments are stored as {stored}, not {_format_suffix(suffix)}")
 
 

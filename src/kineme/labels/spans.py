@@ -128,7 +128,7 @@ def as_segmentation(
     rate = fps or labels.fps
     if rate is None:
         raise ReadError(
-            path, f"{name} does not tell the frame rate of the recording: give fps (--fps)"
+            path, f"{name} does not state the frame rate of the recording: give fps (--fps)"
         )
     if not 0 < rate < math.inf:
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
@@ -140,7 +140,7 @@ def as_segmentation(
         n_frames = max(last, _to_frame(labels.length, per_unit, path))
     elif n_frames is None:
         n_frames, frames = last, format_count(last, "frame")
-        notes.append(f"length of {frames} taken from the end of the last label")
+        notes.append(f"length of {frames} inferred from the end of the last label")
     elif last > n_frames + 1:  # some programs end with the frame after the last
         raise ReadError(
             path,
@@ -148,14 +148,14 @@ def as_segmentation(
             f"{n_frames}, {n_frames / rate:.3f} s",
         )
     if n_frames < 1:
-        raise ReadError(path, f"has no label that lasts a frame at {rate:g} frames per second")
+        raise ReadError(path, f"has no label of at least one frame at {rate:g} frames per second")
     warnings = list(labels.notes)
     # Cut at the end of the recording, and drop spans without a frame.
     inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
     nonempty = [row for row in inside if row[2] < row[3]]
     if len(nonempty) < len(rows):
         short = format_count(len(rows) - len(nonempty), "label")
-        warnings.append(f"shorter than a frame, left out: {short}")
+        warnings.append(f"left out, since they are shorter than a frame: {short}")
     tiled = _fill_levels(nonempty, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
     level = "activity" if any(row[0] == "activity" for row in nonempty) else "primitive"
@@ -203,7 +203,7 @@ def _to_frame(value: float, per_unit: float, path: Path) -> int:
     frame = value * per_unit
     # A start may round down to frame 0.
     if not -0.5 <= frame < TOO_FAR:
-        raise ReadError(path, f"has a label at {value}, which no recording reaches")
+        raise ReadError(path, f"has a label at {value}, which is beyond any recording")
     return math.floor(frame + 0.5)
 
 
@@ -230,7 +230,7 @@ def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path
         if row[2] < at:
             raise ReadError(
                 path,
-                f"{row[5]!r:.60} starts at frame {row[2]}, before the label ahead of it stops "
+                f"{row[5]!r:.60} starts at frame {row[2]}, before the previous label stops "
                 f"({at}): labels of one level may touch but not overlap",
             )
         yield from _make_gap(level, at, row[2], borders)
@@ -261,7 +261,7 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
     >>> [span[:3] for span in found.spans]
     [(50.0, 60.0, 'walk'), (60.0, 100.0, 'run')]
     >>> found.notes
-    ("meeting no frame, left out: 'rest' 100 to 130 s",)
+    ("left out, since they contain no frame: 'rest' 100 to 130 s",)
     """
     if clock is None or labels.unit != "seconds" or not labels.spans:
         return labels
@@ -290,18 +290,18 @@ def note_lost_labels(spans: Sequence[Span], unit: str) -> tuple[str, ...]:
         return ()
     named = [f"{span.text!r:.60} {span.start:.10g} to {span.stop:.10g} {unit}" for span in spans]
     more = f" and {len(spans) - NAMED} more" if len(spans) > NAMED else ""
-    return (f"meeting no frame, left out: {', '.join(named[:NAMED])}{more}",)
+    return (f"left out, since they contain no frame: {', '.join(named[:NAMED])}{more}",)
 
 
 def _convert_seconds(
     times: Floats, clock: Clock, length_s: float
 ) -> tuple[Floats, tuple[str, ...]]:
     """Return starts and stops in seconds, and a note unless they are times of the clock."""
-    first = f"times counted from the first frame, at which the clock shows {clock.format_time(0.0)}"
+    first = f"times are relative to the first frame, at clock time {clock.format_time(0.0)}"
     interpretations: list[tuple[Floats, tuple[str, ...]]] = [
         (clock.second(times), ()),
         (clock.make_relative().second(times), (first,)),
-        (times, ("times taken as frames over the rate, without pauses",)),
+        (times, ("times computed from frames and frame rate, without pauses",)),
     ]
 
     def shared_s(answer: tuple[Floats, tuple[str, ...]]) -> float:

@@ -69,8 +69,8 @@ def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> No
     if segmentation.fps >= PER_SECOND:
         raise WriteError(
             path,
-            f"ELAN keeps whole milliseconds, which cannot tell frames at "
-            f"{segmentation.fps:g} per second apart: use another format",
+            f"ELAN stores whole milliseconds, too coarse for {segmentation.fps:g} frames "
+            "per second: use another format",
         )
     root = ET.Element("ANNOTATION_DOCUMENT", AUTHOR="kineme", DATE="1970-01-01T00:00:00+00:00")
     root.attrib |= {"FORMAT": "3.0", "VERSION": "3.0", **SCHEMA}
@@ -285,9 +285,9 @@ def _read_unnamed_columns(
     # Without clock times, whole numbers are milliseconds, others seconds.
     is_ms = not clocks and not any("." in row[begin] for _, row in rows)
     for line, row in rows:
-        if len(row) <= end:
-            raise ReadError(path, f"{len(row)} cells, where others have {len(first)}", line=line)
-        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in (begin, end))
+        if len(row) <= chosen[1]:
+            raise ReadError(path, f"{len(row)} cells, but other rows have {len(first)}", line=line)
+        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in chosen[:2])
         yield row[0], start, stop, row[len(first) - 1] if len(row) >= len(first) else ""
 
 

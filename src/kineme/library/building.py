@@ -56,10 +56,10 @@ REMOVED = "left.json"
 """File of the clusters of removed recordings by analysis key, in case they are added again."""
 ActivityColumns = tuple[list[float], list[float], list[int]]
 """Starts, stops (seconds) and clusters of activities."""
-DAMAGED = "is damaged: remove it; clusters of recordings that come back get new numbers then"
+DAMAGED = "is damaged: remove it. Clusters of recordings that are added again then get new numbers"
 
 NEVER_FOUND = "there is no such file or folder"
-NOT_FOUND = "is not there: its recordings are kept; --remove takes them out"
+NOT_FOUND = "is missing, so its recordings are kept: --remove removes them"
 
 
 @dataclass(frozen=True)

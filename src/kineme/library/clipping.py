@@ -225,7 +225,7 @@ def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
         try:
             motion = tables.read(name)
         except KinemeError as error:  # missing file: go on with the others
-            warn(f"{name} is left out: {error}")
+            warn(f"{name} left out: {error}")
             continue
         first, stop = tables.rows[name]
         columns = [segments[column][first:stop].tolist() for column in COLUMNS]

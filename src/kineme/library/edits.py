@@ -125,7 +125,7 @@ def read_edits(folder: Path) -> Edits:
     if not content:
         return Edits()
     if content.get("schema") != SCHEMA:
-        raise ReadError(path, f"is of the schema {content.get('schema')!r:.40}, not {SCHEMA}")
+        raise ReadError(path, f"has schema {content.get('schema')!r:.40}, not {SCHEMA}")
     try:
         return Edits(
             names={_parse_cluster(number): str(name) for number, name in content["names"].items()},
@@ -142,14 +142,14 @@ def read_edits(folder: Path) -> Edits:
             ),
         )
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
-        raise ReadError(path, "is damaged: names, merges or splits are not as written") from error
+        raise ReadError(path, "is damaged: its names, merges or splits are not valid") from error
 
 
 def _parse_cluster(written: Any) -> int:
     """Return a cluster number from JSON; raise ValueError if it is out of range."""
     number = int(written)
     if not -1 <= number < MOST_CLUSTERS:
-        raise ValueError(f"no cluster has the number {number}")
+        raise ValueError(f"there is no cluster {number}")
     return number
 
 

@@ -173,7 +173,8 @@ class Cluster:
             if version != __version__:
                 other = "no kineme" if isinstance(version, Exception) else f"kineme {version}"
                 raise ParameterError(
-                    f"worker {address} has {other}, this is {__version__}: install the same there"
+                    f"worker {address} has {other}, but this is {__version__}: install the "
+                    "same version there"
                 )
 
     def completed(
@@ -211,7 +212,7 @@ def connect(client: Any) -> Iterator[Executor]:
     try:
         connection = _import_distributed().Client(client, set_as_default=False)
     except (OSError, ValueError) as error:
-        raise ParameterError(f"no scheduler answers at {client:.60}: {error!s:.100}") from error
+        raise ParameterError(f"no scheduler responds at {client:.60}: {error!s:.100}") from error
     with connection:
         yield Cluster(connection)
 
@@ -231,9 +232,9 @@ def _get_outcome(future: Any) -> Any:
         return None
     if isinstance(error, KinemeError):
         raise error
-    reason = "the scheduler is gone" if error is None else f"{error}"
+    reason = "the connection to the scheduler was lost" if error is None else f"{error}"
     raise KinemeError(
-        f"the cluster gave up: {' '.join(reason.split())[:200]}; what is done is kept, try again"
+        f"the cluster gave up: {' '.join(reason.split())[:200]}. Finished work is kept: try again"
     )
 
 

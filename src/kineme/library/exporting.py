@@ -46,7 +46,7 @@ def run_query(tables: OpenTables, sql: str) -> Any:
     with require_extra("duckdb", EXTRA):
         import duckdb
     if not isinstance(sql, str):
-        raise ParameterError(f"a question is a text of SQL, not {sql!r:.60}")
+        raise ParameterError(f"a query must be a text of SQL, not {sql!r:.60}")
     with duckdb.connect() as connection:
         connection.execute("SET enable_external_access = false")
         for name in (*DESCRIBED, CLUSTERS):
@@ -54,7 +54,7 @@ def run_query(tables: OpenTables, sql: str) -> Any:
         try:
             relation = connection.sql(sql)
             if relation is None:
-                raise ParameterError("this asks for no rows: begin it with select")
+                raise ParameterError("this query returns no rows: begin it with select")
             return relation.to_arrow_table()
         except duckdb.Error as error:
             raise ParameterError(" ".join(str(error).split())[:400]) from error
@@ -128,7 +128,7 @@ def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise WriteError(folder, f"cannot be made: {error.strerror or error}") from error
+        raise WriteError(folder, f"cannot be created: {error.strerror or error}") from error
     strips: list[tuple[Cluster, Motion | Signals]] = []
     written = []
     for cluster in list_clusters(tables):

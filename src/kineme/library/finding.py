@@ -145,7 +145,7 @@ def _find_rows(tables: OpenTables, vocabulary: str) -> list[int]:
     if not rows:
         present = "; ".join(sorted(set(vocabularies) - {""}))
         raise ParameterError(
-            f"the example is of {vocabulary}, the library has {present or 'nothing'}"
+            f"the example has {vocabulary}, but the library has {present or 'nothing'}"
         )
     return rows
 
@@ -209,7 +209,7 @@ def describe_examples(
         if example.stop_s is not None and example.stop_s > lasts + BEYOND:
             warn(
                 f"the example stops at {example.stop_s:g} s, its recording lasts "
-                f"{lasts:.2f} s: taken to its end"
+                f"{lasts:.2f} s: used up to its end"
             )
         if example.start_s >= stop_s:
             raise ParameterError(
@@ -223,7 +223,7 @@ def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
     """Return the vocabulary of all examples; raise ParameterError if they have several."""
     kinds = sorted({kind for kind, _ in described})
     if len(kinds) > 1:
-        raise ParameterError(f"the examples do not compare with each other: {'; '.join(kinds)}")
+        raise ParameterError(f"the examples cannot be compared with each other: {'; '.join(kinds)}")
     return kinds[0]
 
 
@@ -234,7 +234,7 @@ def _describe_recording(tables: OpenTables, recording: AnyPath | Motion | Signal
         isinstance(recording, Named) or not make_path(recording).exists()
     ):
         if recording not in recordings["recording"]:
-            raise ReadError(recording, "there is no such file, and no recording of that name")
+            raise ReadError(recording, "there is no file or recording with that name")
         row = recordings["recording"].index(recording)
         features = read_features(tables.folder / ANALYSES, recordings["piece"][row])
         described = Description(
@@ -251,6 +251,6 @@ def _describe_recording(tables: OpenTables, recording: AnyPath | Motion | Signal
 def _check_comparable(described: Description, name: str) -> Description:
     """Return the description; raise ReadError if it has no features."""
     if not described.vocabulary:
-        reason = described.reason or "it has no body that could be told"
+        reason = described.reason or "no body was recognised in it"
         raise ReadError(name, f"cannot be searched for: {reason}")
     return described

@@ -41,13 +41,13 @@ from kineme.library.storage.places import is_remote
 from kineme.methods.segmenter import SegmentOptions
 
 States = dict[str, tuple[str, str]]
-UNNAMED = "its name is not UTF-8, so no table can hold it: rename it"
+UNNAMED = "its name is not UTF-8 and cannot be stored: rename it"
 """Error for a file whose name is not UTF-8."""
 SAMPLE = 4096
 """Bytes in the sample from the middle of a file."""
 PER_WORKER = 1 << 20
 """Bytes of recordings per process: starting one takes seconds."""
-DIED = "the process that worked on it died: it may need more memory than there is"
+DIED = "the process that read it died: it may need more memory than is available"
 
 
 @dataclass
@@ -89,7 +89,7 @@ def _read_former_states(path: Path, progress: Progress) -> States:
     try:
         return read_json(path, tuple[str, str])
     except ReadError as error:
-        progress(f"{path.name} is not used, all recordings are read again: it {error.reason}")
+        progress(f"{path.name} was ignored and all recordings are read again: it {error.reason}")
         return {}
 
 

@@ -285,7 +285,7 @@ class Library:
     def merge(self, cluster: int | str, *others: int | str) -> Self:
         """Merge others into a cluster, which keeps its number and name, and return the library."""
         if not others:
-            raise ParameterError("nothing to merge: name two clusters at least")
+            raise ParameterError("nothing to merge: name at least two clusters")
         with self._tables.editing():
             target, *same = self.numbers(cluster)
             moved = [*same, *(number for other in others for number in self.numbers(other))]
@@ -308,8 +308,8 @@ class Library:
             present = set(local["recording"][local["cluster"] == number].tolist())
             if not present.intersection(chosen) or present <= set(chosen):
                 raise ParameterError(
-                    f"cluster {number} is split by naming some, not all, of its {len(present)} "
-                    f"recordings: {', '.join(sorted(present)[:5])}"
+                    f"cluster {number} can only be split by naming some, not all, of its "
+                    f"{len(present)} recordings: {', '.join(sorted(present)[:5])}"
                 )
             into: int = max(tables.head["following"], tables.edits.following)
             tables.write(tables.edits.with_split(number, into, chosen))

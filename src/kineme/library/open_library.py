@@ -123,7 +123,7 @@ class OpenTables:
         for name in names:
             if not recordings.issuperset(tables[name].column("recording").unique().to_pylist()):
                 raise ReadError(
-                    self.folder, f"{name} and recordings do not fit: build the library again"
+                    self.folder, f"{name} and recordings do not match: build the library again"
                 )
         return tables
 

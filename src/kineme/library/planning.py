@@ -96,7 +96,7 @@ def read_kept_options(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOption
         segment_options = options_from_json(SegmentOptions, head["segment_options"])
         segment_options.resolved()
     except ParameterError as error:
-        reason = f"is damaged, build the library anew: {error}"
+        reason = f"is damaged, build the library again: {error}"
         raise ReadError(folder / HEAD, reason) from error
     return read_options, segment_options
 
@@ -132,7 +132,7 @@ def change_sources(
     unknown = removed - set(sources)
     if unknown:
         raise ParameterError(
-            f"{min(unknown)} is no source of the library; there are "
+            f"{min(unknown)} is not a source of the library; there are "
             f"{', '.join(map(str, sources)) or 'none'}"
         )
     return [path for path in dict.fromkeys(sources) if path not in removed]
@@ -150,12 +150,12 @@ def open_folder(into: AnyPath, named: Sequence[Path]) -> Path:
     unfinished = (folder / ANALYSES).is_dir()  # the first build was interrupted
     try:
         if folder.exists() and not unfinished and (not folder.is_dir() or any(folder.iterdir())):
-            raise WriteError(into, "is there already and is no library: name a new folder")
+            raise WriteError(into, "exists already and is not a library: name a new folder")
         if not named and not unfinished:
             raise ParameterError(NOTHING.format(folder))
         (folder / ANALYSES).mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise WriteError(into, f"cannot be made: {error.strerror or error}") from error
+        raise WriteError(into, f"cannot be created: {error.strerror or error}") from error
     return folder
 
 
@@ -164,7 +164,7 @@ def as_paths(paths: AnyPath | Iterable[AnyPath]) -> list[Path]:
     if isinstance(paths, str | PathLike):
         return [make_path(paths)]
     if not isinstance(paths, Iterable):
-        raise ParameterError(f"build needs paths of recordings or folders, not {paths!r:.60}")
+        raise ParameterError(f"build takes paths of recordings or folders, not {paths!r:.60}")
     return [make_path(path, "build") for path in paths]
 
 

@@ -70,7 +70,7 @@ class Example:
         numbers = is_number(self.start_s) and (self.stop_s is None or is_number(stop))
         if not numbers or not 0 <= self.start_s < stop:
             raise ParameterError(
-                f"an example lasts from one second to a later one, not from {self.start_s!r:.20} "
+                f"an example must stop after it starts, not last from {self.start_s!r:.20} "
                 f"to {self.stop_s!r:.20}"
             )
 
@@ -315,7 +315,7 @@ def _make_batches(parts: Parts) -> Iterator[Parts]:
 
 def _require_outcome(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
     if outcome is None:
-        raise KinemeError("the processes that searched died: they may need more memory")
+        raise KinemeError("the search processes died: they may need more memory")
     return outcome
 
 

@@ -191,12 +191,12 @@ class Intake:
             self._append(self.at[-1:], row[None])
             return 1
         if -LONGEST_S <= step < 0:
-            self._say(pieces, "rows that are older than the one before are left out")
+            self._say(pieces, "rows older than the row before are left out")
             return 1
         if len(seconds) == 1:
             return None
         if abs(seconds[1] - seconds[0]) >= abs(seconds[1] - self.last_s):
-            self._say(pieces, "single rows with a time that nothing else has are left out")
+            self._say(pieces, "single rows whose time differs from all others are left out")
             return 1
         if self._correct_clock(step, pieces):
             return 0
@@ -209,11 +209,11 @@ class Intake:
         near = max(LONGEST_S, 3 / self.fps)
         for shift in SHIFTS_S:
             if abs(step - shift) <= near and (shift < 0 or is_unix_time(self.ahead_s)):
-                self._say(pieces, "the clock changes by an hour or a day, which is undone")
+                self._say(pieces, "the clock changes by an hour or a day: corrected")
                 self.ahead_s += shift
                 return True
         if step < 0:
-            pieces.append(f"the clock goes back by {-step:.4g} s: the stream goes on after a gap")
+            pieces.append(f"the clock goes back by {-step:.4g} s: the stream continues after a gap")
             # Far enough from the last row to make a gap.
             self.ahead_s += step - (LONGEST_S + 2 / self.fps)
         return step < 0

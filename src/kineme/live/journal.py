@@ -54,12 +54,12 @@ class Journal:
         self.path = self.target.with_suffix(SUFFIX)
         self._fps, self._n_rows, self._synchronised = fps, 0, monotonic()
         if self.target.exists():
-            raise WriteError(self.target, "is there already: give another name")
+            raise WriteError(self.target, "exists already: give another name")
         refuse_link(self.path)
         try:
             self._file = self.path.open("x", encoding="utf-8", newline="")
         except FileExistsError as error:
-            advice = f"was left by a run that ended early: kineme live --recover {self.path}"
+            advice = f"is from a run that ended early: kineme live --recover {self.path}"
             raise WriteError(self.path, advice) from error
         except OSError as error:
             raise WriteError(self.path, f"cannot be written: {error.strerror}") from error
@@ -125,10 +125,10 @@ def recover_journal(path: str | os.PathLike[str]) -> Path:
     """
     journal = Path(path)
     if not journal.name.endswith(SUFFIX):
-        raise ReadError(journal, f"is no journal: its name would end in {SUFFIX}")
+        raise ReadError(journal, f"is not a journal: its name must end in {SUFFIX}")
     target = journal.with_name(journal.name.removesuffix(SUFFIX) + ".parquet")
     if target.exists():
-        raise WriteError(target, "is there already: move it away first")
+        raise WriteError(target, "exists already: move it away first")
     with require_extra("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import csv as arrow_csv
@@ -138,7 +138,7 @@ def recover_journal(path: str | os.PathLike[str]) -> Path:
         with journal.open(encoding="utf-8", newline="") as file:
             names = next(csv.reader(file), [])
         if names[:1] != [TIME]:
-            raise ReadError(journal, f"is no journal: its first column would be {TIME}")
+            raise ReadError(journal, f"is not a journal: its first column must be {TIME}")
         # Types are given, as they cannot be inferred from empty columns.
         convert = arrow_csv.ConvertOptions(column_types=dict.fromkeys(names, pa.float64()))
         # In batches, so that the rows of a day need not fit into memory.

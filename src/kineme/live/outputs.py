@@ -71,7 +71,7 @@ def open_osc(target: str) -> Iterator[Send]:
         from pythonosc.udp_client import SimpleUDPClient
     host, _, port = target.rpartition(":")
     if not (host and port.isdecimal() and 0 < int(port) < 2**16):
-        raise ParameterError(f"OSC is sent to HOST:PORT, such as 127.0.0.1:9000, not {target!r}")
+        raise ParameterError(f"OSC needs HOST:PORT, such as 127.0.0.1:9000, not {target!r}")
     try:
         client = SimpleUDPClient(host.strip("[]"), int(port))
     except OSError as error:
@@ -132,10 +132,10 @@ def open_websocket(port: int) -> Iterator[Send]:
 OUTPUTS = {
     "websocket": Output(
         open_websocket,
-        "Send events as JSON to clients of a websocket at this port of this machine.",
+        "Send events as JSON to websocket clients on this local port.",
         "PORT",
         int,
     ),
     "osc_out": Output(open_osc, "Send events as OSC messages to this address.", "HOST:PORT"),
-    "lsl_out": Output(open_lsl, "Send events as markers of JSON by LSL.", "NAME"),
+    "lsl_out": Output(open_lsl, "Send events as JSON markers by LSL.", "NAME"),
 }

@@ -111,7 +111,7 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
     while first is not None and not first.strip():
         first = queue.get()
     if first is None:
-        raise ParameterError("no lines came: the first names the channels")
+        raise ParameterError("no lines received: the first line must name the channels")
     parser = _Parser(first, columns)
 
     def rows() -> Iterator[Rows]:
@@ -182,7 +182,7 @@ class _Parser:
             except (ValueError, TypeError, IndexError):
                 wrong += 1
         values = np.array(rows, np.float64).reshape(-1, len(self.at))
-        remarks = (f"{wrong} lines that are no rows of {len(self.names)} cells",) if wrong else ()
+        remarks = (f"{wrong} lines without {len(self.names)} cells left out",) if wrong else ()
         return Rows(values, None if self.time is None else np.array(seconds), remarks)
 
     def _cells(self, line: str) -> Any:
@@ -310,7 +310,7 @@ def measure_rate(source: Source) -> Source:
         begun.append(piece)
         count += len(piece.values)
         if piece.seconds is None:
-            raise ParameterError("rows have no column of times: give --fps")
+            raise ParameterError("rows have no time column: give --fps")
         if count >= TIMED_ROWS:
             break
     seconds = np.concatenate([piece.seconds for piece in begun if piece.seconds is not None])

@@ -98,7 +98,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
         except (ValueError, KeyError, AttributeError) as error:
             raise ReadError(path, "is not a stream saved by kineme") from error
     if content.get("schema") != SCHEMA:
-        raise ReadError(path, f"is of another version: {content.get('schema')!r:.40}")
+        raise ReadError(path, f"has another version: {content.get('schema')!r:.40}")
 
     def fill(state: StreamState) -> None:
         own = {each.name for each in fields(Intake)} & arrays.keys()

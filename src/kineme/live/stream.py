@@ -84,7 +84,7 @@ class Stream:
         **options: Any,
     ) -> None:
         if (channels is None) == (skeleton is None):
-            raise ParameterError("a stream has channels=[names], or a skeleton=")
+            raise ParameterError("give a stream channels=[names] or skeleton=")
         names = () if channels is None else as_texts(channels, "names of channels")
         if channels is not None and not names:
             raise ParameterError("a stream has at least one channel")
@@ -95,13 +95,13 @@ class Stream:
                 raise ParameterError(f"{name} must be a number above 0, not {seconds!r:.60}")
         if memory < 2 * (delay + interval):
             raise ParameterError(
-                f"memory is {memory:g} s: give twice delay and interval, "
-                f"{2 * (delay + interval):g} s, or more"
+                f"memory is {memory:g} s: give at least twice delay plus interval, "
+                f"{2 * (delay + interval):g} s"
             )
         layout = Layout(as_rate(fps), names, skeleton)
         chosen = SegmentOptions.of(**options)
         if chosen.features is not None:
-            raise ParameterError("a stream takes no features: push them as channels")
+            raise ParameterError("features= cannot be used with a stream: push them as channels")
         looked = choose_options(chosen, signals=skeleton is None)
         self.fps, self.delay, self.memory, self.interval = layout.fps, delay, memory, interval
         self.layout, self.options = layout, chosen
@@ -142,7 +142,7 @@ class Stream:
             Rows of the wrong shape, or invalid times. The stream continues without them.
         """
         if self._state.is_finished:
-            raise ParameterError("the stream was finished: make another one")
+            raise ParameterError("the stream is finished: make a new one")
         rows = self._as_rows(values)
         seconds = None
         if times is not None:
@@ -152,7 +152,7 @@ class Stream:
         if not len(rows):
             return []
         if self._state.is_timed not in (None, seconds is not None):
-            raise ParameterError("rows of a stream have times, or none has")
+            raise ParameterError("either all rows of a stream have times or none")
         self._state.is_timed = seconds is not None
         events: list[Event] = []
         for first in range(0, len(rows), PIECE):
@@ -419,8 +419,8 @@ class Stream:
         names = recording.names if isinstance(recording, Signals) else recording.skeleton.names
         if tuple(names) != tuple(own) or recording.fps != self.fps:
             raise ParameterError(
-                "the recording of known has other channels, joints or rate than the stream: "
-                "bring it to those"
+                "the recording of known has other channels, joints or frame rate than the "
+                "stream: convert it to those of the stream"
             )
         earlier = RecentPast(self.layout, self._state.past.options)
         earlier.append(values.reshape(len(values), -1), np.zeros(len(values), np.bool_))

@@ -121,7 +121,7 @@ class Preset(ABC):
     unit: Unit
     """Unit of its lengths."""
     working_fps: float = constant(
-        "samples per second at which the recording is looked at",
+        "samples per second to which the recording is resampled",
         unit="Hz",
         limits=RATE,
         default=30.0,

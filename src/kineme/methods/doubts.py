@@ -39,12 +39,12 @@ def _list_doubtful_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
         cluster = float(columns["confidence"][row])
         if border < MIN_CONFIDENCE:
             start_s = columns["start_frame"][row] / fps
-            yield border, _append_confidence(f"look at the border at {start_s:.2f} s", border)
+            yield border, _append_confidence(f"check the border at {start_s:.2f} s", border)
         if cluster < MIN_CONFIDENCE:
             where = _format_span(columns, row, fps)
             yield (
                 cluster,
-                _append_confidence(f"look at the cluster of the activity {where}", cluster),
+                _append_confidence(f"check the cluster of the activity {where}", cluster),
             )
 
 
@@ -58,7 +58,7 @@ def _list_doubtful_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
         count = float(columns["confidence"][inside].min(initial=1))
         if count < MIN_CONFIDENCE and np.count_nonzero(inside) > 1:  # one primitive is no count
             where = _format_span(columns, row, fps)
-            yield count, _append_confidence(f"look at the number of repetitions {where}", count)
+            yield count, _append_confidence(f"check the number of repetitions {where}", count)
 
 
 def _append_confidence(text: str, probability: float) -> str:

@@ -160,7 +160,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         """Return the rows as signals, and the frame of each row."""
         if isinstance(X, Motion | Signals):
             raise ParameterError(
-                "a Segmenter takes rows of numbers: kineme.segment takes recordings"
+                "a Segmenter takes rows of numbers: use kineme.segment for recordings"
             )
         preset = resolve_preset(self.preset, signals=True, **self._constants)
         assumed = min(preset.working_fps, ASSUMED_FPS)

@@ -114,7 +114,7 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
         try:
             return Prepared([_compute_rotations(span, preset) for span in motions], recorded, [])
         except MotionError as error:
-            notes.append(f"{error}: seen by the positions of head, hands and feet")
+            notes.append(f"{error}: segmented by the positions of head, hands and feet")
     # The size of a body is constant: measure it in the longest span.
     longest = max((span for _, span in spans), key=lambda span: span.n_frames)
     try:
@@ -162,8 +162,8 @@ def _measure_distances(
     reason = error.reason if isinstance(error, EndEffectorError) else str(error)
     if getattr(preset, "mirror", False):
         raise ParameterError(
-            f"{reason}, so nothing tells left from right: name five joints with --effectors, "
-            f"or leave out mirroring"
+            f"{reason}, so left and right are unknown: name five joints with --effectors or "
+            "turn mirroring off"
         ) from error
     # All spans together, so that they share the same principal axes.
     features, points = compute_distance_features(
@@ -229,7 +229,7 @@ def prepare_signals(
     points = find_joints(signals) if preset.accepts_joints and is_descriptive else None
     if points is not None:
         rows = replace_by_distances(rows, points, preset.working_fps)
-        notes.append(f"{len(points)} points with bones: seen by how far they are from each other")
+        notes.append(f"{len(points)} points with bones: segmented by the distances between them")
     features = _stack_channels(rows, preset, standardize=standardize)
     if unit is None:
         unit = preset.signal_unit(features)
@@ -268,7 +268,7 @@ def _describe_channels(
     is_constant = values.min(axis=0) == values.max(axis=0)
     if is_constant.any() and standardize:
         names = [name for name, still in zip(signals.names, is_constant, strict=True) if still]
-        notes.append(f"never change and carry no weight: {', '.join(names)}")
+        notes.append(f"have no weight, since they never change: {', '.join(names)}")
     if emg:
         notes.append("muscle signals: rectified and low-passed")
     return notes

@@ -104,7 +104,7 @@ def resolve_preset(preset: str | Preset, *, signals: bool = False, **overrides: 
         others = [other for other, candidate in PRESETS.items() if hasattr(candidate, name)]
         if others and not hasattr(chosen, name):
             raise ParameterError(
-                f"{chosen.name} has no parameter {name!r}: it is one of {' and '.join(others)}, "
-                f"so choose another preset or leave it out"
+                f"{chosen.name} has no parameter {name!r}: it belongs to "
+                f"{' and '.join(others)}, so choose another preset or leave it out"
             )
     return (chosen.for_signals() if signals else chosen).replace(**overrides)

@@ -111,7 +111,7 @@ def segment(
     """
     is_recording = isinstance(recording, Motion | Signals)
     if is_recording and (fps is not None or times is not None):
-        raise ParameterError("fps and times are of rows of numbers: a recording has its own")
+        raise ParameterError("fps and times are for arrays: a recording has its own")
     if not is_recording and not isinstance(recording, str | PathLike):
         recording = as_signals(recording, fps=fps, times=times)
     options = SegmentOptions(
@@ -214,8 +214,7 @@ def segment_with_options(
         )
     elif preset.unit == "standard deviations":
         raise ParameterError(
-            f"{preset.name} is in standard deviations, for signals: a motion takes one in metres "
-            f"or body sizes"
+            f"{preset.name} is for signals: for a motion choose a preset in metres or body sizes"
         )
     else:
         prepared = prepare_motion(source, preset, options.effectors)
@@ -361,7 +360,9 @@ class SegmentOptions:
         constants: Any = self.constants
         is_mapping = isinstance(constants, Mapping)
         if not (is_mapping and all(isinstance(name, str) for name in constants)):
-            raise ParameterError(f"constants must be values by their names, not {constants!r:.60}")
+            raise ParameterError(
+                f"constants must be a mapping of names to values, not {constants!r:.60}"
+            )
         check_detail(self.detail)
         check_flag(self.emg, "emg")
         if self.standardize is not None:
@@ -407,8 +408,9 @@ def wrap_features(recording: Motion | Signals, features: ArrayLike, fps: float |
     expected = recording.n_frames * rate / recording.fps
     if abs(len(rows) - expected) > 1 + rate / recording.fps:
         raise ParameterError(
-            f"features have {len(rows)} rows, the recording lasts {recording.duration:.2f} s: "
-            f"{expected:.0f} rows at {rate:g} a second; give feature_fps"
+            f"features have {len(rows)} rows, but the recording lasts "
+            f"{recording.duration:.2f} s: {expected:.0f} rows at {rate:g} a second; give "
+            "feature_fps"
         )
     per_frame = rate / recording.fps  # rows per frame
     # Widen gaps to whole rows, so that no row overlaps a gap.

@@ -178,12 +178,12 @@ def _check_recording(recording: object, segmentation: Segmentation) -> None:
     """Raise ParameterError unless the recording has the length of the segments."""
     if not isinstance(recording, Motion | Signals):
         raise ParameterError(
-            f"a picture needs the Motion or Signals segmented, not {type(recording).__name__}"
+            f"a picture needs the segmented Motion or Signals, not {type(recording).__name__}"
         )
     if recording.n_frames != segmentation.n_frames:
         raise ParameterError(
-            f"the recording has {recording.n_frames} frames, its segments {segmentation.n_frames}: "
-            f"they are of another recording"
+            f"the recording has {recording.n_frames} frames, but its segments "
+            f"{segmentation.n_frames}: give the segments of this recording"
         )
 
 

@@ -103,8 +103,8 @@ def _find_frames(
     stop = duration if stop_s is None else stop_s
     if not (is_number(start_s) and is_number(stop) and 0 <= start_s < min(stop, duration)):
         raise ParameterError(
-            f"a span lies within the {duration:.2f} s of the recording, not from {start_s!r:.20} "
-            f"to {stop_s!r:.20}"
+            f"a span must be within the {duration:.2f} s of the recording, not from "
+            f"{start_s!r:.20} to {stop_s!r:.20}"
         )
     return to_samples((start_s, stop), recording.fps, recording.n_frames)
 

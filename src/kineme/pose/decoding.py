@@ -79,17 +79,19 @@ class OpenVideo:
         for decoded in self._decode():
             last = decoded.time
             if last is None:
-                raise ReadError(self._path, "does not state the times of its frames: convert it")
+                raise ReadError(
+                    self._path, "does not state the times of its frames: convert it to .mp4"
+                )
             # The seek ends at a keyframe before `after`: `last - used` is negative there.
             if used is None or last - used >= max(step, 1e-6):
                 used = last
                 yield _convert_frame(decoded)
         if last is None:
-            raise ReadError(self._path, "holds no frames")
+            raise ReadError(self._path, "has no frames")
         if self.duration and last - begin < self.duration - TRUNCATED_S:
             raise ReadError(
                 self._path,
-                f"breaks off after {last - begin:.1f} s of {self.duration:.1f} s: copy it again",
+                f"ends after {last - begin:.1f} s of {self.duration:.1f} s: copy it again",
             )
 
     def _decode(self) -> Iterator[Any]:
@@ -110,12 +112,12 @@ def open_video(path: Path) -> Iterator[OpenVideo]:
     try:
         container = av.open(str(path))
     except (av.FFmpegError, OSError) as error:
-        reason = f"is no video, or only a part of one: {_shorten_reason(error)}"
+        reason = f"is not a video, or only part of one: {_shorten_reason(error)}"
         raise ReadError(path, reason) from error
     with container:
         if not container.streams.video:
-            sound_only = "is no video: it holds sound, but no pictures"
-            truncated = "holds no pictures: it may be a part of a video only, so copy it again"
+            sound_only = "is not a video: it has sound but no pictures"
+            truncated = "has no pictures: it may be incomplete, so copy it again"
             raise ReadError(path, sound_only if container.streams.audio else truncated)
         stream = container.streams.video[0]
         stream.thread_type = "AUTO"

@@ -172,7 +172,7 @@ def keep_poses(
     head, rows, _ = _parse_part(part, len(chosen.keypoints))
     if len(np.unique(rows["time"])) < 2:
         part.unlink()
-        raise ReadError(path, "is a still picture: a video has several frames")
+        raise ReadError(path, "is a still picture: give a video")
     write_poses(table, head, rows)
     part.unlink()
     return table
@@ -195,7 +195,7 @@ def _holds_poses_of(table: Path, wanted: Head) -> bool:
         content = load(table)
         head = parse_head(content, open_parquet(content))
     except ReadError as error:
-        reason = "is there, and holds no poses: move it away or name another file"
+        reason = "exists already and has no poses: move it away or name another file"
         raise WriteError(table, reason) from error
     return all(head.get(name) == value for name, value in wanted.items())
 
@@ -216,7 +216,7 @@ def _run(
     """Append the poses of all frames that the file of an earlier run lacks."""
     refuse_link(part)
     if part.exists() and is_locked(part):
-        raise WriteError(part, "is being written: wait for the other kineme to end")
+        raise WriteError(part, "is being written by another kineme: wait until it ends")
     with open_video(path) as video:
         last = _resume(part, settings, len(estimator.keypoints))
         try:

@@ -87,8 +87,8 @@ def _start_landmarker(mediapipe: Any, model: Path) -> Iterator[Estimate]:
     except OSError as error:
         raise ReadError(model, f"cannot be opened: {error.strerror or error}") from error
     except (RuntimeError, ValueError) as error:
-        reason = f"is no model of the Pose Landmarker: {shorten_error(error)}"
-        raise ReadError(model, f"{reason}; one is at {MODEL_URL}") from error
+        reason = f"is not a model of the Pose Landmarker: {shorten_error(error)}"
+        raise ReadError(model, f"{reason}; download one from {MODEL_URL}") from error
 
     def find(picture: Picture, time: float) -> list[Pose]:
         image = mediapipe.Image(image_format=mediapipe.ImageFormat.SRGB, data=picture)

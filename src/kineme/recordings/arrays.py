@@ -44,7 +44,7 @@ def as_rate(fps: object, *, error: Error = ParameterError) -> float:
         raise error(f"the frame rate is {fps!r:.60}: it must be a positive number")
     if not SLOWEST <= fps <= FASTEST:  # type: ignore[operator]
         raise error(
-            f"the frame rate is {fps:g} Hz, which no clock has: give it in frames per second"
+            f"the frame rate is {fps:g} Hz, which is too high or too low: give frames per second"
         )
     return float(fps)  # type: ignore[arg-type]
 

@@ -57,12 +57,14 @@ class Clock:
         for name in ("seconds", "times"):
             values = getattr(self, name)
             if not isinstance(values, Sequence) or not all(map(is_number, values)):
-                raise ParameterError(f"{name} of a clock are numbers, not {values!r:.60}")
+                raise ParameterError(f"{name} of a clock must be numbers, not {values!r:.60}")
             object.__setattr__(self, name, tuple(map(float, values)))
         starts = self.seconds
         rising = bool(starts) and starts[0] == 0 and all(a < b for a, b in pairwise(starts))
         if len(starts) != len(self.times) or not rising:
-            raise ParameterError("a clock has as many times as seconds, which rise from 0")
+            raise ParameterError(
+                "a clock needs one time per second value, and seconds that increase from 0"
+            )
 
     @classmethod
     def from_times(cls, times: ArrayLike, fps: float) -> Clock | None:

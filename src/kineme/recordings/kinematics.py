@@ -85,7 +85,7 @@ def compute_world_rotations(skeleton: Skeleton, rotations: ArrayLike | None) -> 
     ``rotations`` are local to the parent; raise MotionError if there are none.
     """
     if rotations is None:
-        raise MotionError("this motion has positions only: it has no rotations to work with")
+        raise MotionError("this needs rotations, but the motion has positions only")
     world = np.array(rotations, np.float64)
     for j, parent in enumerate(skeleton.parents):
         if parent >= 0:

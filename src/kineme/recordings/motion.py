@@ -77,7 +77,8 @@ class Motion(Recording):
         reach = max(float(self.positions.max(initial=0.0)), -float(self.positions.min(initial=0.0)))
         if reach > FARTHEST:
             raise MotionError(
-                f"positions reach {reach:.3g} m, where no body is: give unit=, or mend the values"
+                f"positions reach {reach:.3g} m, too far for a body: give unit= or correct "
+                "the values"
             )
         joints = self.skeleton.n_joints
         if self.positions.ndim != 3 or self.positions.shape[1:] != (joints, 3):

@@ -119,7 +119,7 @@ def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
     """
     if not 0 <= start < stop <= recording.n_frames:
         raise ParameterError(
-            f"frames {start} to {stop} are not a span of a recording of {recording.n_frames} frames"
+            f"frames {start} to {stop} are not within a recording of {recording.n_frames} frames"
         )
     return recording[start:stop]
 

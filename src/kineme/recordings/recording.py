@@ -110,7 +110,9 @@ class Recording(Protocol):
         """
         for at in (start, 0.0 if stop is None else stop):
             if not is_number(at) or at < 0:
-                raise ParameterError(f"{at!r:.60} is no time in a recording: give seconds from 0")
+                raise ParameterError(
+                    f"{at!r:.60} is not a time in a recording: give seconds from 0"
+                )
         last = self.duration if stop is None else min(stop, self.duration)
         # Seconds beyond the end count as the end.
         first, end = round(min(start, self.duration) * self.fps), round(last * self.fps)
@@ -130,23 +132,25 @@ class Recording(Protocol):
     def __getitem__(self, frames: slice) -> Self:
         """Return the frames of a slice with the gaps and events in them, indexed as in numpy."""
         if not isinstance(frames, slice):
-            raise ParameterError(f"a recording is sliced by frames, as in [0:600], not {frames!r}")
+            raise ParameterError(
+                f"a recording must be sliced by frames, as in [0:600], not {frames!r}"
+            )
         try:
             step = 1 if frames.step is None else index(frames.step)
             # `indices` resolves negative and missing bounds as numpy does.
             start, stop, _ = slice(frames.start, frames.stop).indices(self.n_frames)
         except TypeError:
             raise ParameterError(
-                "a recording is sliced by whole numbers of frames; seconds(start, stop) takes "
-                "seconds"
+                "a recording must be sliced by whole numbers of frames: use seconds(start, "
+                "stop) for seconds"
             ) from None
         if step != 1:
             raise ParameterError(
-                f"a recording is sliced frame by frame, not with step {step}: "
-                "kineme.resample changes the rate of a motion"
+                f"a recording cannot be sliced with step {step}: use kineme.resample to "
+                "change the rate of a motion"
             )
         if start >= stop:
-            raise ParameterError(f"frames {start} to {stop} of {self.n_frames} are none")
+            raise ParameterError(f"frames {start} to {stop} of {self.n_frames} contain no frame")
         # Gaps are cut to the slice and counted from its start; those outside become empty.
         gaps = [(max(a, start) - start, min(b, stop) - start) for a, b in self.gaps]
         return self._sliced(
@@ -181,7 +185,8 @@ def as_gaps(
     for start, stop in found:
         if not before < start < stop <= n_frames:
             raise error(
-                f"gap {start} to {stop} is not a span of {n_frames} frames after the one before"
+                f"gap {start} to {stop} must be within the {n_frames} frames and after the "
+                "previous gap"
             )
         before = stop
     return found

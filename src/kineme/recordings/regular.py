@@ -203,7 +203,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     ahead = shown - at  # constant unless the clock was reset
     if not at[-1] > at[0]:
         raise ParameterError(
-            f"times do not increase: row 2 has {at[0]:g} s, as all others have; give fps= (--fps)"
+            f"times do not increase: row 2 has {at[0]:g} s, as do all others; give fps= (--fps)"
         )
     steps = np.diff(at)
     apart = np.append(True, steps > _SAME * np.median(steps[steps > 0]))
@@ -245,9 +245,9 @@ def _add_clock_and_gaps(
     if cut.any():
         k = int(cut.argmax())
         text = (
-            f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} s "
-            f"after second {frames[k] / rate:.4g}: the recording is split there, and its seconds "
-            "do not count them"
+            f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} "
+            f"s after second {frames[k] / rate:.4g}: the recording is split there, and its "
+            "duration does not include pauses"
         )
         notes.append(Note(text, "warning"))
     # rows at which the clock jumps relative to the seconds of the recording
@@ -283,7 +283,7 @@ def fill_gaps_in_channels(
     notes: list[Note | str] = []
     if resampled.filled:
         values_filled = format_count(resampled.filled, "missing value")
-        notes.append(f"{values_filled} filled in a straight line")
+        notes.append(f"{values_filled} interpolated linearly")
     if resampled.missing is None:
         return resampled.values, list(timing.gaps), [*notes, *doubts]
     jumps = np.zeros(len(resampled.values), np.bool_)
@@ -291,10 +291,15 @@ def fill_gaps_in_channels(
         jumps[start:stop] = True
     if resampled.missing.all(axis=0).any():
         name = names[int(resampled.missing.all(axis=0).argmax())]
-        raise ParameterError(f"column {name!r} holds no number at all: name the others (--columns)")
+        raise ParameterError(
+            f"column {name!r} contains no numbers: name the other columns (--columns)"
+        )
     long = resampled.missing.any(axis=1)
     if (long | jumps).all():
-        raise ParameterError("in every frame some channel is missing for long: choose columns")
+        raise ParameterError(
+            "every frame lacks some channel for too long: choose columns with fewer gaps "
+            "(--columns)"
+        )
     # gaps where the clock was reset are reported already
     holes = find_spans(long & ~jumps)
     if len(holes):
@@ -337,8 +342,8 @@ def find_faulty_channels(
         if _is_clipped(track, runs[~long]):
             clipped.append(name)
     remarks = {
-        "channels that do not change for a while": frozen,
-        "channels that are cut off at their largest values": clipped,
+        "channels that stay constant for a while": frozen,
+        "channels clipped at their largest values": clipped,
     }
     return [Note(f"{remark}: {join_names(named, most=4)}", "warning")
             for remark, named in remarks.items() if named]  # fmt: skip
@@ -428,7 +433,11 @@ def _correct_clock(
     rising = steps[steps > 0]
     usual = float(np.median(rising)) if len(rising) else 0.0
     if back.sum() > max(1, _FEW * len(steps)):  # rows are shuffled; the clock was not reset
-        return shown, None, [Note("rows are in no order of time: sorted by their times", "warning")]
+        return (
+            shown,
+            None,
+            [Note("rows are not in order of time: sorted by their times", "warning")],
+        )
 
     def near(by: float) -> Masks:
         found: Masks = np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S)
@@ -440,9 +449,7 @@ def _correct_clock(
         hours = hours | near(_HOUR)
     days = near(-_DAY) & back
     if hours.any():
-        notes.append(
-            Note("local times change by an hour, as for summer time: the hour is undone", "warning")
-        )
+        notes.append(Note("local times jump by an hour, as for summer time: corrected", "warning"))
     # Correction at each step; the cumulative sum applies it to all later rows.
     shift = np.where(hours, -_HOUR * np.sign(steps), np.where(days, _DAY, 0.0))
     at = shown + np.append(0.0, np.cumsum(shift)) if shift.any() else shown
@@ -503,7 +510,7 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
         first = int(sizes[0])
         spread[:first] = begins[1] - usual * np.arange(first, 0, -1)
     count = format_count(int(same.sum()), "row")
-    note = f"{count} with the time of the row before: spread evenly up to the next time"
+    note = f"{count} with the same time as the row before: spread evenly up to the next time"
     return spread, [Note(note, "warning")]
 
 
@@ -567,7 +574,9 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
         saved = np.cumsum(np.floor(steps[longest]) - 2)
         count = int(np.searchsorted(saved, excess)) + 1
         if count > len(steps) or steps[longest[count - 1]] <= 3:
-            raise ParameterError("the times do not tell a rate: give fps= (--fps)")
+            raise ParameterError(
+                "the frame rate cannot be inferred from the times: give fps= (--fps)"
+            )
         cut[longest[:count]] = True
         # remove whole frames, so that rows stay on the grid
         frames = frames - np.append(0.0, np.cumsum(np.where(cut, np.floor(steps) - 2, 0.0)))
@@ -577,13 +586,13 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
 def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
     """Return a note on uneven times; ``exact`` if all rows are at whole frames."""
     counts = [
-        (doubled, "row", "with the time of another"),
+        (doubled, "row", "with the same time as another"),
         (int((steps * fps > 1.5).sum()), "step", "longer than a frame and a half"),
     ]
     parts = [f"{format_count(n, one)} {what}" for n, one, what in counts if n]
     if exact and not parts:
         return []
-    return [f"times are uneven ({', '.join(parts) or 'jitter'}): brought to {fps:g} Hz"]
+    return [f"times are uneven ({', '.join(parts) or 'jitter'}): resampled to {fps:g} Hz"]
 
 
 def _round_rate(fps: float, share: float) -> float:

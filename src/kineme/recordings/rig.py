@@ -80,7 +80,7 @@ class Rig:
         n = len(self.names)
         shapes = [(n, 3), (n, 4), (n, 3)]
         if [part.shape for part in (self.translations, self.rotations, self.scales)] != shapes:
-            raise MotionError(f"a rig of {n} nodes has {n} translations, rotations and scales")
+            raise MotionError(f"a rig of {n} nodes needs {n} translations, rotations and scales")
         least, most = self.scales.min(axis=1), self.scales.max(axis=1)
         if n and not (least.min() > 0 and (most - least <= UNIFORM * most).all()):
             raise MotionError("the scale of a node at rest is not one positive number")

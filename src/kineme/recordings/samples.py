@@ -105,10 +105,10 @@ def _find_rate_and_frames(
         try:
             seconds, guessed = as_seconds(samples.times, samples.unit)
         except (ValueError, TypeError) as error:
-            raise ParameterError(f"the times are none: {error}") from None
+            raise ParameterError(f"the times are not valid: {error}") from None
         if seconds.shape != (n,):
-            raise ParameterError(f"there are {n} rows and times of shape {seconds.shape}")
-        guess = guessed and f"times are taken in {UNITS_NAMED[guessed]}, by their steps"
+            raise ParameterError(f"{n} rows need as many times, not shape {seconds.shape}")
+        guess = guessed and f"times are read in {UNITS_NAMED[guessed]}, inferred from their steps"
         timing = place_rows(seconds, samples.values, fps=0.0 if fps is None else as_rate(fps))
         return timing, [Note(guess, "warning")] if guess else []
     notes: list[Note | str] = []
@@ -125,7 +125,7 @@ def _find_rate_and_frames(
 def _convert_samples(data: Any) -> _Samples:
     """Return the rows of an array, a data frame or series, or an xarray object."""
     if isinstance(data, Signals):
-        raise ParameterError("these are signals already, whose fps is theirs")
+        raise ParameterError("these are signals already and have their own fps: leave fps= out")
     if hasattr(data, "dims") and hasattr(data, "coords"):
         return _convert_xarray(data)
     if hasattr(data, "to_frame") and hasattr(data, "index"):
@@ -148,7 +148,7 @@ def _convert_xarray(data: Any) -> _Samples:
         pair for array in arrays if along in array.dims for pair in _list_columns(array, along)
     ]
     if not columns:
-        raise ParameterError("there is no variable of numbers along a dimension such as time")
+        raise ParameterError("no numeric variable has a dimension such as time")
     names, values = zip(*columns, strict=True)
     times = data.coords[along].values if along == "time" and along in data.coords else None
     return _Samples(
@@ -195,7 +195,7 @@ def _convert_frame(frame: Any) -> _Samples:
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
     notes: list[Note | str] = []
     if left:
-        notes.append(f"columns that are no channels: {', '.join(left)}")
+        notes.append(f"columns that are not channels: {', '.join(left)}")
     values = np.column_stack([_convert_numbers(columns[i]) for i in chosen])
     channels = tuple(make_unique((called[i] for i in chosen), allow_empty=True))
     found = _Samples(values, channels, notes=notes)
@@ -272,12 +272,13 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     n_frames = int(np.floor((min(ends) - start) * fps + 1e-3)) + 1
     if n_frames < 1:
         raise ParameterError(
-            f"the recordings do not overlap in time: the last begins {max(begins) - min(ends):.4g} "
-            "s after the first ends; offsets= tells when each begins"
+            "the recordings do not overlap in time: the last begins "
+            f"{max(begins) - min(ends):.4g} s after the first ends; offsets= sets when each "
+            "begins"
         )
     lost = max(ends) - min(begins) - (n_frames - 1) / fps
     if lost > LONGEST_S:
-        notes.append(f"{lost:.4g} s in which not all sensors recorded left out")
+        notes.append(f"{lost:.4g} s left out in which not all sensors recorded")
     times = start + np.arange(n_frames) / fps
     columns, missing = [], np.zeros(n_frames, np.bool_)
     for clock, sensor in zip(clocks, signals, strict=True):
@@ -316,9 +317,7 @@ def _compare_clocks(
     overlap = min(lasts) - max(clock.times[0] for clock in clocks)
     if overlap > 0.5 * min(each.duration for each in signals):
         return clocks, []
-    remark = (
-        "the clocks of the sensors have nothing in common: taken to begin at once; give offsets"
-    )
+    remark = "the sensors have no common clock: assumed to begin together; give offsets"
     warn(remark)
     return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 

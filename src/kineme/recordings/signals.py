@@ -67,15 +67,18 @@ class Signals(Recording):
         columns = getattr(self.values, "columns", range(1, values.shape[1] + 1))
         assign(self, values=freeze(values, "signals"), fps=as_rate(self.fps))
         if (largest := float(np.abs(values).max())) > LARGEST:
-            raise ParameterError(f"signals reach {largest:.3g}, which no sensor tells")
+            raise ParameterError(
+                f"signals reach {largest:.3g}, too large for a sensor: correct the values"
+            )
         names = as_texts(self.names, "names of channels") or tuple(map(str, columns))
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
-                f"{values.shape[1]} channels need as many different names, not {', '.join(names)}"
+                f"{values.shape[1]} channels need the same number of different names, not "
+                f"{', '.join(names)}"
             )
         assign(self, names=names, gaps=as_gaps(self.gaps, len(values)))
         if not self.spans():
-            raise ParameterError("the gaps leave nothing of the recording")
+            raise ParameterError("the gaps cover the whole recording")
 
     def __repr__(self) -> str:
         return (

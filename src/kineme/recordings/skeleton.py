@@ -68,7 +68,7 @@ class Skeleton:
             assign(self, end_sites=frozenset(index(joint) for joint in self.end_sites))
         except TypeError:
             raise MotionError(
-                "parents and end sites of a skeleton are lists of joints, by whole numbers"
+                "parents and end sites of a skeleton must be lists of joint indices"
             ) from None
         assign(self, offsets=freeze(self.offsets, "offsets", row="joint", error=MotionError))
         n = len(self.names)
@@ -94,7 +94,7 @@ class Skeleton:
         if inner:
             raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
         if self.rig is not None and len(self.rig.axes) != n:
-            raise MotionError(f"a rig of {len(self.rig.axes)} joints is not that of {n} joints")
+            raise MotionError(f"the rig has {len(self.rig.axes)} joints, but the skeleton {n}")
 
     def __repr__(self) -> str:
         ends = f", {len(self.end_sites)} of them end sites" if self.end_sites else ""

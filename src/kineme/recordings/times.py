@@ -182,7 +182,7 @@ def parse_date(text: str, *, day_first: bool | None = None) -> float:
     ``day_first`` is the result of `is_day_first`; None for the usual order.
     """
     if not any(mark in text for mark in "-:"):
-        raise ValueError(f"{text[:40]!r} is no ISO date")
+        raise ValueError(f"{text[:40]!r} is not an ISO date")
     if leap := _LEAP.search(text):
         before = f"{text[: leap.start()]}59{text[leap.end() :]}"
         return parse_date(before, day_first=day_first) + 1
@@ -250,7 +250,9 @@ def _parse_time_of_day(text: str) -> time:
     try:
         return time.fromisoformat(text)
     except ValueError:
-        raise ValueError(f"{text[:40]!r} is no ISO date such as 2026-01-31T09:30:00.25") from None
+        raise ValueError(
+            f"{text[:40]!r} is not an ISO date such as 2026-01-31T09:30:00.25"
+        ) from None
 
 
 def _convert_date(value: Any) -> float:

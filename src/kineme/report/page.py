@@ -80,7 +80,7 @@ def write_report(
     if name is not None:
         check_type(name, str, "name", "give a text, or leave it out")
     if Path(path).suffix.lower() not in SUFFIXES:
-        raise WriteError(path, f"reports are written as {', '.join(SUFFIXES)}")
+        raise WriteError(path, f"the suffix of a report must be {', '.join(SUFFIXES)}")
     data = make_page_data(recording, fps=segmentation.fps, effectors=effectors)
     tiles = make_report_tiles(data.matrix)
     message = make_recording_message(

@@ -43,7 +43,7 @@ class Hierarchy:
     >>> import kineme
     >>> found = kineme.segment(kineme.read(kineme.bundled_recording()))
     >>> found.hierarchy
-    <Hierarchy of 6 details from 0.125 to 8, 1 is looked at>
+    <Hierarchy of 6 details from 0.125 to 8, 1 is shown>
     """
 
     details: tuple[float, ...]
@@ -54,7 +54,8 @@ class Hierarchy:
         _check_details(self.details, self.detail)
         if len(self.tables) != len(self.details):
             raise ParameterError(
-                f"{len(self.details)} details need as many tables, not {len(self.tables)}"
+                f"{len(self.details)} details need the same number of tables, not "
+                f"{len(self.tables)}"
             )
         steps = zip(pairwise(self.details), pairwise(self.tables), strict=True)
         for (less, more), (coarse, fine) in steps:
@@ -63,8 +64,9 @@ class Hierarchy:
                 lost = np.setdiff1d(_find_starts(coarse, level), _find_starts(fine, level))
                 if len(lost):
                     raise ParameterError(
-                        f"the {level} border at frame {lost[0]} is there at detail {less:g}, but "
-                        f"not at {more:g}: finer tables must have the borders of coarser ones"
+                        f"the {level} border at frame {lost[0]} exists at detail {less:g}, "
+                        f"but not at {more:g}: finer tables must have the borders of "
+                        "coarser ones"
                     )
 
     @classmethod
@@ -146,7 +148,7 @@ class Hierarchy:
         details_text = (
             f"{format_count(n, 'detail')} from {self.details[0]:g} to {self.details[-1]:g}"
         )
-        return f"<Hierarchy of {details_text}, {self.detail:g} is looked at>"
+        return f"<Hierarchy of {details_text}, {self.detail:g} is shown>"
 
 
 def check_detail(detail: object) -> None:
@@ -162,10 +164,10 @@ def _check_details(details: tuple[float, ...], present: float) -> None:
     for each in details:
         check_detail(each)
     if any(less >= more for less, more in pairwise(details)):
-        raise ParameterError(f"details must rise, not be {', '.join(map(str, details))}")
+        raise ParameterError(f"details must increase, not be {', '.join(map(str, details))}")
     if present not in details:
         raise ParameterError(
-            f"detail {present!r:.60} is none of {', '.join(f'{each:g}' for each in details)}"
+            f"detail {present!r:.60} is not one of {', '.join(f'{each:g}' for each in details)}"
         )
 
 

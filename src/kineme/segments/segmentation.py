@@ -73,7 +73,7 @@ def check_recording(n_frames: int, fps: float) -> None:
     if not (is_number(fps) and 0 < fps < FASTEST):
         raise ParameterError(f"the frame rate must be a positive number, not {fps!r:.60}")
     if not n_frames / fps < LONGEST:
-        raise ParameterError(f"no recording lasts {n_frames / fps:.3g} s, as this would")
+        raise ParameterError(f"a recording cannot last {n_frames / fps:.3g} s")
 
 
 def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
@@ -197,7 +197,7 @@ class Segmentation:
         check_type(
             self.table, SegmentTable, "Segmentation", "Segmentation.from_columns takes columns"
         )
-        check_type(self.annotation, Annotation, "Segmentation", "Annotation() is one of nothing")
+        check_type(self.annotation, Annotation, "Segmentation", "Annotation() is an empty one")
         check_recording(self.n_frames, self.fps)
         activities, primitives = self.activities, self.primitives
         check_tiles(activities, "activity", self.n_frames)

@@ -104,7 +104,7 @@ class Segment:
     activity: Annotated[
         int,
         Column(
-            "the segment of the activity level that it lies in (or is), from 0",
+            "the segment of the activity level that contains it (or is it), from 0",
             least=0,
             derived=True,
         ),
@@ -112,12 +112,12 @@ class Segment:
     label: Annotated[str, Column("a name given by a person or a knowledge base, or empty")] = ""
     confidence: Annotated[
         float,
-        Column("how probable it is that what its kind claims is right; none where nobody says"),
+        Column("probability that its kind is right; none if unknown"),
     ] = math.nan
     action: Annotated[
         int,
         Column(
-            "`cluster` of the activity that it lies in (or is)",
+            "`cluster` of the activity that contains it (or is it)",
             least=-1,
             optional=True,
             derived=True,
@@ -125,7 +125,7 @@ class Segment:
     ] = -1
     border_confidence: Annotated[
         float,
-        Column("how probable it is that its start is right; none where nobody says", optional=True),
+        Column("probability that its start is right; none if unknown", optional=True),
     ] = math.nan
 
     @property
@@ -260,7 +260,7 @@ class SegmentTable:
         try:
             columns = {name: column[picked] for name, column in self.columns().items()}
         except (TypeError, ValueError):  # a slice of other values than whole numbers
-            raise ParameterError(f"{rows!r} picks no rows: give whole numbers") from None
+            raise ParameterError(f"{rows!r} selects no rows: give whole numbers") from None
         return type(self)(**columns)
 
     def __len__(self) -> int:
@@ -416,10 +416,10 @@ def _check_selection(rows: ArrayLike, n: int) -> NDArray[Any]:
         return picked.astype(np.int64)
     if picked.ndim != 1 or picked.dtype.kind not in "biu":
         raise ParameterError(
-            f"rows are picked by a slice, a mask or row numbers, not by {rows!r:.60}"
+            f"rows are selected by a slice, a mask or row numbers, not by {rows!r:.60}"
         )
     if picked.dtype.kind == "b" and len(picked) != n:
-        raise ParameterError(f"a mask of {len(picked)} does not fit a table of {n} rows")
+        raise ParameterError(f"a mask of {len(picked)} does not match a table of {n} rows")
     if picked.dtype.kind != "b" and not (-n <= picked.min() and picked.max() < n):
         raise IndexError(f"row {picked[(picked < -n) | (picked >= n)][0]} of a table of {n}")
     return picked

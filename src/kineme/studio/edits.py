@@ -97,7 +97,7 @@ def apply_edit(
             fps=table.fps,
             clock=table.clock,
         )
-        return Outcome(labels, [f"the table is that of {path.name}"], replaced=True)
+        return Outcome(labels, [f"the table was taken from {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):
         return Outcome(version(edit.version), replaced=True)
     raise ParameterError(f"there is no edit {type(edit).__name__}")

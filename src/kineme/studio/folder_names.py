@@ -25,7 +25,7 @@ def rename_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> Table
     """
     if not sent.before:
         raise ParameterError(
-            "the cluster had no name before: only named clusters can be renamed elsewhere"
+            "the cluster had no name before: only named clusters can be renamed in other recordings"
         )
     changed, left = 0, []
     for name, listed in recordings.folder.recordings().items():

@@ -273,7 +273,7 @@ class Searches:
 
         def check() -> None:
             if number != self._newest:
-                raise SupersededError("a newer search took the place of this one")
+                raise SupersededError("a newer search replaced this one")
 
         names = {*library.recordings["recording"]}
         with self._searching:

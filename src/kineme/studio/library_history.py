@@ -60,7 +60,7 @@ class LibraryHistory:
         """Undo the last edit; ParameterError if there is none, or the library has changed since."""
         with lock_for_writing(self._folder, "try again", LOCK_EDITS):
             if not self.last():
-                raise ParameterError("there is nothing to undo, or the library was changed since")
+                raise ParameterError("nothing to undo, or the library was changed meanwhile")
             *steps, last = self._steps()
             if last.before:
                 write_json(self._folder / EDITS, last.before)

@@ -82,7 +82,7 @@ class LibraryApi:
         try:
             start_s, stop_s = float(query["start"]), float(query["stop"])
         except (KeyError, ValueError):
-            raise ParameterError("a figure is of a span: start and stop in seconds") from None
+            raise ParameterError("a figure needs start and stop in seconds") from None
         name = query.get("recording", "")
         return self._figures.figure(self._shown.library(), name, start_s, stop_s)
 
@@ -100,7 +100,7 @@ class Figures:
         ParameterError for an unknown recording or an empty span, ReadError if the file is missing.
         """
         if not 0 <= start_s < stop_s:
-            raise ParameterError("a figure is of a span from one second to a later one")
+            raise ParameterError("the stop of a figure must be after its start")
         stop_s = min(stop_s, start_s + MAX_FIGURE_S)
         span = self._read(library, name).seconds(start_s, stop_s)
         if isinstance(span, Signals):

@@ -81,7 +81,7 @@ class LibraryTables:
                 "preset": options.preset,
                 "parameters": dict(options.constants),
                 "input": {"path": str(path), "format": kind},
-                "notes": [f"segments, clusters and names are those of the library {folder.name}"],
+                "notes": [f"segments, clusters and names come from the library {folder.name}"],
             },
             annotation=Annotation(cluster_names=names),
         )

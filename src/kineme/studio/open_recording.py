@@ -44,7 +44,7 @@ Found = tuple[Segmentation, list[str]]
 FIRST_WAIT_S = 3.0
 """Time that a page waits for segments; the first segmentation also compiles code."""
 STILL_FINDING = "the recording is still being segmented: try again later"
-CHANGED = "the table has been changed elsewhere: look at it, then edit it again"
+CHANGED = "the table was changed elsewhere: check it, then edit again"
 
 
 class ConflictError(Exception):

@@ -300,5 +300,5 @@ class OpenRecordings:
 
 def _find_or_raise(files: dict[str, File], name: str, what: str) -> File:
     if name not in files:
-        raise UnknownError(f"there is no such {what}; it may have been removed")
+        raise UnknownError(f"there is no such {what}: it may have been removed")
     return files[name]

@@ -35,7 +35,7 @@ class Reader:
             return
         people = self._cache.read(listed).provenance.people
         if len(people) > 1:
-            reason = f"{format_count(len(people), 'person')} are in it: choose one of them, or all"
+            reason = f"{format_count(len(people), 'person')} found: choose one or all"
             raise SeveralPeopleError(listed.path, reason, people)
 
     def change_options(

@@ -188,7 +188,7 @@ class Api:
         stem = make_safe_name(f"{sent.name.removesuffix('.npz')}.npz")
         path = self._recordings.folder.root / stem
         if path.exists():
-            raise ParameterError(f"{path.name} is there already: take another name")
+            raise ParameterError(f"{path.name} exists already: choose another name")
         KnowledgeBase.merged(*bases).save(path)
         return FileChoice(id=make_file_id(path), name=path.name)
 
@@ -306,7 +306,7 @@ class Api:
                 clock=table.clock,
             )
         else:
-            raise ParameterError("compare with a preset or with an annotation: name one of them")
+            raise ParameterError("name a preset or an annotation to compare with")
         score_values = score_agreement(other, table)  # the other table counts as the truth
         return Comparison(
             name=title,
@@ -355,7 +355,7 @@ class Api:
     def video(self, request: Request) -> Response:
         path = find_video(self._recordings.find_listed(request.path_params["id"]).path)
         if path is None:
-            raise UnknownError("there is no video of that name beside the recording")
+            raise UnknownError("there is no video of that name next to the recording")
         return FileResponse(path, media_type=VIDEO_TYPES.get(path.suffix.lower()))
 
     def keypoints(self, request: Request) -> Response:

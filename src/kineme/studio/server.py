@@ -140,7 +140,7 @@ def open_socket(port: int | None) -> socket.socket:
             continue
         return server_socket
     ports = f"{PORT} to {PORT + PORT_ATTEMPTS - 1} are" if port is None else f"{port} is"
-    raise ParameterError(f"port {ports} not free ({reason}): name another with --port")
+    raise ParameterError(f"port {ports} not available ({reason}): choose another with --port")
 
 
 def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> None:

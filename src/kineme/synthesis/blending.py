@@ -132,7 +132,7 @@ def synthesize(
         check_type(start, Placement, "start", "leave it out to start as recorded")
     # Frame counts are a cheap check that the motions are those of the graph.
     if [m.n_frames for m in motions] != [s.n_frames for s in graph.sources]:
-        raise ParameterError("the motions are not those the graph was built on: build it anew")
+        raise ParameterError("the graph was built from other motions: build it again")
     spans = place_spans(graph, route, start or Placement())
     rotations, translations = _blend_spans(spans, motions, round(graph.window * graph.fps / 2))
     jumps = len(spans) - 1

@@ -259,7 +259,7 @@ def check_source(motion: Motion, first: Motion) -> None:
     if not same or motion.fps != first.fps:
         raise ParameterError(
             f"{where} has another skeleton or frame rate than "
-            f"{first.provenance.path or 'the first motion'}; build one graph for each"
+            f"{first.provenance.path or 'the first motion'}: build one graph for each"
         )
 
 

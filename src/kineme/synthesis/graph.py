@@ -326,7 +326,7 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     try:
         graph = _parse_graph(data)
     except ValueError as error:
-        reason = f"is damaged ({error!s:.120}): build it anew with kineme graph"
+        reason = f"is damaged ({error!s:.120}): build it again with kineme graph"
         raise ReadError(path, reason) from error
     return replace(graph, sources=tuple(_resolve_source(source, home) for source in graph.sources))
 
@@ -364,18 +364,20 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
             exists = path.is_file()
             digest = sha256(path.read_bytes()).hexdigest() if exists else ""
         if not exists:
-            raise ReadError(path, "is not there, and the graph was built on it: put it back, "
-                            "or build the graph anew")  # fmt: skip
+            raise ReadError(
+                path,
+                "is missing, but the graph was built from it: put it back or build the graph again",
+            )
         # Digests must match, since spans of frames are meaningless in a changed file.
         if digest != source.sha256:
-            raise ReadError(path, "has changed since the graph was built on it: build it anew")
+            raise ReadError(path, "has changed since the graph was built: build the graph again")
         motions.append(read_motion(path, **vars(source.options)))
     return motions
 
 
 def _format_sources(source: Source, folder: Path) -> dict[str, Any]:
     if source.path is None or source.sha256 is None:
-        raise ParameterError("a graph can be written if its motions were read from files")
+        raise ParameterError("a graph can only be written if its motions were read from files")
     options = source.options
     if options.skeleton is not None:
         options = replace(options, skeleton=_make_relative(options.skeleton, folder))

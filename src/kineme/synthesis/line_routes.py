@@ -172,7 +172,7 @@ def line_route(
     'run'
     """
     if not tolerance > 0:
-        raise ParameterError(f"the tolerance must be metres above 0, not {tolerance}")
+        raise ParameterError(f"the tolerance must be above 0 metres, not {tolerance}")
     # Points of the line as complex numbers x + iz.
     points = space_evenly(line)
     hips = [motion.positions[:, motion.skeleton.carrier] for motion in motions]
@@ -180,8 +180,8 @@ def line_route(
     found = _search_route(graph, floors, points, _find_allowed(graph, actions))
     if found is None:
         raise ParameterError(
-            "no route through the graph follows this line: give recordings in which somebody "
-            "walks, or name other actions"
+            "no route through the graph follows this line: add recordings of walking or "
+            "name other actions"
         )
     last, progress = found
     if progress.worst > tolerance:

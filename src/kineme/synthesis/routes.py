@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import is_number
 from kineme.errors import ParameterError
 from kineme.synthesis.graph import MotionGraph
 
@@ -140,13 +139,11 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
     3
     """
     if not 0 < duration < 1e6:
-        raise ParameterError(f"the duration must be above 0 and below 1e6 s, not {duration}")
-    if not (is_number(seed) and seed == int(seed) and seed >= 0):
-        raise ParameterError(f"the seed must be a whole number from 0, not {seed!r:.60}")
+        raise ParameterError(f"the duration must be above 0 seconds, not {duration}")
     rng = np.random.default_rng(seed)
     core = graph.core().tolist()
     if not core:
-        raise ParameterError("every walk through this graph ends: build it with more recordings")
+        raise ParameterError("every route through this graph ends: build it with more recordings")
     inside = set(core)
     route = [int(rng.choice(core))]
     frames = float(graph.nodes[route[0]].stop - graph.nodes[route[0]].start)
@@ -233,10 +230,10 @@ def _explain_missing_route(graph: MotionGraph, names: Sequence[str], cost: Float
     # Nodes from which any node of that name can be reached.
     back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
-        f"no route leads through {shown}: from {tail!r} one can go on to "
+        f"no route leads through {shown}: {tail!r} can be followed by "
         f"{_join_names(find_following(graph, tail))}, and {head!r} is reached from "
-        f"{_join_names(_list_marked_names(graph, back))}; "
-        "put another action between, or build the graph with a higher threshold"
+        f"{_join_names(_list_marked_names(graph, back))}; put another action between, or "
+        "build the graph with a higher threshold"
     )
 
 

@@ -71,7 +71,7 @@ def _write(
 ) -> None:
     """Write the arrays of a knowledge base to ``path``, with the settings of its features."""
     if Path(path).suffix.lower() != ".npz":
-        raise WriteError(path, "a knowledge base is a .npz file: name it so")
+        raise WriteError(path, "a knowledge base must be a .npz file: change the suffix")
     head = json.dumps({"schema": SCHEMA, "kineme": __version__, **settings})
     with atomic_write(path) as draft, draft.open("wb") as file:
         np.savez(file, allow_pickle=False, head=np.array(head), **arrays)
@@ -103,7 +103,7 @@ def _read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDAr
 def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) -> None:
     schema = head.get("schema") if isinstance(head, dict) else head
     if schema != SCHEMA:
-        reason = f"is of version {schema!r}, this kineme reads {SCHEMA}: label its recordings again"
+        reason = f"has version {schema!r}, this kineme reads {SCHEMA}: label its recordings again"
         raise ReadError(path, reason)
     for name, value in settings.items():
         if head.get(name) != value:
@@ -180,7 +180,7 @@ class KnowledgeBase:
             raise ParameterError("a primitive has at least 1 frame")
         if self.lengths.sum() != len(self.features):
             raise ParameterError(
-                f"lengths add up to {self.lengths.sum()} frames, there are {len(self.features)}"
+                f"lengths add up to {self.lengths.sum()} frames, but there are {len(self.features)}"
             )
         if not all(self.labels.tolist()):
             raise ParameterError("every primitive needs a label")
@@ -218,7 +218,8 @@ class KnowledgeBase:
         check_type(segments, Segmentation, "from_recording", "kineme.segment(motion) gives one")
         if segments.n_frames != motion.n_frames:
             raise ParameterError(
-                f"the segments are of {segments.n_frames} frames, the motion has {motion.n_frames}"
+                f"the segments have {segments.n_frames} frames, but the motion has "
+                f"{motion.n_frames}"
             )
         rows = _select_labelled(segments)
         # Features have their own rate, so spans are converted to it.

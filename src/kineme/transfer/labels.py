@@ -246,7 +246,8 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
     """
     if labels.n_frames != segmentation.n_frames:
         raise ParameterError(
-            f"the labels are of {labels.n_frames} frames, the recording has {segmentation.n_frames}"
+            f"the labels have {labels.n_frames} frames, but the recording has "
+            f"{segmentation.n_frames}"
         )
     per_frame = labels.per_frame("label", level="activity").astype(object)
     names = [

@@ -91,15 +91,15 @@ def share_clusters(
     """
     if [r.n_frames for r in recordings] != [s.n_frames for s in segmentations]:
         raise ParameterError(
-            f"segments of {[s.n_frames for s in segmentations]} frames do not belong to recordings "
-            f"of {[r.n_frames for r in recordings]}"
+            f"segments of {[s.n_frames for s in segmentations]} frames do not match "
+            f"recordings of {[r.n_frames for r in recordings]}"
         )
     signals = [each for each in recordings if isinstance(each, Signals)]
     if not signals:
         motions = [each for each in recordings if isinstance(each, Motion)]
         return _share_by_search(motions, segmentations, threshold)
     if len(signals) < len(recordings):
-        raise ParameterError("clusters are shared over motions or over signals, not over both")
+        raise ParameterError("clusters can be shared between motions or between signals, not both")
     samples = [compute_channel_samples(each) for each in signals]
     return share_by_samples(samples, segmentations, n_clusters=n_clusters)
 
@@ -197,8 +197,8 @@ def share_by_samples(
     for one in samples:
         if one.names != samples[0].names:
             raise ParameterError(
-                "clusters are shared over recordings of the same channels, not of "
-                f"{', '.join(samples[0].names):.80} and of {', '.join(one.names):.80}"
+                "clusters can only be shared between recordings with the same channels, "
+                f"not {', '.join(samples[0].names):.80} and of {', '.join(one.names):.80}"
             )
     rows = [one.rows for one in samples]
     # Sums depend on the order of recordings: sort them by content.

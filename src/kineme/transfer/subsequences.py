@@ -160,7 +160,7 @@ def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np
     if short.shape[1] != long.shape[1] or len(short) == 0:
         raise ParameterError(
             f"an example of shape {short.shape} cannot be searched in features of shape "
-            f"{long.shape}: both need the same features, and the example a sample"
+            f"{long.shape}: both need the same features, and the example at least one sample"
         )
     n, m = len(long), len(short)
     costs, starts = np.empty(n, np.float32), np.empty(n, np.int32)

@@ -479,4 +479,4 @@ def _explain_exclusion(columns: Columns, row: int) -> str:
     excluded, place = str(columns["excluded"][row]), str(columns["place"][row])
     if excluded == BY_HAND:
         return EXCLUDED_BY_HAND
-    return excluded or PLACE_NOTES.get(place, "something was not recorded")
+    return excluded or PLACE_NOTES.get(place, "some channels were not recorded")

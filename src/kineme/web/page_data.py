@@ -82,7 +82,7 @@ def make_recording_message(
     frames, fps = segmentation.n_frames, segmentation.fps
     if frames != data.n_frames or not np.isclose(fps, data.fps, rtol=1e-6, atol=0):
         raise ParameterError(
-            f"the segments are of {frames} frames at {fps:g} Hz, the recording is of "
+            f"the segments have {frames} frames at {fps:g} Hz, but the recording has "
             f"{data.n_frames} frames at {data.fps:g} Hz: give the table of this recording"
         )
     return Recording(
@@ -122,5 +122,5 @@ def _list_warnings(data: PageData) -> list[str]:
     if motion is None or motion.sample_fps >= min(RATE, data.fps):
         return data.warnings
     rate = motion.sample_fps
-    slow = f"so that the page stays small, the figure moves {rate:.3g} times a second"
+    slow = f"to keep the page small, the figure moves {rate:.3g} times per second"
     return [*data.warnings, slow]

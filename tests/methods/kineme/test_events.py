@@ -211,10 +211,13 @@ def test_a_note_says_what_is_not_periodic() -> None:
     )
     loose = replace(found, segments=replace(found.segments, not_periodic=np.array([0])))
     notes = loose.doubts(loose.columns(), 30.0)
-    assert "not periodic: 0.00 to 18.00 s; their primitives are what recurs anywhere" in notes
+    assert (
+        "not periodic: 0.00 to 18.00 s; their primitives are movements that repeat elsewhere"
+        in notes
+    )
     nothing = loose.columns()
     nothing["cluster"] = np.where(nothing["level"] == "primitive", -1, nothing["cluster"])
-    assert "not periodic: 0.00 to 18.00 s; nothing in them recurs" in loose.doubts(nothing, 30.0)
+    assert "not periodic: 0.00 to 18.00 s; nothing in them repeats" in loose.doubts(nothing, 30.0)
 
 
 def test_standing_still_does_not_recur() -> None:

@@ -26,7 +26,7 @@ def test_a_baseline_segments_a_body_and_says_how_it_saw_it(name: str) -> None:
     assert found.activities.stop_frame[-1] == motion.n_frames
     assert len(found.activities) > 1
     assert found.provenance["method"] == "baselines"
-    assert "seen by the positions of head, hands and feet" in found.provenance["notes"][-2]
+    assert "segmented by the positions of head, hands and feet" in found.provenance["notes"][-2]
 
 
 @pytest.mark.parametrize("name", NAMES)

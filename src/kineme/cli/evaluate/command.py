@@ -28,9 +28,9 @@ def evaluate(
         str,
         typer.Argument(
             metavar="cmu86|FOLDER|SEGMENTS",
-            help="The published benchmark, a part of its own (kineme-reproduction); a folder of "
-            "recordings; or one result: a segment table, a table of intervals, or a .txt with one "
-            "label per frame.",
+            help="The published benchmark (needs the package kineme-reproduction), a folder of "
+            "recordings, or one result: a segment table, a table of intervals, or a .txt "
+            "with one label per frame.",
         ),
     ],
     against: Annotated[
@@ -55,8 +55,8 @@ def evaluate(
         Mapped,
         option(
             FOLDER,
-            "Match clusters with labels in each recording by itself, or once for the whole "
-            "folder, whose clusters are joined before.",
+            "Match clusters with labels separately in each recording, or once for the "
+            "whole folder after joining its clusters.",
         ),
     ] = "recording",
     clusters: Annotated[
@@ -78,12 +78,10 @@ def evaluate(
     ] = None,
     without_columns: Annotated[
         str | None,
-        option(
-            FOLDER, "Leave these columns of signals out, such as 'emg*'.", metavar="NAME,NAME,…"
-        ),
+        option(FOLDER, "Exclude these columns of signals, such as 'emg*'.", metavar="NAME,NAME,…"),
     ] = None,
     constants: Constants = None,
-    as_json: Annotated[bool, option(OUTPUT, "Print JSON in place of tables.", "--json")] = False,
+    as_json: Annotated[bool, option(OUTPUT, "Print JSON instead of tables.", "--json")] = False,
     fps: Annotated[float | None, option(RESULT, "Frames per second of .txt files.")] = None,
     method: Annotated[
         list[str] | None,
@@ -101,8 +99,8 @@ def evaluate(
         list[str] | None,
         option(
             BENCH,
-            "A recording of it, such as 86_01, by default all at hand; of one result, the "
-            "recording whose annotations are meant.",
+            "Recording of the benchmark, such as 86_01, by default all available; for one "
+            "result, the recording whose annotations to use.",
             metavar="NAME",
         ),
     ] = None,
@@ -110,8 +108,8 @@ def evaluate(
         Path | None,
         option(
             BENCH,
-            "Where its recordings and annotations are; by default KINEME_DATA, else what "
-            "`kineme data cmu 86` fetched.",
+            "Folder of its recordings and annotations; by default KINEME_DATA, then the "
+            "files that `kineme data cmu 86` fetched.",
             metavar="FOLDER",
         ),
     ] = None,
@@ -138,7 +136,8 @@ def evaluate(
             if len(labels) > 1:
                 if names or constants or clusters is not None or mapping != "recording":
                     raise typer.BadParameter(
-                        "several --labels compare people, and run no method: leave out its options"
+                        "several --labels compare annotators and run no method: leave out "
+                        "the options of methods"
                     )
                 from kineme.cli.evaluate.people import run_people
 
@@ -164,7 +163,7 @@ def evaluate(
             raise typer.Exit(0 if scored else 1)
         if constants:
             raise typer.BadParameter(
-                "constants can be set for a folder of recordings only", param_hint=SET
+                "constants can only be set for a folder of recordings", param_hint=SET
             )
         if what != BENCHMARK:
             if labels and not Path(what).exists():
@@ -177,7 +176,9 @@ def evaluate(
             records = score_file(Path(what), against, fps, trial, quiet=silent)
         else:
             if against is not None:
-                raise typer.BadParameter(f"{BENCHMARK} brings its own truth: leave out --against")
+                raise typer.BadParameter(
+                    f"{BENCHMARK} has its own annotations: leave out --against"
+                )
             records = _load_benchmark()(names, trial, data, plot, figures, quiet=quiet or as_json)
         _output_records(records, output, as_json=as_json)
     failures.exit()

@@ -70,9 +70,10 @@ def run_folder(
             progress=stage,
         )
     if not quiet:
-        _print_names("labels of recordings that are not there", strays)
+        _print_names("labels without a recording", strays)
         _print_names(
-            "without labels, left out", [path.name for path in recordings if path not in labelled]
+            "recordings without labels, left out",
+            [path.name for path in recordings if path not in labelled],
         )
     _print_problems(result, quiet=quiet)
     if as_json:

@@ -33,7 +33,9 @@ def score_file(
         truth = read_trial(labels, trials[0] if trials else Path(recording_path).stem, fps=rate)
         if truth.frames != n_frames:
             seconds = truth.frames / rate
-            raise ReadError(labels, f"covers {seconds:.2f} s, the result {n_frames / rate:.2f} s")
+            raise ReadError(
+                labels, f"covers {seconds:.2f} s, but the result lasts {n_frames / rate:.2f} s"
+            )
     else:
         truth = read_truth(labels, result, fps=fps)
     scores = score(truth, result)

@@ -33,7 +33,7 @@ def build(
         Path,
         option(
             OUTPUT,
-            "Folder or URL of the library, new or to be brought up to date.",
+            "Folder or URL of the library to create or update.",
             "--into",
             parser=parse_path_or_url,
             metavar="LIB",
@@ -47,22 +47,22 @@ def build(
         typer.Argument(
             parser=parse_path_or_url,
             metavar="FILES",
-            help=f"Recordings, folders of them, or URLs: {RECORDINGS}. They add to those that "
-            "the library knows; without any, it looks at these again.",
+            help=f"Recordings, folders of them, or URLs: {RECORDINGS}. They are added to those "
+            "of the library; without any, it checks its own again.",
         ),
     ] = None,
     remove: Annotated[
         list[Path] | None,
         option(
             OUTPUT,
-            "Take these files or folders out of the library; may be given again.",
+            "Remove these files or folders from the library; may be repeated.",
             parser=parse_path_or_url,
             metavar="PATH",
         ),
     ] = None,
     jobs: Annotated[
         int | None,
-        typer.Option(min=1, help="Processes at once.", show_default="one for each core"),
+        typer.Option(min=1, help="Number of processes.", show_default="one for each core"),
     ] = None,
     scheduler: Scheduler = None,
     recursive: Annotated[
@@ -72,7 +72,7 @@ def build(
             "Whether to include subfolders.",
             "--recursive/--flat",
             "-r",
-            show_default="as the last time",
+            show_default="as in the last build",
         ),
     ] = None,
     quiet: Quiet = False,
@@ -147,6 +147,6 @@ def _report_and_exit(built: Built, batch: Batch) -> None:
 def _summarize(built: Built) -> str:
     n = len(built.paths)
     parts = [f"{format_count(n, 'recording')} in {built.folder}", f"{built.new} new"]
-    parts += [f"{built.removed} taken out"] * bool(built.removed)
+    parts += [f"{built.removed} removed"] * bool(built.removed)
     parts += [f"{len(built.failed)} failed"] * bool(built.failed)
     return ", ".join(parts)

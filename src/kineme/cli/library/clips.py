@@ -20,19 +20,23 @@ def split(
     folder: Folder,
     clip_options: dict[str, Any],
     cluster: Annotated[
-        str | None, typer.Argument(help="A cluster by its number or name, to split it in two.")
+        str | None, typer.Argument(help="Number or name of the cluster to split in two.")
     ] = None,
     recordings: Annotated[
-        list[str] | None, typer.Argument(help="Names of recordings where it is something else.")
+        list[str] | None,
+        typer.Argument(help="Names of the recordings in which it is another movement."),
     ] = None,
     output: Annotated[
         Path | None,
-        option(OUTPUT, "Folder to make: the best loops as clips.", "--output", "-o"),
+        option(OUTPUT, "New folder for the best loops as clips.", "--output", "-o"),
     ] = None,
-    best: Annotated[int, option(OUTPUT, "Loops of each cluster, at most.", min=1)] = 3,
+    best: Annotated[int, option(OUTPUT, "Largest number of loops per cluster.", min=1)] = 3,
     per: Annotated[
         Literal["cluster", "direction", "recording"],
-        option(OUTPUT, "Best of each cluster, or of each direction or recording in it."),
+        option(
+            OUTPUT,
+            "Choose the best loops per cluster, or per direction or recording within each cluster.",
+        ),
     ] = "cluster",
 ) -> None:
     """Write the best loops of each cluster, or split a cluster in two.
@@ -44,7 +48,7 @@ def split(
     if cluster is not None:
         if not recordings:
             raise typer.BadParameter(
-                "name the recordings in which this cluster is something else",
+                "name the recordings in which this cluster is another movement",
                 param_hint="RECORDINGS",
             )
         with open_library(folder) as library:

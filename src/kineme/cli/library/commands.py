@@ -50,10 +50,10 @@ Scheduler = Annotated[
     str | None,
     typer.Option(
         metavar="ADDRESS",
-        help="Work on the computers of this dask scheduler, such as tcp://10.0.0.1:8786.",
+        help="Run on the workers of this dask scheduler, such as tcp://10.0.0.1:8786.",
     ),
 ]
-Cluster = Annotated[str, typer.Argument(help="A cluster by its number or name.")]
+Cluster = Annotated[str, typer.Argument(help="Number or name of a cluster.")]
 
 
 @contextmanager
@@ -130,7 +130,9 @@ def export(
 def name(
     folder: Folder,
     cluster: Cluster,
-    label: Annotated[str, typer.Argument(help="Its name in all recordings; '' takes it away.")],
+    label: Annotated[
+        str, typer.Argument(help="Name of the cluster in all recordings; '' removes it.")
+    ],
 ) -> None:
     """Name a cluster, once for all recordings."""
     with open_library(folder) as library:
@@ -140,7 +142,7 @@ def name(
 def merge(
     folder: Folder,
     cluster: Cluster,
-    others: Annotated[list[str], typer.Argument(help="Clusters that are the same.")],
+    others: Annotated[list[str], typer.Argument(help="Clusters to merge, by number or name.")],
 ) -> None:
     """Merge clusters into the first, which keeps number and name."""
     with open_library(folder) as library:

@@ -29,16 +29,19 @@ def search(
         list[str] | None,
         option(
             QUERY,
-            "An example: a recording, or the name of one in the library, and the seconds of "
-            "it to compare. May be repeated: hits match any of them.",
+            "Example to search for: a recording or the name of one in the library, and its "
+            "seconds. May be repeated; hits match any example.",
             metavar=SPAN,
         ),
     ] = None,
     start: Annotated[
-        float, option(QUERY, "Where a single --like starts.", metavar="SECONDS")
+        float, option(QUERY, "Start of a single --like, in seconds.", metavar="SECONDS")
     ] = 0.0,
     stop: Annotated[
-        float | None, option(QUERY, "Where it stops.", metavar="SECONDS", show_default="its end")
+        float | None,
+        option(
+            QUERY, "End of a single --like, in seconds.", metavar="SECONDS", show_default="its end"
+        ),
     ] = None,
     cluster: Annotated[
         str | None,
@@ -51,14 +54,16 @@ def search(
     unlike: Annotated[
         list[str] | None,
         option(
-            QUERY, "Leave out hits that are more similar to this; may be repeated.", metavar=SPAN
+            QUERY,
+            "Exclude hits that are more similar to this example; may be repeated.",
+            metavar=SPAN,
         ),
     ] = None,
     mirror: Annotated[
         bool,
         option(
             QUERY,
-            "Bodies: also search with left and right exchanged.",
+            "Also search with left and right exchanged (bodies only).",
             "--mirror/--no-mirror",
         ),
     ] = True,
@@ -78,15 +83,15 @@ def search(
         str | None,
         option(
             OUTPUT,
-            "Only those with a tag: forwards, backwards, left, right, in place, turn left, turn "
-            "right, start, stop.",
+            "Only hits with this tag: forwards, backwards, left, right, in place, turn "
+            "left, turn right, start, stop.",
         ),
     ] = None,
     export: Annotated[
         Path | None,
         option(
             OUTPUT,
-            "Folder to make: each as a clip, and a list of them, manifest.csv.",
+            "New folder for the hits as clips, listed in manifest.csv.",
             metavar="FOLDER",
         ),
     ] = None,
@@ -171,5 +176,5 @@ def _show(hits: list[Hit]) -> None:
     console.print(
         f"{format_count(n, 'hit')} in {format_count(recordings, 'recording')}"
         if hits
-        else "nothing found: a higher --threshold, or no --tag, may find more"
+        else "nothing found: raise --threshold to find more"
     )

@@ -18,7 +18,7 @@ RootMotion = Annotated[
 Close = Annotated[bool, option(OUTPUT, "Repeat the first frame at the end.", "--close")]
 ToFormat = Annotated[
     str | None,
-    option(OUTPUT, "Such as glb; bvh or csv by default.", "--format", metavar="SUFFIX"),
+    option(OUTPUT, "Format, such as glb; by default bvh or csv.", "--format", metavar="SUFFIX"),
 ]
 ToFps = Annotated[
     float | None,
@@ -28,7 +28,7 @@ Name = Annotated[
     str | None,
     option(
         OUTPUT,
-        "Such as {label}_{n:02}; also {name}, {take}, {direction} and others.",
+        "Pattern of names, such as {label}_{n:02}; also {name}, {take}, {direction} and others.",
         "--name",
         metavar="TEMPLATE",
     ),
@@ -37,17 +37,19 @@ ForTarget = Annotated[
     TargetName | None,
     option(
         OUTPUT,
-        "unreal, unity, blender or godot.",
+        "Program that the clips are for: unreal, unity, blender or godot.",
         "--for",
         metavar="PROGRAM",
     ),
 ]
-Sheet = Annotated[Path | None, option(OUTPUT, "Picture of all clips.", "--sheet", metavar="PNG")]
+Sheet = Annotated[
+    Path | None, option(OUTPUT, "Picture of all clips to write.", "--sheet", metavar="PNG")
+]
 MotionMatching = Annotated[
     Path | None,
     option(
         OUTPUT,
-        "Database to write, .npz or .bin.",
+        "Motion matching database to write: .npz or .bin.",
         "--motion-matching",
         metavar="FILE",
     ),

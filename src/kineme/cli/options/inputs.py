@@ -39,7 +39,7 @@ SegmentTable = Annotated[
     Path | None,
     option(
         INPUT,
-        "Take segments from a table or labels; of several recordings from a folder, or a path "
+        "Use segments of a table or label file; for several recordings, a folder or a path "
         "with {name}.",
     ),
 ]
@@ -62,8 +62,8 @@ class Batch:
         self.paths: list[Path] = []
         if Path("-") in inputs and not Path("-").exists():
             raise typer.BadParameter(
-                "recordings are not read from standard input, since the file name tells the "
-                "format: save it as take.bvh or take.csv, for example, and give that name",
+                "recordings cannot be read from standard input: save it as a file such as "
+                "take.bvh or take.csv and give its name",
                 param_hint="FILES",
             )
         with_motions = {path.parent for path in inputs if path.suffix.lower() == MOTION}

@@ -30,8 +30,8 @@ Constants = Annotated[
     list[str] | None,
     option(
         METHOD,
-        "Change a constant of the preset, such as min_action=2; may be given again. "
-        "`kineme presets NAME` lists them.",
+        "Change a constant of the preset, such as min_action=2; may be repeated. `kineme "
+        "presets NAME` lists them.",
         SET,
         metavar="NAME=VALUE",
     ),
@@ -49,7 +49,7 @@ Effectors = Annotated[
     str | None,
     option(
         READING_OPTIONS,
-        "Joints at left and right ankle, head, left and right wrist; or some, as in "
+        "Joints of left and right ankle, head, left and right wrist; or only some, as in "
         "head=NAME,left_wrist=NAME.",
         metavar="NAME,NAME,…",
     ),
@@ -184,7 +184,7 @@ def _describe_type(hint: Any) -> str:
         members = get_args(hint)
     if get_origin(hint) is tuple:
         pairs = get_origin(members[0]) is tuple
-        return "pairs such as 1,1 2,1, each" if pairs else "numbers with commas between them, each"
+        return "pairs such as 1,1 2,1, each" if pairs else "numbers separated by commas, each"
     return {int: "a whole number,", float: "a number,"}.get(hint, "one of")
 
 

@@ -20,25 +20,30 @@ from kineme.formats.options import ReadOptions
 Skeleton = Annotated[
     Path | None, option(READING_OPTIONS, "ASF skeleton of an AMC file.", metavar="FILE")
 ]
-Fps = Annotated[float | None, option(READING_OPTIONS, "Frames per second, in place of the file's.")]
+Fps = Annotated[
+    float | None, option(READING_OPTIONS, "Frames per second; overrides that of the file.")
+]
 Unit = Annotated[
-    str | None, option(READING_OPTIONS, "Unit: m, cm, mm, inch, cmu, or its metres, as 0.0254.")
+    str | None,
+    option(READING_OPTIONS, "Unit: m, cm, mm, inch, cmu, or its length in metres, such as 0.0254."),
 ]
 Up = Annotated[
     str | None, option(READING_OPTIONS, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
 ]
 Person = Annotated[
     str | None,
-    option(READING_OPTIONS, "Which of several people in it, by name or number.", metavar="NAME"),
+    option(
+        READING_OPTIONS, "Person to read if there are several, by name or number.", metavar="NAME"
+    ),
 ]
 Confidence = Annotated[
-    float | None, option(READING_OPTIONS, "Leave out points of less confidence, such as 0.5.")
+    float | None, option(READING_OPTIONS, "Leave out points below this confidence, such as 0.5.")
 ]
 Take = Annotated[
     str | None,
     option(
         READING_OPTIONS,
-        "Which of several animations, by name or number; or all.",
+        "Animation to read if there are several, by name or number; or all.",
         metavar="NAME",
     ),
 ]
@@ -46,8 +51,7 @@ Columns = Annotated[
     str | None,
     option(
         INPUT,
-        "Take these columns or channels instead of joints; * and ? stand for any characters, as "
-        "in acc_*.",
+        "Read these columns or channels instead of joints; * and ? are wildcards, as in acc_*.",
         metavar="NAME,NAME,…",
     ),
 ]
@@ -55,7 +59,7 @@ Emg = Annotated[
     bool,
     option(
         INPUT,
-        "The columns are signals of muscles: take their envelopes. Of a C3D, only its muscles.",
+        "Read the columns as muscle signals and use their envelopes; in a C3D, read muscles only.",
         "--emg",
     ),
 ]

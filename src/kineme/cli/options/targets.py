@@ -36,7 +36,7 @@ def choose_files(option: str, target: Path, inputs: list[Path], suffix: str = ""
     for path in paths:
         if path.resolve() in recordings:
             raise typer.BadParameter(
-                f"{path} would take the place of a recording; give another folder or name",
+                f"{path} would overwrite a recording: give another folder or name",
                 param_hint=option,
             )
     check_target_folder(pattern)
@@ -83,7 +83,7 @@ def check_target_folder(pattern: Path) -> None:
     while _FIELD.search(str(folder)):
         folder = folder.parent
     if not folder.exists() and not folder.parent.is_dir():
-        reason = f"the folder {folder} cannot be made: there is no {folder.parent}"
+        reason = f"the folder {folder} cannot be created: there is no {folder.parent}"
         raise WriteError(pattern, reason)
 
 
@@ -109,10 +109,10 @@ def make_parent_folder(path: Path) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        reason = f"the folder {path.parent} cannot be made: {error.strerror}"
+        reason = f"the folder {path.parent} cannot be created: {error.strerror}"
         raise WriteError(path, reason) from error
     if not os.access(path.parent, os.W_OK):
-        raise WriteError(path, f"the folder {path.parent} may not be written to")
+        raise WriteError(path, f"no permission to write to the folder {path.parent}")
 
 
 def make_absolute(path: Path) -> Path:
@@ -148,7 +148,7 @@ def _fill_patterns(option: str, pattern: Path, inputs: list[Path]) -> list[Path]
             depths[i] += 1
     if ambiguous:
         raise typer.BadParameter(
-            f"several recordings would become {paths[ambiguous[0]]}; put {NAME} in it",
+            f"several recordings would be written to {paths[ambiguous[0]]}: put {NAME} in the name",
             param_hint=option,
         )
     return paths

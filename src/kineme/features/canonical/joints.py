@@ -67,7 +67,7 @@ def match_canonical_joints(motion: Motion, *, effectors: Names | None = None) ->
     joints["head"] = (ends.head,)
     for side in SIDES:
         if f"{side}_hip" not in joints:
-            raise MotionError(f"the {side} leg has no hip: nothing joins it to a pelvis")
+            raise MotionError(f"the {side} leg has no hip joint to connect it to a pelvis")
     return {joint: joints[joint] for joint in JOINTS if joint in joints}
 
 

@@ -35,7 +35,7 @@ def parse_hdf5(content: FileContent) -> dict[str, Any]:
         with h5py.File(io.BytesIO(content.data), "r") as file:
             return _HDF5Reader(content, file).read_group(file, 0)
     except _DAMAGE as error:
-        raise content.error(f"is no whole HDF5 file: {shorten_error(error)}") from error
+        raise content.error(f"is not a complete HDF5 file: {shorten_error(error)}") from error
 
 
 class _HDF5Reader:
@@ -48,16 +48,16 @@ class _HDF5Reader:
 
     def require_memory(self, size: int) -> None:
         self.required += size
-        self.content.require_memory(self.required, "to unpack to much more than it holds")
+        self.content.require_memory(self.required, "to unpack far more than it contains")
 
     def read_group(self, group: Any, depth: int) -> dict[str, Any]:
         """Return the contents of a group; they count again for every link to it."""
         import h5py
 
         if depth > _MAX_DEPTH:
-            raise ValueError("groups too deep in one another")
+            raise ValueError("its groups are nested too deeply")
         if group in self.open:
-            raise ValueError(f"its group {group.name!r:.60} is linked into itself")
+            raise ValueError(f"its group {group.name!r:.60} contains a link to itself")
         self.open.append(group)
         contents: dict[str, Any] = {}
         for name in group:
@@ -89,7 +89,7 @@ class _HDF5Reader:
     def read_cells(self, item: Any, depth: int) -> list[Any]:
         """Return the values that the references of a data set point to."""
         if depth > _MAX_DEPTH:
-            raise ValueError("cells too deep in one another")
+            raise ValueError("its cells are nested too deeply")
         # Skip empty references.
         return [self.read_value(self.file[ref], depth + 1) for ref in np.ravel(item[()]) if ref]
 

@@ -60,7 +60,9 @@ def read_variables(content: FileContent) -> dict[str, Any]:
     is_hdf5 = content.data.startswith(SIGNATURE) or content.data[512:520] == SIGNATURE
     variables = parse_hdf5(content) if is_hdf5 else parse_mat(content)
     if not variables:
-        raise content.error("no variable that can be read: tables and objects need writetable")
+        raise content.error(
+            "it has no readable variable: export tables and objects with writetable"
+        )
     return variables
 
 
@@ -111,12 +113,14 @@ def arrays_to_channels(
     chosen = list_needed_columns(columns, as_long, times)
     for name in chosen:
         if name not in as_long:
-            raise content.error(f"column {name!r} is not as long as {chosen[0]!r}: choose one rate")
+            raise content.error(
+                f"column {name!r} is not as long as {chosen[0]!r}: choose columns of one rate"
+            )
     values = {name: np.asarray(channels[name], np.float64) for name in chosen}
     table = make_channel_table(content, as_long, values, columns, times)
     others = [name for name in channels if name not in as_long]
     if columns is None and others:
-        note = f"of another length, left out: {', '.join(others)}"
+        note = f"left out, since their length differs: {', '.join(others)}"
         table = replace(table, notes=(*table.notes, note))
     has_rate = rate is not None and np.isfinite(rate) and rate > 0
     return replace(table, rate=rate) if has_rate else table
@@ -149,13 +153,15 @@ def _read_qtm(
 ) -> Motion:
     names, data = collect_texts(labeled["Labels"]), labeled["Data"]
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 3:
-        raise content.error("Trajectories.Labeled.Data are no numbers (markers, 4, frames)")
+        raise content.error(
+            "Trajectories.Labeled.Data must be numbers of shape (markers, 4, frames)"
+        )
     if len(names) != data.shape[0] or data.shape[1] < 3 or 0 in data.shape:
         raise content.error(f"{len(names)} Labels for Data of shape {data.shape}")
     rate = head.get("FrameRate")
     fps = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
     if not options.fps and not (np.isfinite(fps) and fps > 0):
-        raise content.error("no FrameRate in it: give fps= (--fps)")
+        raise content.error("it has no FrameRate: give fps= (--fps)")
     # Markers, axes, frames become frames, markers, axes; the fourth number is a residual.
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     points = Points(

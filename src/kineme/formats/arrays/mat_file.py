@@ -48,7 +48,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
     data = memoryview(content.data)
     order = {b"IM": "<", b"MI": ">"}.get(bytes(data[126:128]))
     if len(data) < _HEADER or order is None:
-        raise content.error("is no MAT file of version 5: save it with -v7 or as CSV")
+        raise content.error("is not a MAT file of version 5: save it with -v7 or as CSV")
     budget = content.memory_limit
     variables: dict[str, Value] = {}
     try:
@@ -62,7 +62,7 @@ def parse_mat(content: FileContent) -> dict[str, Value]:
                 if name and value is not None:
                     variables[name] = value
     except (_DamagedError, zlib.error) as error:
-        raise content.error(f"is no whole MAT file: {error}") from None
+        raise content.error(f"is not a complete MAT file: {error}") from None
     return variables
 
 
@@ -71,7 +71,7 @@ def _unpack(body: Bytes, budget: int) -> Bytes:
     # Unpack at most the budget; a remaining tail shows that the element is larger.
     unpacked = engine.decompress(body, max(1, budget))
     if engine.unconsumed_tail:
-        raise _DamagedError("it claims to unpack to much more than it holds")
+        raise _DamagedError("it claims to unpack far more than it contains")
     return memoryview(unpacked)
 
 
@@ -90,7 +90,7 @@ def _split_elements(data: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
             step = 8 + (size if kind == _COMPRESSED else -(-size // 8) * 8)
         if start + size > len(data):
             raise _DamagedError(
-                f"an element of {size} bytes, of which {len(data) - start} are there"
+                f"an element of {size} bytes, but only {len(data) - start} are left"
             )
         yield kind, data[start : start + size]
         offset += step
@@ -101,7 +101,7 @@ def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
     if not body:
         return "", np.empty((0, 0))
     if depth > _MAX_DEPTH:
-        raise _DamagedError("structures too deep in one another")
+        raise _DamagedError("its structures are nested too deeply")
     parts = _split_elements(body, order)
     flags, shape = (
         _parse_counts(_read_element(parts), order),
@@ -126,7 +126,7 @@ def _parse_array(body: Bytes, order: str, depth: int) -> tuple[str, Value]:
 def _read_element(parts: Iterator[tuple[int, Bytes]]) -> tuple[int, Bytes]:
     element = next(parts, None)
     if element is None:
-        raise _DamagedError("an array breaks off")
+        raise _DamagedError("an array is truncated")
     return element
 
 
@@ -140,7 +140,7 @@ def _parse_numbers(kind: int, data: Bytes, order: str) -> Array:
 def _parse_counts(part: tuple[int, Bytes], order: str) -> list[int]:
     values = _parse_numbers(*part, order)
     if values.dtype.kind not in "iu":
-        raise _DamagedError("flags or dimensions that are no whole numbers")
+        raise _DamagedError("flags or dimensions that are not whole numbers")
     return [int(value) for value in values.tolist()]
 
 

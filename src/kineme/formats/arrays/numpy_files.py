@@ -88,7 +88,7 @@ def read_arrays(content: FileContent) -> dict[str, Array]:
                     name = info.filename.removesuffix(".npy")
                     arrays[name] = _parse_array(content, data, name)
     except (zipfile.BadZipFile, zlib.error, LZMAError, OSError, EOFError, ValueError) as error:
-        raise content.error(f"is no whole npz archive: {error}") from error
+        raise content.error(f"is not a complete npz archive: {error}") from error
     except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
         raise content.error(f"its archive cannot be read: {error}") from error
     return arrays
@@ -120,7 +120,7 @@ def _parse_array(content: FileContent, data: bytes, name: str) -> Array:
             return np.empty(0)
         flat = np.frombuffer(data, dtype, count, file.tell())
     except _HEADER_DAMAGE as error:
-        raise content.error(f"{name} is no npy array: {shorten_error(error)}") from error
+        raise content.error(f"{name} is not an npy array: {shorten_error(error)}") from error
     return flat.reshape(shape, order="F" if fortran else "C")
 
 

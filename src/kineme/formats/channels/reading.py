@@ -58,7 +58,7 @@ class ChannelTable:
         if fps or self.rate:
             return Timing(fps or self.rate or 0.0)
         if not self.timing:
-            raise content.error(f"nothing in it tells the frame rate: give fps (--fps){self.hint}")
+            raise content.error(f"it does not state its frame rate: give fps (--fps){self.hint}")
         timing = find_table_timing(content, self.timing, values=self.values)
         # Times rounded to milliseconds deviate slightly from the nominal rate.
         nominal = self.nominal or 0.0
@@ -105,7 +105,7 @@ def choose_channels(
 
 def describe_header_rate(rate: float) -> str:
     """Return a note on a rate in a line above the table."""
-    return f"{rate:g} Hz, as a line above the columns says"
+    return f"{rate:g} Hz, from a line above the columns"
 
 
 def select_columns(
@@ -125,7 +125,7 @@ def select_columns(
     present = set(names)
     exact = [name for name in columns if name in present]
     if len(set(exact)) < len(exact):
-        raise content.error("a column is asked for twice")
+        raise content.error("a column is selected twice")
     selected: dict[str, None] = {}
     for pattern in columns:
         if pattern in present:
@@ -181,7 +181,7 @@ def make_channel_table(
             ]
         used = {*chosen, *times}
         unused = [name for name in names if name not in used]
-        notes = [f"columns that are no channels: {', '.join(unused)}"] if unused else []
+        notes = [f"columns that are not channels: {', '.join(unused)}"] if unused else []
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
     channels = np.column_stack([values[name] for name in chosen])

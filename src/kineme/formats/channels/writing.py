@@ -61,7 +61,7 @@ def write_signals(
     else:
         suffixes = ", ".join(dict.fromkeys((rows.suffix, *SEPARATORS, ".parquet")))
         original = Path(signals.provenance.path or "").suffix.lower()
-        why = ": its own times tell another rate" if suffix and suffix == original else ""
+        why = ": its own times have another rate" if suffix and suffix == original else ""
         raise WriteError(
             target, f"signals are written as {suffixes}, not {suffix or 'that'!r}{why}"
         )

@@ -114,7 +114,7 @@ class Layout:
         for i, line in enumerate(islice(text.lines, MAX_HEADER_LINES)):
             if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
                 return i
-        raise text.content.error("has no line of names where its device writes one")
+        raise text.content.error("has no line of column names where this device writes it")
 
     def _find_clocks(self, names: Sequence[str]) -> dict[str, str]:
         for pattern, unit in self.clocks.items():

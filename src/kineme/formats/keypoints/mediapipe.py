@@ -106,11 +106,15 @@ def landmarks_to_motion(
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     notes = list(notes)
     if world:
-        notes.append("world landmarks: metres from the middle of the hips, the place is not known")
+        notes.append(
+            "world landmarks: metres from the middle of the hips, without the position in the room"
+        )
         video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, unit="m", notes=notes)
         return video_to_motion(content, video, options)
     if _are_in_space(people):
-        notes.append("landmarks in space: the body is highest along another axis than an image's")
+        notes.append(
+            "landmarks in space, since the body does not stand along the vertical axis of images"
+        )
         video = Video(
             "MediaPipe", NAMES, people, LIMIT, fps, frames, unit=None, up=None, notes=notes
         )
@@ -121,8 +125,8 @@ def landmarks_to_motion(
         if not (width and height):
             width = height = 1.0
             content.warn(
-                "landmarks are shares of an image of unknown shape, taken as square: multiply x "
-                "and z by width / height, if it was not"
+                "landmarks are relative to an image of unknown size, assumed square: "
+                "otherwise multiply x and z by width / height"
             )
         # z is a fraction of the width, like x.
         sides = np.array([width, height, width])
@@ -212,7 +216,7 @@ def _parse_landmarks(
             points.append([float(x), float(y), float(z or 0.0)])
             confidence.append(1.0 if visibility is None else float(visibility))
         except (TypeError, ValueError, OverflowError):
-            raise content.error(f"frame {frame} has a landmark that is no numbers") from None
+            raise content.error(f"frame {frame} has a landmark that is not numeric") from None
     return points, confidence
 
 

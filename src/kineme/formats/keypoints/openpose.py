@@ -79,7 +79,9 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
     for (number, file), (following, other) in pairwise(numbered):
         if number == following:
             raise ReadError(
-                path, f"frame {number} is in {file.name} and in {other.name}: give a folder to each"
+                path,
+                f"frame {number} is in {file.name} and in {other.name}: put each into its "
+                "own folder",
             )
     people: list[Person] = []
     digest: list[bytes] = []
@@ -87,7 +89,7 @@ def read_openpose_folder(path: Path, options: ReadOptions) -> Motion | None:
         content = load(file)
         data = parse_json(content)
         if not is_openpose(data):
-            raise content.error("no 'people' in it: is it one of OpenPose's files?")
+            raise content.error("it has no 'people', so it is not a file of OpenPose")
         people += _parse_people(content, number, data)
         digest.append(content.data)
     content = FileContent(path, b"".join(digest))

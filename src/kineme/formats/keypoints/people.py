@@ -58,7 +58,7 @@ def select_person(
     """
     people = _group_by_person(detections)
     if not people:
-        raise content.error("nobody is found in any frame")
+        raise content.error("no person found in any frame")
     max_frames = max(map(len, people.values()))
     # People seen only briefly are candidates only if requested.
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * max_frames}
@@ -71,7 +71,7 @@ def select_person(
     all_people = tuple(other for other in people if other in staying or other == name)
     note = f"person {name} of {len(people)}"
     if person is None:
-        note = f"person {name}; {len(people) - 1} seen only in passing are left out"
+        note = f"person {name}; {len(people) - 1} seen only briefly are left out"
     return SelectedPerson(people[name], name, all_people, [note] if len(people) > 1 else [])
 
 

@@ -40,8 +40,9 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
         if recognises(data):
             return read(content, data, options)
     raise content.error(
-        "no keypoints found in it: JSON is read as OpenPose ('people'), COCO ('keypoints' and "
-        "'image_id'), MMPose ('instances'), MediaPipe (33 landmarks per frame) or Ultralytics"
+        "no keypoints found in it: kineme reads JSON of OpenPose ('people'), COCO "
+        "('keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (33 landmarks per "
+        "frame) or Ultralytics"
     )
 
 

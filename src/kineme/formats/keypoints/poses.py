@@ -166,7 +166,7 @@ def holds_poses(file: Any) -> bool:
 def parse_head(content: FileContent, file: Any) -> Head:
     """Return the metadata of poses in an open Parquet file; raise ReadError if it has none."""
     if not holds_poses(file):
-        raise content.error("is no table of poses")
+        raise content.error("is not a table of poses")
     try:
         head: Head = json.loads(file.schema_arrow.metadata[KEY])
         frames, most = head["fps"] * head["duration"], MAX_FRAMES_RATIO * (head["frames"] + 1)
@@ -193,7 +193,7 @@ def parse_poses(content: FileContent, file: Any) -> Poses:
             part = rows[field][:, k] if axis is None else rows[field][:, k, axis]
             part[:] = table.column(name).to_numpy()
     except (ValueError, TypeError, LookupError) as error:
-        raise content.error("is a damaged table of poses: a column holds no numbers") from error
+        raise content.error("is a damaged table of poses: a column is not numeric") from error
     return Poses(head, rows)
 
 
@@ -218,7 +218,7 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
         for number, points, row in zip(numbers.tolist(), steady_points, rows, strict=True)
     ]
     frames = range(round(float(head["duration"]) * float(head["fps"])) + 1)
-    notes = ["the place in the room is not known: metres from the middle of the hips"]
+    notes = ["metres from the middle of the hips, without the position in the room"]
     video = Video(
         f"video poses ({head['estimator']})", head["keypoints"], people, float(head["limit"]), fps,
         frames, unit, up, notes if head["depth"] else (),
@@ -229,7 +229,9 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     motion = split_at(motion, [(n, n + 1) for n in frames_cut if 0 < n < motion.n_frames - 1])
     if cuts:
         cut_times = join_names([f"{cut:.1f} s" for cut in cuts])
-        motion = motion.noted(Note(f"the camera cuts at {cut_times}: it is split there", "warning"))
+        motion = motion.noted(
+            Note(f"the camera cuts at {cut_times}: the recording is split there", "warning")
+        )
     if moves := head.get("camera_moves", []):
         move_times = join_names([f"{begin:.1f} to {end:.1f} s" for begin, end in moves])
         note = f"the camera moves at {move_times}: positions in the picture contain this movement"
@@ -300,7 +302,9 @@ def _list_columns(head: Head) -> dict[str, tuple[str, int, int | None]]:
 def _smooth(motion: Motion) -> Motion:
     """Return the motion without jitter; each span between gaps is filtered separately."""
     if motion.fps <= 2 * CUTOFF:
-        return motion.noted(f"not smoothed: {motion.fps:g} Hz are too few for {CUTOFF:g} Hz")
+        return motion.noted(
+            f"not smoothed: {motion.fps:g} Hz is too low for a filter of {CUTOFF:g} Hz"
+        )
     positions = motion.positions.copy()
     for start, stop in find_spans(~np.array(mark_gaps(motion))).tolist():
         # The filter needs fewer padding frames than the span has.

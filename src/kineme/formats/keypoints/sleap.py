@@ -35,8 +35,9 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     tracks, nodes = variables.get("tracks"), collect_texts(variables.get("node_names"))
     if not isinstance(tracks, np.ndarray) or tracks.ndim != 4 or not nodes:
         raise content.error(
-            f"is HDF5, but no analysis file of SLEAP: no 'tracks' and 'node_names' among "
-            f"{', '.join(list(variables)[:8]) or 'nothing'}; give an analysis file, or a CSV"
+            "is HDF5, but not an analysis file of SLEAP: no 'tracks' and 'node_names' "
+            f"among {', '.join(list(variables)[:8]) or 'nothing'}; give an analysis file, "
+            "or a CSV"
         )
     names = collect_texts(variables.get("track_names"))
     # Old files have tracks, axes, nodes, frames; new ones frames, tracks, nodes, axes.

@@ -61,10 +61,12 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     """
     fps = options.fps or video.fps
     if not fps:
-        raise content.error("keypoints have no frame rate: give fps= (--fps), that of the video")
+        raise content.error(
+            "keypoints have no frame rate: give that of the video with fps= (--fps)"
+        )
     people = sorted(video.people, key=lambda person: person.frame)
     if not people:
-        raise content.error("nobody is found in any frame")
+        raise content.error("no person found in any frame")
     frames, n_frames = _number_frames(content, video, [person.frame for person in people])
     size = 8 * 4 * len(video.names) * max(n_frames, len(people))
     content.require_memory(size, f"{len(video.names)} keypoints in {n_frames} frames")
@@ -80,7 +82,7 @@ def video_to_motion(content: FileContent, video: Video, options: ReadOptions) ->
     positions[frames[rows]] = points[rows]
     if is_unsure[rows].any():
         n_unsure = int(is_unsure[rows].sum())
-        notes.append(f"{format_count(n_unsure, 'position')} less sure than {limit:g} not used")
+        notes.append(f"{format_count(n_unsure, 'position')} below confidence {limit:g} not used")
     notes += [*video.notes, *_note_flatness(points, video.unit)]
     unit, up = options.unit or video.unit, options.up or video.up
     named_points = Points(video.names, positions, fps, unit, up)
@@ -94,10 +96,10 @@ def parse_json(content: FileContent) -> Any:
     try:
         return json.loads(content.text)
     except json.JSONDecodeError as error:
-        reason = f"is no whole JSON file: {error.msg[0].lower()}{error.msg[1:]}"
+        reason = f"is not a complete JSON file: {error.msg[0].lower()}{error.msg[1:]}"
         raise content.error(reason, error.lineno) from None
     except (RecursionError, ValueError) as error:
-        raise content.error(f"is no whole JSON file: {str(error).split(';')[0]}") from None
+        raise content.error(f"is not a complete JSON file: {str(error).split(';')[0]}") from None
 
 
 def order_by_number(frames: Mapping[Any, Any]) -> list[tuple[int, Any]]:
@@ -121,7 +123,7 @@ def split_groups(content: FileContent, values: Any, width: int) -> Floats:
 def to_frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
     """Return frame numbers as integers; raise ReadError if they are not."""
     if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
-        raise content.error("the frames have no whole numbers")
+        raise content.error("the frame numbers are not whole numbers")
     return np.rint(frames).astype(np.int64)
 
 
@@ -133,8 +135,8 @@ def _number_frames(
     first, last = min(numbers), max(numbers)
     if last - first >= MAX_FRAMES_RATIO * (len(numbers) + 1):
         raise content.error(
-            f"the numbers of {len(numbers)} frames run from {first} to {last}: these are no frame "
-            "numbers"
+            f"the numbers of {len(numbers)} frames run from {first} to {last}: these cannot "
+            "be frame numbers"
         )
     return np.array([frame - first for frame in frames], np.intp), last - first + 1
 
@@ -147,7 +149,9 @@ def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tup
             pose = np.asarray(person.points, np.float64)
             scores = np.asarray(person.confidence, np.float64)
         except (ValueError, TypeError, OverflowError):
-            raise content.error(f"frame {person.frame} has keypoints that are no numbers") from None
+            raise content.error(
+                f"frame {person.frame} has keypoints that are not numeric"
+            ) from None
         if pose.ndim != 2 or pose.shape[1] not in (2, 3) or not k == len(pose) == scores.size:
             raise content.error(
                 f"frame {person.frame} has keypoints of shape {pose.shape}, where {k} are expected"

@@ -77,14 +77,13 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         raise ReadError(content.path, f"none of its {len(file.labels)} points is a named marker")
     if left_out:
         notes.append(
-            f"{left_out} of {len(file.labels)} points left out: modelled or without a name"
+            f"{left_out} of {len(file.labels)} points left out, since they are modelled or "
+            "have no name"
         )
     if file.first_frame > 1:
-        notes.append(f"the first frame is number {file.first_frame} of the capture")
+        notes.append(f"the first frame is frame {file.first_frame} of the capture")
     if file.analog.shape[1]:
-        notes.append(
-            f"{file.analog.shape[1]} analog channels at {file.analog_rate:g} Hz are not part of it"
-        )
+        notes.append(f"{file.analog.shape[1]} analog channels at {file.analog_rate:g} Hz left out")
     if file.events:
         notes.append("events: " + ", ".join(f"{name} at {at:.2f} s" for at, name in file.events))
     points = Points(
@@ -161,12 +160,12 @@ def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
     ]
     if not muscles:
         raise content.error(
-            "nothing tells which of its analog channels are muscles: name them with "
-            f"--columns (columns=), of {', '.join(names)}"
+            "it does not state which analog channels are muscles: name them with --columns "
+            f"(columns=), from {', '.join(names)}"
         )
     others = [name for name in names if name not in muscles]
     suffix = f"; left out: {', '.join(others)}" if others else ""
-    return muscles, f"channels taken for muscles: {', '.join(muscles)}{suffix}"
+    return muscles, f"channels read as muscles: {', '.join(muscles)}{suffix}"
 
 
 def is_muscle(label: str, description: str = "", unit: str = "") -> bool:

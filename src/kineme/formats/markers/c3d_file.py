@@ -235,10 +235,10 @@ class Layout:
         widths = {4 * n + m for n, m in fitting}
         if len(fitting) == 1 or (fitting and used == header[0] and len(widths) == 1):
             n, m = fitting[0]
-            self.content.warn(f"{remark}: {n} and {m} are taken, which fit the length of the file")
+            self.content.warn(f"{remark}: {n} and {m} used, since they fit the length of the file")
             return fitting[0]
         if used == header[0] and not fitting:  # the file may be truncated
-            self.content.warn(f"{remark}: those of the header are taken")
+            self.content.warn(f"{remark}: those of the header used")
             return header
         fit = "either fits" if fitting else "neither fits"
         raise self.content.error(f"{remark}, and {fit} the length of the file: it is damaged")
@@ -260,7 +260,7 @@ class Layout:
         """Offset of the data in bytes."""
         block = self.header.data_block or int(self.parameters.number("POINT", "DATA_START", 0))
         if block < 2:
-            raise self.content.error("the header names no place for the data, or no points in it")
+            raise self.content.error("the header states no position of the data, or no points")
         return (block - 1) * BLOCK
 
     @cached_property
@@ -281,7 +281,7 @@ class Layout:
         start, kind = self.start, self._kind
         width = 4 * self.n_points + self.counts[1]
         if width == 0:
-            raise self.content.error("the header names no place for the data, or no points in it")
+            raise self.content.error("the header states no position of the data, or no points")
         available = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
         declared = self._declared_frames()
         # Use the largest declared count that fits, else all complete frames.
@@ -399,12 +399,14 @@ def read_parameters(content: FileContent) -> Parameters:
     data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0
     if len(data) < max(start + 4, BLOCK):
-        raise content.error("the file ends before its parameters: it is truncated, or no C3D file")
+        raise content.error(
+            "the file ends before its parameters: it is truncated or not a C3D file"
+        )
     processor = data[start + 3]
     if processor not in (INTEL, DEC, MIPS):
         raise content.error(
-            f"processor type {processor} is none of Intel ({INTEL}), DEC ({DEC}) and MIPS "
-            f"({MIPS}): the file is damaged, or no C3D file"
+            f"processor type {processor} is not Intel ({INTEL}), DEC ({DEC}) or MIPS "
+            f"({MIPS}): the file is damaged or not a C3D file"
         )
     order = "big" if processor == MIPS else "little"
     records: list[Record] = []

@@ -75,7 +75,7 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
     layout = Layout(content, parameters, read_header(content, parameters))
     layout.frames()  # raises ReadError if the data are missing
     if not layout.rate:
-        raise content.error("has no frame rate, which the times of events need")
+        raise content.error("has no frame rate, so the times of events are unknown")
     table = _collect_events(layout, events)
     if len(table["LABELS"]) > MAX_EVENTS:
         raise WriteError(
@@ -86,7 +86,7 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
         return content.data
     data = _replace_section(layout, _replace_event_records(layout, table))
     if not _is_kept(parameters, read_parameters(FileContent(content.path, data)), table):
-        raise content.error("has records of parameters over each other: it is damaged")
+        raise content.error("has overlapping parameter records: it is damaged")
     return data
 
 
@@ -150,7 +150,9 @@ def _replace_event_records(layout: Layout, table: dict[str, list[Any]]) -> list[
     if not number:
         number = next((n for n in range(1, 128) if n not in groups), 0)
         if not number:
-            raise layout.content.error("has 127 groups of parameters, and no room for its events")
+            raise layout.content.error(
+                "has 127 groups of parameters already, the maximum, so events cannot be added"
+            )
         result.append((-number, EVENT, _encode_record(-number, EVENT, b"\0", parameters.processor)))
     n = len(table["LABELS"])
     times = np.array(table["TIMES"], np.float32)
@@ -215,7 +217,7 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     start = parameters.start
     available = layout.start - start
     if available <= 0:
-        raise content.error("has its data before its parameters, which cannot grow there")
+        raise content.error("has its data before its parameters, so events cannot be added")
     last_record = max((record.start for record in parameters.records), default=start)
     # The third byte is the number of blocks of the section.
     size = data[start + 2] * BLOCK
@@ -226,7 +228,7 @@ def _replace_section(layout: Layout, records: list[RawRecord]) -> bytes:
     # Rounded up to whole blocks; the section never shrinks.
     blocks = max(size, -(-(len(body) + 4) // BLOCK) * BLOCK) // BLOCK
     if blocks > 255:
-        raise WriteError(content.path, "has no room for so many events among its parameters")
+        raise WriteError(content.path, "has no space for this many events in its parameters")
     head = data[start : start + 2] + bytes([blocks, kind])
     section = bytearray((head + body).ljust(blocks * BLOCK, b"\0"))
     grown = blocks - size // BLOCK

@@ -214,7 +214,7 @@ def _find_axis_line(content: FileContent, lines: Sequence[str], start: int) -> i
     for i in range(start, min(start + 12, len(lines))):
         if lines[i].strip(' "').lower().startswith("frame"):
             return i
-    raise content.error("no line 'Frame' with the axes of its columns", start + 1)
+    raise content.error("no line with 'Frame' and the axes of the columns found", start + 1)
 
 
 def _find_columns(
@@ -226,7 +226,7 @@ def _find_columns(
         if name and [cell.lower() for cell in axes[i : i + 3]] == ["x", "y", "z"]:
             columns.setdefault(name, i)
     if not columns:
-        raise content.error("no name stands above the axes X, Y and Z", line + 1)
+        raise content.error("no name found above the axes X, Y and Z", line + 1)
     return columns
 
 
@@ -236,7 +236,7 @@ def _parse_rate(content: FileContent, table: Capture) -> float:
     except ValueError:
         rate = 0.0
     if not 0 < rate < float("inf"):
-        raise content.error(f"{table.rate[:40]!r} is no frame rate: give fps= (--fps)")
+        raise content.error(f"{table.rate[:40]!r} is not a frame rate: give fps= (--fps)")
     return rate
 
 

@@ -34,7 +34,7 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of the markers in a TRC file."""
     lines = content.text.splitlines()
     if len(lines) <= _HEADER_LINES:
-        raise content.error("the file ends within its five header lines: there is no motion")
+        raise content.error("the file ends within its five header lines and has no motion")
     separator = find_separator(lines[3])
     row = next(filter(str.strip, lines[_HEADER_LINES:]), "")
     names = _name_markers(lines[3].split(separator)[2:], len(row.split(separator)) - 2)
@@ -138,7 +138,7 @@ def _find_timing(
     if abs(fps - declared) <= 0.005 * fps:
         return replace(timing, fps=declared) if timing.order is None else timing
     if declared > 0:
-        content.warn(f"DataRate is {declared:g}, but the times are {fps:g} Hz apart: taken")
+        content.warn(f"DataRate is {declared:g}, but the times give {fps:g} Hz, which is used")
     return timing
 
 

@@ -110,13 +110,13 @@ def assemble(
             _find_uniform_scale(transform(node).scale, UNIFORM) is None
             for node in (*ancestors, *joints)
         ):
-            remark = "its bones are scaled unevenly or over time: in clips joints slide instead"
+            remark = "its bones are scaled unevenly or over time: joints slide in clips instead"
             provenance = provenance.noted(Note(remark, "warning"))
     rig = _build_rig(
         nodes, [*ancestors, *joints], len(joints), rest, to_metres(unit), turn, numbers
     )
     if rig is None:
-        remark = "its bones are mirrored or scaled unevenly at rest: clips get another rest pose"
+        remark = "its bones are mirrored or scaled unevenly at rest: clips have another rest pose"
         provenance = provenance.noted(Note(remark, "warning"))
     elif binds:
         rig = replace(rig, binds=_compute_binds(rig, [*ancestors, *joints], binds))
@@ -136,7 +136,7 @@ def assemble(
     node_names = [nodes[node].name for node in joints]
     names = tuple(make_unique(node_names))
     if renamed := [new for new, old in zip(names, node_names, strict=True) if new != old]:
-        remark = f"several bones have one name: they are read as {join_names(renamed)}"
+        remark = f"several bones have the same name: renamed to {join_names(renamed)}"
         provenance = provenance.noted(Note(remark, "warning"))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends), rig)
     return build_motion(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)

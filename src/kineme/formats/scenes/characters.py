@@ -76,8 +76,7 @@ def find_character(
     skeletons = _find_skeletons(nodes)
     if not skeletons:
         raise content.error(
-            "holds no skeleton, neither bones nor animated nodes: export the armature with its "
-            "animation"
+            "has no skeleton (bones or animated nodes): export the armature with its animation"
         )
     largest = max(map(len, skeletons))
     bodies = [joints for joints in skeletons if len(joints) >= MIN_SIZE_RATIO * largest]
@@ -100,8 +99,8 @@ def find_character(
     ]
     if large:
         remark = (
-            f"perhaps another character, left out since its nodes are no bones: {join_names(large)}"
-            "; bind a skin to them, or export it alone"
+            "left out, since the nodes are not bones (perhaps another character): "
+            f"{join_names(large)}; bind a skin to them, or export it alone"
         )
         notes.append(Note(remark, "warning"))
     return Character(people[name], notes, name, [*people])
@@ -147,8 +146,8 @@ def choose_take(
         return first, [f"take {names[first]}"]
     others = join_names([names[number] for number in moving[1:]])
     remark = (
-        f"{len(moving)} takes are in it and {names[first]!r} is read: take= (--take) reads "
-        f"another, of {others}"
+        f"{len(moving)} takes are in it and {names[first]!r} is read: choose another with "
+        f"take= (--take): {others}"
     )
     return first, [Note(remark, "warning")]
 

@@ -83,18 +83,22 @@ def _find_rate(
 ) -> tuple[float, list[str]]:
     """Return frames per second, and notes."""
     if options.fps is not None:
-        return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
+        return options.fps, [f"sampled {options.fps:g} times per second, as requested"]
     mode = int(scene.get_setting("TimeMode", 0))
     fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.get_setting("CustomFrameRate", 0.0)
     keys = _infer_rate(scene, take, joints)
     if not MIN_RATE <= fps <= MAX_RATE:
         if keys:
-            return keys, [f"frame rate {keys:g} Hz: the file tells none, its keys are so far apart"]
-        remark = f"the file tells no frame rate: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
+            return keys, [
+                f"frame rate {keys:g} Hz: the file states none, so that of its keys is used"
+            ]
+        remark = f"the file states no frame rate: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
         return DEFAULT_RATE, [Note(remark, "warning")]
     # Sampling at the file's rate drops some of the keys.
     if keys > 1.5 * fps:
-        return fps, [f"{keys:g} keys a second are sampled at the file's {fps:g} Hz: fps= asks more"]
+        return fps, [
+            f"{keys:g} keys a second are sampled at the file's {fps:g} Hz; fps= raises this"
+        ]
     return fps, []
 
 
@@ -153,12 +157,12 @@ def _find_turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]
             rows[row, axis] = sign
     up = int(np.abs(rows[1]).argmax())
     name = ("-" if rows[1, up] < 0 else "") + "xyz"[up]
-    notes: list[str] = [] if name == "y" else [f"turned: {name} is up in the file"]
+    notes: list[str] = [] if name == "y" else [f"turned upright: {name} is up in the file"]
     # The determinant is 1 for a rotation, -1 for left-handed axes, 0 for dependent ones.
     if np.linalg.det(rows) > 0.5:
         return from_matrices(rows[None]).reshape(4), notes
     remark = (
-        "the file's axes are left-handed or no axes: read as right-handed ones with the same up"
+        "the file's axes are left-handed or invalid: read as right-handed with the same up axis"
     )
     return make_up_rotation(name), [*notes, Note(remark, "warning")]
 

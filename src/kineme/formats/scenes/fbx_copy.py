@@ -48,7 +48,7 @@ def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
         content = load(source)
         version, root = parse_fbx(content)
         if not content.data.startswith(MAGIC):
-            reason = f"is an FBX of text, so {path.name} has no mesh: export the source as binary"
+            reason = f"is a text FBX, so {path.name} has no mesh: export the source as binary FBX"
             warn(f"{source.name} {reason}")
             write_takes(motions, path)
             return
@@ -214,5 +214,6 @@ def _warn_of_textures(scene: FBXScene, source: Path, path: Path) -> None:
         texture = filename.text(0).replace("\\", "/")
         if (source.parent / texture).is_file() and not (path.parent / texture).is_file():
             warn(
-                f"{path.name} needs the texture {texture!r:.60}: copy it from beside {source.name}"
+                f"{path.name} needs the texture {texture!r:.60}: copy it from the folder of "
+                f"{source.name}"
             )

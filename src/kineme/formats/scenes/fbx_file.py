@@ -93,18 +93,20 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
             open_nodes.pop()
             continue
         if offset + head.size > stop:
-            raise content.error("breaks off between two nodes: the file is truncated or damaged")
+            raise content.error("ends between two nodes: the file is truncated or damaged")
         end, count, size, length = head.unpack_from(data, offset)
         first, offset = offset, offset + head.size
         # An empty node ends the list of children.
         if end == 0:
             if node is not root and offset != stop:
-                raise content.error(f"node {node.name!r:.40} is not as long as it says: damaged")
+                raise content.error(
+                    f"node {node.name!r:.40} does not have the length it states: damaged"
+                )
             open_nodes.pop()
             continue
         start = offset + length
         if not start + size <= end <= stop:
-            raise content.error("a node is longer than what it stands in: truncated or damaged")
+            raise content.error("a node is longer than its parent: truncated or damaged")
         nodes += 1
         require_node_memory(content, nodes)
         name = data[offset:start].decode("utf-8", "replace")
@@ -121,11 +123,11 @@ def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> l
     values: list[Any] = []
     for _ in range(count):
         if offset >= stop:
-            raise content.error("a node has fewer values than it says: truncated or damaged")
+            raise content.error("a node has fewer values than it states: truncated or damaged")
         try:
             value, offset = _parse_value(content.data, offset)
         except struct.error:
-            raise content.error("breaks off within a value: the file is truncated") from None
+            raise content.error("ends within a value: the file is truncated") from None
         except KeyError:
             kind = chr(content.data[offset])
             raise content.error(f"a value is of the unknown type {kind!r}: damaged") from None
@@ -174,5 +176,7 @@ class _BinaryArray:
             except zlib.error as error:
                 raise content.error(f"an array cannot be unpacked: {error}") from None
         if len(raw) != size:
-            raise content.error(f"an array is not of {self.count} numbers, as it says: damaged")
+            raise content.error(
+                f"an array does not have the {self.count} numbers it states: damaged"
+            )
         return np.frombuffer(raw, self.code)

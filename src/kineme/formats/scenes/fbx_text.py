@@ -52,7 +52,7 @@ class _TextParser:
             self._parse_token(match)
         if self.data[self.offset :].strip():
             raise self._make_error(
-                f"{self.data[self.offset : self.offset + 40].strip()!r} is no FBX", self.offset
+                f"{self.data[self.offset : self.offset + 40].strip()!r} is not FBX", self.offset
             )
         if len(self.open_nodes) > 1:
             raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
@@ -71,7 +71,7 @@ class _TextParser:
             require_node_memory(self.content, self.count)
         elif value == b"}" and kind == "mark":
             if len(self.open_nodes) == 1:
-                raise self._make_error("a '}' too many", offset)
+                raise self._make_error("there is one '}' too many", offset)
             self.open_nodes.pop()
             self.node = None
         elif self.node is None:
@@ -132,7 +132,7 @@ class _TextArray:
         try:
             values = np.array(words, np.float64) if words != [b""] else np.empty(0)
         except ValueError:
-            raise content.error("an array holds what is no number", line) from None
+            raise content.error("an array contains a value that is not a number", line) from None
         if len(values) != self.count:
             raise content.error(f"{len(values)} numbers in an array of {self.count}", line)
         return values

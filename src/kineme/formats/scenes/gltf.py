@@ -203,12 +203,14 @@ def _read_keys(
         if sampler.input not in times:
             times[sampler.input] = file.read_array(sampler.input)[:, 0]
             if (np.diff(times[sampler.input]) <= 0).any():
-                raise file.content.error("the times of keys are in no order: damaged")
+                raise file.content.error("the times of keys are not in order: damaged")
         values = file.read_array(sampler.output)
         # A cubic key has two tangents and a value.
         count = len(times[sampler.input]) * (3 if sampler.interpolation == "CUBICSPLINE" else 1)
         if values.shape != (count, _WIDTHS[path]):
-            raise file.content.error(f"{path} of node {node} has other keys than times: damaged")
+            raise file.content.error(
+                f"{path} of node {node} has different numbers of keys and times: damaged"
+            )
         keys[node, path] = Keys(times[sampler.input], values, sampler.interpolation)
     return keys
 
@@ -218,7 +220,7 @@ def _find_rate(
 ) -> tuple[float, list[str]]:
     """Return frames per second, and notes."""
     if options.fps is not None:
-        return options.fps, [f"sampled {options.fps:g} times a second, as asked for"]
+        return options.fps, [f"sampled {options.fps:g} times per second, as requested"]
     extras = file.tree.asset.extras
     settings = extras.get(EXTRAS) if isinstance(extras, dict) else None
     fps = settings.get("fps") if isinstance(settings, dict) else None
@@ -233,7 +235,7 @@ def _find_rate(
         is_near = abs(fps / max(round(fps), 1) - 1) * len(steps) <= SLACK
         fps = float(round(fps)) if is_near else round(fps, 3)
         if MIN_RATE <= fps <= MAX_RATE:
-            return fps, [f"frame rate {fps:g} Hz: that of its keys"]
+            return fps, [f"frame rate {fps:g} Hz, from its keys"]
     remark = f"its keys are not evenly spaced: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
     return DEFAULT_RATE, [Note(remark, "warning")]
 

@@ -47,7 +47,9 @@ def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> 
         raise WriteError(path, f"{source.name} has changed since it was read")
     if _COMPRESSION in tree.get("extensionsUsed", ()):
         raise WriteError(
-            path, f"the buffers of {source.name} are packed by meshopt: export it unpacked"
+            path,
+            f"the buffers of {source.name} are compressed by meshopt: export it without "
+            "compression",
         )
     copy = Animator(skeleton, rig, numbers[rig.above :], tree)
     _drop_animations(copy, file)

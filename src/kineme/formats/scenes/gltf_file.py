@@ -191,7 +191,7 @@ class GLTFFile:
         accessor = self.get_part(self.tree.accessors, number, "accessor")
         code, width = COMPONENTS.get(accessor.component_type), WIDTHS.get(accessor.type)
         if code is None or width is None:
-            raise self.content.error(f"accessor {number} is of a type that glTF does not know")
+            raise self.content.error(f"accessor {number} has a type that is not in glTF")
         if accessor.count < 1:
             raise self.content.error(f"accessor {number} has no elements: damaged")
         shape = accessor.count, width
@@ -234,7 +234,9 @@ class GLTFFile:
         """Return the elements of an accessor in a buffer view, from ``offset`` on."""
         view = self.get_part(self.tree.buffer_views, view_number, "buffer view")
         if "EXT_meshopt_compression" in view.extensions:
-            raise self.content.error("its keys are packed by meshopt: export them unpacked")
+            raise self.content.error(
+                "its keys are compressed by meshopt: export it without compression"
+            )
         data = self.read_buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
         # Without a stride the elements are contiguous.
@@ -242,7 +244,7 @@ class GLTFFile:
         start = view.byte_offset + offset
         stop = min(view.byte_offset + view.byte_length, len(data))
         if min(view.byte_offset, offset) < 0 or count < 1 or step < size:
-            raise self.content.error(f"accessor {number} is nowhere in its buffer: damaged")
+            raise self.content.error(f"accessor {number} is outside its buffer: damaged")
         # The last element needs no whole stride.
         if start + (count - 1) * step + size * width > stop:
             raise self.content.error(f"accessor {number} is longer than its buffer: truncated")
@@ -262,11 +264,11 @@ class GLTFFile:
             try:
                 return base64.b64decode(uri.partition(",")[2], validate=True)
             except (binascii.Error, ValueError):
-                raise self.content.error("a buffer is no base64: damaged") from None
+                raise self.content.error("a buffer is not base64: damaged") from None
         name = unquote(uri)
         # Read only files in the folder of the glTF or below.
         if Path(name).is_absolute() or ".." in Path(name).parts or ":" in name:
-            raise self.content.error(f"has a buffer in {name!r:.60}: put that file beside it")
+            raise self.content.error(f"has a buffer in {name!r:.60}: put that file next to it")
         data = load(find_sibling(self.content, name)).data
         self.external_size += len(data)
         return data
@@ -281,7 +283,7 @@ def _split_chunks(content: FileContent) -> tuple[bytes, bytes]:
     if version != 2:
         raise content.error(f"is a GLB of version {version}: export glTF 2.0")
     if length > len(data):
-        raise content.error(f"is of {len(data)} bytes instead of {length}: it is truncated")
+        raise content.error(f"has {len(data)} bytes instead of {length}: it is truncated")
     chunks: dict[int, bytes] = {}
     offset = HEADER.size
     while offset + CHUNK.size <= length:

@@ -81,7 +81,7 @@ def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a g
         if motion.skeleton is not first.skeleton and not _is_same_skeleton(
             motion.skeleton, first.skeleton
         ):
-            raise WriteError(path, "its animations are of different skeletons: write several files")
+            raise WriteError(path, "its animations have different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
     return first
 

@@ -80,7 +80,7 @@ def read_usd(content: FileContent, options: ReadOptions) -> Motion:
         )
     except subprocess.TimeoutExpired:
         raise content.error(
-            f"takes the USD library more than {TIMEOUT_S:.0f} s: flatten it"
+            f"was not read by the USD library within {TIMEOUT_S:.0f} s: flatten it"
         ) from None
     if process.returncode:
         raise content.error(
@@ -115,7 +115,7 @@ def _try_read(path: Path, options: ReadOptions) -> Motion | KinemeError:
             try:
                 return _read(content, options)
             except Tf.ErrorException as error:
-                raise content.error("is no whole USD file: truncated or damaged") from error
+                raise content.error("is not a complete USD file: truncated or damaged") from error
             except ReadError as error:
                 if content.remarks and type(error) is ReadError:  # not SeveralPeopleError
                     raise content.error("; ".join([error.reason, *content.remarks])) from error
@@ -274,15 +274,15 @@ def _find_frames(
     notes: list[str] = []
     if options.fps is not None:
         fps = options.fps
-        notes.append(f"sampled {fps:g} times a second, as asked for")
+        notes.append(f"sampled {fps:g} times per second, as requested")
     elif len(steps) and np.abs(steps / median_step - 1).max() > _EVEN:
         fps = codes_per_second
-        remark = f"its samples are not evenly spaced: one for each time code, {fps:g} Hz"
+        remark = f"its samples are not evenly spaced: one is read per time code, {fps:g} Hz"
         notes.append(Note(remark, "warning"))
     else:
         fps = codes_per_second / median_step
     if not (np.isfinite(times).all() and 0 < fps < np.inf and codes_per_second > 0):
-        raise content.error("tells no time that could be: give fps= (--fps)")
+        raise content.error("states no valid frame rate: give fps= (--fps)")
     step = codes_per_second / fps
     count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MAX_FRAMES)
     require_frame_memory(content, joints, int(count), external_size=external_size)

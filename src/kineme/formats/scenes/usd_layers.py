@@ -67,7 +67,7 @@ def _load_layers(content: FileContent) -> tuple[list[Any], int]:
                 waiting.append(target)
             else:
                 layer.UpdateCompositionAssetDependency(name, "")
-                content.warn(f"the layer {name!r:.60} is missing or not USD: left out")
+                content.warn(f"the layer {name!r:.60} is missing or not USD, so it is left out")
     return list(layers.values()), size - len(content.data)
 
 
@@ -83,7 +83,7 @@ def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
                 Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
             ]
             if len(stack) > MAX_SUBLAYERS:
-                raise content.error(f"its sublayers multiply to more than {MAX_SUBLAYERS}")
+                raise content.error(f"its sublayers expand to more than {MAX_SUBLAYERS}")
 
 
 def _check_growth(content: FileContent, layer: Any) -> None:
@@ -105,7 +105,7 @@ def _check_growth(content: FileContent, layer: Any) -> None:
             n_included += 1
             if n_included > MAX_REFERENCES:
                 raise content.error(
-                    f"its references multiply to more than {MAX_REFERENCES} prims: export the "
+                    f"its references expand to more than {MAX_REFERENCES} prims: export the "
                     "character by itself"
                 )
         waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]

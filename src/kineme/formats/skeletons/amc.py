@@ -107,7 +107,7 @@ def _find_head(content: FileContent) -> bytes:
     """Return the bytes before the first frame."""
     start = _FRAME.search(content.data)
     if start is None:
-        raise content.error("no frame found: an AMC has a line with a number before each")
+        raise content.error("no frame found: an AMC has a line with a number before each frame")
     return content.data[: start.start()]
 
 
@@ -135,12 +135,12 @@ def find_skeleton(path: Path) -> Path:
         candidates += asf_files
     if not candidates:
         raise ReadError(
-            path, "no ASF skeleton found beside it: name one with skeleton= (--skeleton)"
+            path, "no ASF skeleton found next to it: give one with skeleton= (--skeleton)"
         )
     raise ReadError(
         path,
-        f"none of the {len(candidates)} ASF files beside it has its name: "
-        f"name one with skeleton= (--skeleton)",
+        f"none of the {len(candidates)} ASF files next to it has its name: give one with "
+        "skeleton= (--skeleton)",
     )
 
 
@@ -363,7 +363,7 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     absent = [n for n, bone in figure.bones.items() if bone.dof and n not in frames[0]]
     if absent:
-        content.warn(f"no values for {', '.join(absent)}: taken to be 0")
+        content.warn(f"no values for {', '.join(absent)}: 0 used")
     return {
         name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
         for name, bone in figure.bones.items()
@@ -372,21 +372,21 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
 
 def _frame_number(content: FileContent, word: bytes, line: int) -> int:
     if len(word) > 18:
-        raise content.error(f"{word[:18].decode()}... is the number of no frame", line)
+        raise content.error(f"{word[:18].decode()}... is not a frame number", line)
     return int(word)
 
 
 def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure) -> None:
     name = words[0].decode("utf-8", "replace")
     if name not in figure.bones:
-        raise ValueError(f"bone {name[:40]!r} is not in the skeleton: is it the wrong ASF?")
+        raise ValueError(f"bone {name[:40]!r} is not in the skeleton: give the matching ASF")
     if name in frame:
-        raise ValueError(f"bone {name!r} stands twice in one frame")
+        raise ValueError(f"bone {name!r} appears twice in one frame")
     values = parse_numbers(words[1:])
     dof = figure.bones[name].dof
     if len(values) != len(dof):
         raise ValueError(
-            f"bone {name!r} has {len(values)} values, the skeleton asks for {len(dof)}"
+            f"bone {name!r} has {len(values)} values, but the skeleton needs {len(dof)}"
         )
     frame[name] = values
 
@@ -395,7 +395,9 @@ def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], 
     """Raise ReadError if the last frame is empty or lacks a bone of the first one."""
     missing = [name for name in frames[0] if name not in frames[-1]]
     if missing or not frames[-1]:
-        raise content.error(f"a frame without {missing[0] if missing else 'any bone'}", line)
+        raise content.error(
+            f"a frame has no values for {missing[0] if missing else 'any bone'}", line
+        )
 
 
 SKELETON = Format("ASF", (".asf",), lambda _: False, refuse_asf)

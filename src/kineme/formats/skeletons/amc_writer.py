@@ -52,7 +52,7 @@ def write_amc(motion: Motion, path: Path) -> None:
     turns, translations, offsets, slides = compute_local_pose(motion, path, "an AMC")
     skeleton = motion.skeleton
     if sum(parent < 0 for parent in skeleton.parents) != 1:
-        raise WriteError(path, "an AMC holds one figure, and this motion has several roots")
+        raise WriteError(path, "an AMC holds one figure, but this motion has several roots")
     moving = sorted(j for j in skeleton.end_sites if slides[j])
     if moving:
         raise WriteError(path, f"end site {skeleton.names[moving[0]]!r} moves on its bone")

@@ -53,7 +53,7 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     sections = _split_sections(content)
     for needed in ("root", "bonedata", "hierarchy"):
         if needed not in sections:
-            raise content.error(f"no :{needed} section, so this is not a whole ASF file")
+            raise content.error(f"no :{needed} section, so this is not a complete ASF file")
     units = {words[0].lower(): (n, words[1:]) for n, words in sections.get("units", [])}
     angle = "".join(units.get("angle", (0, ["deg"]))[1][:1]).lower()
     angle_unit = 1.0 if angle.startswith("rad") else radians(1)
@@ -129,7 +129,7 @@ def _split_blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line
                 raise content.error("'begin' inside a bone: an 'end' is missing", number)
             block = []
         elif block is None:
-            raise content.error(f"{words[0]!r} stands outside 'begin' and 'end'", number)
+            raise content.error(f"{words[0]!r} is outside 'begin' and 'end'", number)
         elif key == "end":
             if block:
                 yield block
@@ -174,8 +174,8 @@ def _order_bones(
     lost = [name for name in bones if name not in reached]
     if lost:
         raise content.error(
-            f"bone {lost[0]!r} does not hang on the root: its line in :hierarchy is missing "
-            "or runs in a circle"
+            f"bone {lost[0]!r} is not connected to the root: its line in :hierarchy is "
+            "missing or circular"
         )
     return order
 
@@ -250,7 +250,7 @@ def _parse_dof(content: FileContent, line: int, words: list[str]) -> tuple[str, 
         if word not in ("tx", "ty", "tz", "rx", "ry", "rz"):
             raise content.error(f"degree of freedom {word!r} is not one of tx ty tz rx ry rz", line)
     if len(set(dof)) != len(dof):
-        raise content.error("a degree of freedom is named twice", line)
+        raise content.error("a degree of freedom is listed twice", line)
     return dof
 
 

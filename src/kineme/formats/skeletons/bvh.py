@@ -96,7 +96,7 @@ class _Head(NamedTuple):
 def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     split = _MOTION.search(content.data)
     if split is None:
-        raise content.error("no MOTION section with 'Frames:', so this is not a whole BVH file")
+        raise content.error("no MOTION section with 'Frames:', so this is not a complete BVH file")
     joints = _HierarchyParser(content, split.start()).joints
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
@@ -235,7 +235,7 @@ class _HierarchyParser:
 
     def _take_word(self) -> tuple[str, int]:
         if self.position >= len(self.words):
-            raise self.content.error("the hierarchy breaks off", self.words[-1][1])
+            raise self.content.error("the hierarchy is truncated", self.words[-1][1])
         self.position += 1
         return self.words[self.position - 1]
 
@@ -270,7 +270,7 @@ class _HierarchyParser:
             channels.append((match.group(1).lower(), match.group(2).lower()))
         positions = [channel for channel in channels if channel[1] == "position"]
         if len(set(positions)) != len(positions):
-            raise self.content.error("a position channel is named twice", line)
+            raise self.content.error("a position channel is listed twice", line)
         return channels
 
     def _name_end_sites(self) -> None:
@@ -299,7 +299,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     read as one sequence, provided that it gives exactly the declared frames.
     """
     if width == 0:
-        raise content.error("no joint has a channel, so there is no motion")
+        raise content.error("no joint has channels, so there is no motion")
     values = array("d")
     odd_lines: list[tuple[int, int]] = []
     fault: ReadError | None = None
@@ -327,12 +327,12 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         # Drop the values of the truncated last line.
         del values[-count:]
     if not values:
-        raise fault or content.error("the file ends before its first frame: there is no motion")
+        raise fault or content.error("the file ends before its first frame, so it has no motion")
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if repaired:
         content.warn(
-            f"blanks before minus signs are missing in {format_count(repaired, 'frame')}: put there"
+            f"spaces missing before minus signs added in {format_count(repaired, 'frame')}"
         )
     return np.frombuffer(values).reshape(-1, width)
 

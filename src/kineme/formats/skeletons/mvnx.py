@@ -59,7 +59,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a subject in an MVNX file."""
     people = _parse_subjects(content)
     if not people:
-        raise content.error("there is no subject in it")
+        raise content.error("it has no subject")
     names_of_people = [each.name for each in people]
     person = choose_person(content.path, names_of_people, options.person, "subjects")
     subject = people[names_of_people.index(person)]
@@ -73,7 +73,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("positions are not all numbers")
     fps = options.fps or subject.rate
     if not fps > 0:
-        raise content.error("it tells no frameRate: give fps= (--fps)")
+        raise content.error("it states no frameRate: give fps= (--fps)")
     left_out = [name for name in subject.segments if name not in PARENTS]
     notes = [f"segments left out: {', '.join(left_out)}"] if left_out else []
     provenance = content.provenance("MVNX", notes)
@@ -88,7 +88,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         return Motion(skeleton, positions, fps, None, provenance)
     world = _stack_frames(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
     if len(positions) != len(world):
-        raise content.error("some frames have orientations and others none: export all with them")
+        raise content.error("some frames have no orientations: export all frames with them")
     lengths = np.linalg.norm(world, axis=2, keepdims=True)
     if not (np.isfinite(lengths).all() and (lengths > 0).all()):
         raise content.error("orientations are not all numbers")
@@ -146,7 +146,7 @@ class _SubjectParser(NoEntities):
         try:
             self.people[-1].values[name].append(np.array(words, np.float64))
         except ValueError:
-            raise self.content.error(f"a frame has a {name} that is no number") from None
+            raise self.content.error(f"a frame has a {name} that is not a number") from None
 
 
 def _parse_subjects(content: FileContent) -> list[Subject]:
@@ -157,7 +157,7 @@ def _parse_subjects(content: FileContent) -> list[Subject]:
         parser.feed(content.data)
         parser.close()
     except ET.ParseError as error:
-        raise content.error(f"is no whole XML: {error}") from None
+        raise content.error(f"is not complete XML: {error}") from None
     return target.people
 
 
@@ -166,7 +166,7 @@ def _stack_frames(content: FileContent, subject: Subject, kind: str, width: int)
     if not frames:
         raise content.error(f"no frame has a {kind} of segments: export it with them")
     if any(len(values) != width for values in frames):
-        raise content.error(f"a frame has another number of values in {kind} than {width}")
+        raise content.error(f"a frame does not have {width} values in {kind}")
     return np.stack(frames)
 
 

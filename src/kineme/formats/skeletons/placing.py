@@ -58,7 +58,7 @@ def build_motion(
         height = estimate_height(skeleton, means) * to_metres(unit)
         if not PLAUSIBLE_HEIGHTS[0] <= height <= PLAUSIBLE_HEIGHTS[1]:
             provenance = provenance.noted(
-                f"with unit {unit} the skeleton is about {height:.4g} m tall: look whether it fits"
+                f"with unit {unit} the skeleton is about {height:.4g} m tall: check the unit"
             )
     scale, offsets = to_metres(unit), skeleton.offsets
     skeleton = replace(skeleton, offsets=scale * offsets)
@@ -67,7 +67,7 @@ def build_motion(
         up = infer_up(skeleton, positions)
         if up != "y":
             provenance = provenance.noted(
-                f"turned: head and feet lie along {up}, so that axis was taken to be up"
+                f"turned upright: head and feet lie along {up}, so that axis is read as up"
             )
     if up != "y":
         turn = make_up_rotation(up)

@@ -210,7 +210,9 @@ def _open_array(path: Path) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError as error:
-        raise ReadError(path, "is gone: the library was built anew, open it again") from error
+        raise ReadError(
+            path, "was removed when the library was built again: open it again"
+        ) from error
     except Exception as error:
         raise ReadError(path, "is damaged: remove it and build the library again") from error
 

@@ -52,16 +52,18 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
     """Return the content of ``library.json``; raise ReadError if it is invalid."""
     path = make_path(folder) / HEAD
     if not path.is_file():
-        raise ReadError(folder, "is no library: kineme library build FOLDER --into LIB makes one")
+        raise ReadError(
+            folder, "is not a library: make one with kineme library build FOLDER --into LIB"
+        )
     head = read_json(path)
     if head.get("schema") != SCHEMA:
         raise ReadError(
             path,
-            f"is of the schema {head.get('schema')!r:.40}, this version of kineme reads "
-            f"{SCHEMA}: build the library anew, into another folder",
+            f"is of the schema {head.get('schema')!r:.40}, but this version of kineme reads "
+            f"{SCHEMA}: build the library again in another folder",
         )
     if not _is_complete(head):
-        raise ReadError(path, "is damaged: what it tells is not as written; build the library anew")
+        raise ReadError(path, "is damaged: its content is not valid; build the library again")
     return head
 
 
@@ -119,7 +121,7 @@ def lock_for_writing(folder: Path, what: str, name: str = LOCK) -> Iterator[None
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 raise WriteError(
-                    folder, f"another process is changing this library: {what} when it is done"
+                    folder, f"another process is changing this library: {what} when it has finished"
                 ) from None
             except OSError:  # file systems without locks
                 pass

@@ -40,7 +40,7 @@ class KinemeConstants(Preset):
 
     unit: Unit = "body sizes"
     working_fps: float = constant(
-        "samples per second at which the recording is looked at", unit="Hz", limits=RATE,
+        "samples per second to which the recording is resampled", unit="Hz", limits=RATE,
         default=30.0,
     )  # fmt: skip
     smoothing: float = constant(
@@ -51,7 +51,7 @@ class KinemeConstants(Preset):
         "samples per second that are compared", unit="Hz", limits=RATE, default=5.0
     )
     averaging: float = constant(
-        "means and energies are taken over this", unit="s", limits=SOME_TIME, default=1.0
+        "means and energies are computed over this", unit="s", limits=SOME_TIME, default=1.0
     )
     bands: tuple[float, ...] = constant(
         "edges of the bands of frequency whose energies are compared", unit="Hz",
@@ -83,7 +83,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     # Segments: the tree and its shortest description.
     part: float = constant(
-        "a longer recording is segmented in parts of about this at most", unit="s",
+        "longer recordings are segmented in parts of at most about this length", unit="s",
         limits=SOME_TIME, fine=True, default=600.0,
     )  # fmt: skip
     compared_within: float = constant(
@@ -103,7 +103,10 @@ class KinemeConstants(Preset):
         slider=(0.1, 5.0, 0.1), default=0.66,
     )  # fmt: skip
     cluster_growth: float = constant(
-        "power of the duration with which that grows", limits=SHARE, fine=True, default=0.2
+        "power of the duration with which `cluster_cost` grows",
+        limits=SHARE,
+        fine=True,
+        default=0.2,
     )
     spread_share: float = constant(
         "share of the distances within two clusters that is subtracted from the one between them",
@@ -112,7 +115,7 @@ class KinemeConstants(Preset):
     min_action: float = constant(
         "shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1), default=1.4
     )
-    max_clusters: int = constant("clusters at most", limits=SOME, fine=True, default=16)
+    max_clusters: int = constant("largest number of clusters", limits=SOME, fine=True, default=16)
     # Segments that repeat a movement.
     min_explained: float = constant(
         "share of a repetition that the mean of the others explains, at least", limits=SHARE,
@@ -139,7 +142,7 @@ class KinemeConstants(Preset):
         limits=SOME_TIME, fine=True, default=1.7,
     )  # fmt: skip
     max_repetition: float = constant(
-        "longest repetition; what lasts longer is a series of activities", unit="s",
+        "longest repetition; longer ones are a series of activities", unit="s",
         limits=SOME_TIME, default=8.0,
     )  # fmt: skip
     uneven: float = constant(
@@ -194,7 +197,7 @@ class KinemeConstants(Preset):
     )  # fmt: skip
     # Events.
     event_scale: float = constant(
-        "distance from which two samples of an event are not similar; 0: events are not looked for",
+        "distance from which two samples of an event are not similar; 0: no search for events",
         unit="body sizes", limits=LENGTH, slider=(0.0, 0.8, 0.05), default=0.45,
     )  # fmt: skip
     event_velocity: float = constant(
@@ -232,8 +235,8 @@ class KinemeConstants(Preset):
         default=(-0.016, 1.619),
     )  # fmt: skip
     cut_weights: tuple[float, float] = constant(
-        "confidence of a border between repetitions by the same", limits=WEIGHT, fine=True,
-        default=(-0.443, 1.882),
+        "confidence of a border between repetitions by how much repetitions correlate",
+        limits=WEIGHT, fine=True, default=(-0.443, 1.882),
     )  # fmt: skip
 
     def __post_init__(self) -> None:

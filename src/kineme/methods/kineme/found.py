@@ -141,7 +141,9 @@ class KinemeFound:
             before = np.searchsorted(starts, primitives, side="right") - 1
             recurs = ((before >= 0) & (primitives < stops[before])).any()
             note = (
-                "their primitives are what recurs anywhere" if recurs else "nothing in them recurs"
+                "their primitives are movements that repeat elsewhere"
+                if recurs
+                else "nothing in them repeats"
             )
             sentences.append(f"not periodic: {', '.join(spans[:MAX_LISTED])}{more}; {note}")
         return sentences

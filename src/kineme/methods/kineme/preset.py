@@ -35,7 +35,9 @@ class KinemePreset(KinemeConstants):
         return analyze(features, self, joints=joints, progress=progress)
 
 
-KINEME = KinemePreset(name="kineme", help="Finds activities and counts their repetitions; for use.")
+KINEME = KinemePreset(
+    name="kineme", help="Finds activities and counts their repetitions; the default."
+)
 
 OF_SENSORS: Mapping[str, Any] = {
     "unit": "any",
@@ -54,6 +56,6 @@ OF_SENSORS: Mapping[str, Any] = {
 
 SENSORS = KinemePreset(
     name="sensors",
-    help="The same by posture and energy of channels; what kineme is for signals.",
+    help="The same by posture and energy of channels; the default for signals.",
     **OF_SENSORS,
 )

@@ -69,6 +69,6 @@ def estimate_period(values: Floats) -> int | None:
 
 SERIES = SeriesPreset(
     name="series",
-    help="The same at the pace of the series: for time series that are no movement.",
+    help="The same at the pace of the series; for time series other than movement.",
     **OF_SENSORS,
 )

@@ -68,7 +68,7 @@ def analyze_regions(
     """
     rows = as_features(features)
     if preset.mirror and mirror is None:
-        raise ParameterError("these features have no left and right: they take mirror=False")
+        raise ParameterError("these features have no left and right: use mirror=False")
     timings: dict[str, float] = {}
     stage = time_stages(timings, progress)
     compared = rows

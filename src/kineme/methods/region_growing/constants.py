@@ -37,13 +37,15 @@ class RegionGrowingConstants(Preset):
         limits=SOME_LENGTH, slider=(0.1, 1.6, 0.01),
     )  # fmt: skip
     max_lag: float | None = constant(
-        "look for similarity no farther away than this; none for everywhere", unit="s",
+        "largest time between similar samples; none: unlimited", unit="s",
         limits=SOME_TIME, default=None,
     )  # fmt: skip
-    max_neighbors: int = constant("neighbours kept per sample at most, the nearest", limits=SOME)
+    max_neighbors: int = constant(
+        "largest number of nearest neighbours kept per sample", limits=SOME
+    )
     bundling: int | None = constant(
-        "draw features together first, each towards so many of those similar to it; none for "
-        "features as they are", limits=SOME, default=None,
+        "number of similar features to whose mean each feature is moved first; none: "
+            "features stay unchanged", limits=SOME, default=None,
     )  # fmt: skip
     mirror: bool = constant(
         "also cut where a repetition with left and right exchanged starts", default=False
@@ -57,11 +59,11 @@ class RegionGrowingConstants(Preset):
     )
     growth: Literal["squares", "scan_lines"] = constant("form of the growing region")
     growth_radius: float | None = constant(
-        "smaller radius for growing regions; none for that of all", unit="metres",
+        "smaller radius for growing regions; none: the general radius", unit="metres",
         limits=SOME_LENGTH, default=None,
     )  # fmt: skip
     growth_neighbors: int | None = constant(
-        "fewer neighbours for growing regions; none for all", limits=SOME, default=None
+        "fewer neighbours for growing regions; none: all", limits=SOME, default=None
     )
     diagonal: Literal["band", "component"] = constant(
         "how the main diagonal is removed: a band, or the connected component of the first sample",
@@ -72,28 +74,30 @@ class RegionGrowingConstants(Preset):
         "time without a new neighbour that ends a region", unit="s", limits=SOME_TIME,
         slider=(1 / 30, 2.0, 1 / 30),
     )  # fmt: skip
-    growth_count: int = constant("neighbours that a region must hold more than", limits=COUNT)
+    growth_count: int = constant("number of neighbours that a region must exceed", limits=COUNT)
     growth_distance: float = constant(
-        "time between two cuts of one direction at least (squares)", unit="s", limits=TIME,
+        "shortest time between two cuts of one direction (squares)", unit="s", limits=TIME,
         default=0.0,
     )  # fmt: skip
     min_path: float = constant("shortest warping path inside an activity", unit="s", limits=TIME)
     path_separation: float | None = constant(
-        "several paths of a component are kept if they begin at least this far apart; none for "
-        "the cheapest only", unit="s", limits=SOME_TIME, default=None,
+        "keep several paths of a component if they begin at least this far apart; none: "
+            "only the cheapest", unit="s", limits=SOME_TIME, default=None,
     )  # fmt: skip
     max_slope: float = constant(
-        "a path's two sides differ in length by this factor at most", limits=Limits(1.0, 1000.0),
-        default=2.0,
+        "largest factor by which the two sides of a path may differ in length",
+        limits=Limits(1.0, 1000.0), default=2.0,
     )  # fmt: skip
     symmetry: float = constant(
-        "share of a path that must be matched the other way round", limits=SOME_SHARE, default=0.5
+        "share of a path that must also match in the other direction",
+        limits=SOME_SHARE,
+        default=0.5,
     )
     min_primitive: float = constant(
         "shortest primitive", unit="s", limits=TIME, slider=(0.05, 3.0, 0.05)
     )
     cluster_neighbors: int | None = constant(
-        "fewer neighbours for clusters; none for all", limits=SOME, default=None
+        "fewer neighbours for clusters; none: all", limits=SOME, default=None
     )
     cluster_min_path: float = constant(
         "shortest warping path between segments", unit="s", limits=TIME
@@ -103,9 +107,9 @@ class RegionGrowingConstants(Preset):
         slider=(0.1, 1.0, 0.02),
     )  # fmt: skip
     interpolate: bool = constant(
-        "judge the coverage by the rows at which the path enters and leaves the other segment, "
-        "instead of all its rows"
+        "measure the coverage by the rows where the path enters and leaves the other "
+        "segment, instead of all its rows"
     )
     connection: Literal["weak", "strong"] = constant(
-        "links one way make a cluster (weak), or links both ways (strong)"
+        "clusters need links in one direction (weak) or in both (strong)"
     )

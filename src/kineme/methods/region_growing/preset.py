@@ -66,7 +66,7 @@ class RegionGrowingPreset(RegionGrowingConstants):
 
 VOEGELE2014 = RegionGrowingPreset(
     name="voegele2014",
-    help="Grows regions of similar poses into activities; as published in 2014, to compare with.",
+    help="Grows regions of similar poses into activities; as published in 2014, for comparison.",
     offsets=(-1 / 6, 0.0, 1 / 6),  # V14 3: preceding and succeeding frame; program: 5 frames
     radius=0.64,  # V14 5: 64 cm
     max_neighbors=128,  # V14 5
@@ -91,7 +91,7 @@ VOEGELE2014 = RegionGrowingPreset(
 
 KRUEGER2017 = RegionGrowingPreset(
     name="krueger2017",
-    help="The same with poses bundled and less to search; as published in 2017, to compare with.",
+    help="The same with bundled poses and a smaller search; as published in 2017, for comparison.",
     offsets=(-1 / 3, -1 / 6, 0.0, 1 / 6, 1 / 3),  # K17 VI
     radius=0.19 * math.sqrt(5),  # program: generalised radius 19 cm; 30.2 cm without bundling
     max_neighbors=600,  # program

@@ -198,7 +198,7 @@ def label_components(
 def _find_box(frames: tuple[int, int], name: str) -> tuple[int, int]:
     bounds = as_indices(frames, name)
     if len(bounds) != 2:
-        raise ParameterError(f"{name} are a start and a stop frame, not {frames!r:.60}")
+        raise ParameterError(f"{name} must be a start and a stop frame, not {frames!r:.60}")
     return bounds[0], bounds[1]
 
 

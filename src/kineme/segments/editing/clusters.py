@@ -253,7 +253,9 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
         if not find_members(segmentation, each):
             raise ParameterError(f"no segment is in cluster {each}")
     if cluster == into:
-        raise ParameterError(f"cluster {cluster} cannot be merged with itself: name another")
+        raise ParameterError(
+            f"cluster {cluster} cannot be merged with itself: name another cluster"
+        )
     members = [(row.level, row) for row in find_members(segmentation, cluster)]
     return _move_members(segmentation, members, into)
 
@@ -293,8 +295,8 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     leavers = [row for row in members if row.start_frame in chosen]
     if not leavers or len(leavers) == len(members):
         raise ParameterError(
-            f"{len(leavers)} of {len(members)} segments of cluster {cluster} are chosen: "
-            "choose some of them, not all"
+            f"{len(leavers)} of {len(members)} segments of cluster {cluster} are selected: "
+            "select some of them, not all"
         )
     # An activity moves only if all of its primitives of the cluster move.
     staying = {row.activity for row in members if row.start_frame not in chosen}

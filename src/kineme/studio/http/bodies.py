@@ -111,7 +111,7 @@ async def read_body(request: Request) -> bytes:
     async for chunk in read_chunks(request):
         content += chunk
         if len(content) > MAX_JSON:
-            raise TooLargeError(f"a request has at most {MAX_JSON} bytes")
+            raise TooLargeError(f"the request is too large: it can have at most {MAX_JSON} bytes")
     return bytes(content)
 
 
@@ -130,12 +130,14 @@ class Upload:
         if Path(self.name).suffix.lower() not in _list_upload_suffixes():
             allowed = ", ".join(sorted(_list_upload_suffixes()))
             raise ParameterError(
-                f"{self.name!r} has no suffix of a recording or its labels: {allowed}"
+                f"{self.name!r} does not have a suffix of recordings or labels: {allowed}"
             )
         if length is not None and length > limit:
-            raise TooLargeError(f"{self.name} has {length} bytes; at most {limit} can be uploaded")
+            raise TooLargeError(
+                f"{self.name} has {length} bytes, but at most {limit} can be uploaded"
+            )
         if length is not None and length > shutil.disk_usage(root).free:
-            raise TooLargeError(f"there is no room for {length} bytes in {root}")
+            raise TooLargeError(f"not enough free space for {length} bytes in {root}")
         self._root, self._limit, self._size, self._digest = root, limit, 0, sha256()
         self._draft = root / f".upload-{secrets.token_hex(8)}.part"
         try:

@@ -101,11 +101,11 @@ class Guard:
         headers = Headers(scope=scope)
         # Exactly one host header, with a name of this server.
         if headers.getlist("host") not in [[host] for host in self._hosts]:
-            return "this server answers to 127.0.0.1 and localhost only"
+            return "this server can only be reached as 127.0.0.1 or localhost"
         if not {*headers.getlist("origin")} <= self._origins:
-            return "pages of other origins may not ask this server"
+            return "pages of other origins may not use this server"
         if headers.get("sec-fetch-site") == "cross-site" and scope["path"] != "/":
-            return "pages of other sites may not ask this server"
+            return "pages of other sites may not use this server"
         if scope["path"].startswith("/api") and not scope[TRUSTED]:
             return "the token is missing or wrong: use the address that kineme printed"
         return None

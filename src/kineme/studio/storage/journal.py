@@ -243,7 +243,10 @@ def read_record(folder: Path) -> tuple[Record, list[str]]:
     complete = record.schema == SCHEMA and find_needed_tables(record) <= record.steps.keys()
     if complete or record == Record():
         return record, notes
-    return Record(revision=record.revision), [*notes, f"{HISTORY} was left alone: it is not whole"]
+    return Record(revision=record.revision), [
+        *notes,
+        f"{HISTORY} was ignored: it is incomplete",
+    ]
 
 
 def write_record(folder: Path, record: Record) -> None:

@@ -127,7 +127,7 @@ def read_sidecar(path: Path, shape: type[Content], otherwise: Content) -> tuple[
     except ReadError as error:
         if isinstance(error.__cause__, FileNotFoundError | NotADirectoryError):
             return otherwise, []
-        return otherwise, [f"{path.name} was left alone: it {error.reason}"]
+        return otherwise, [f"{path.name} was ignored: it {error.reason}"]
 
 
 def write_file(path: Path, content: bytes) -> None:
@@ -161,7 +161,7 @@ def _read_reading(recording: Path) -> tuple[tuple[ReadOptions, tuple[str, ...]],
         people = as_texts(content.pop("people", ()), "people")
         return (options_from_json(ReadOptions, content), people), notes
     except KinemeError as error:
-        note = f"{path.name} was left alone: it holds a wrong option: {error}"
+        note = f"{path.name} was ignored: it has an invalid option: {error}"
         return (ReadOptions(), people), [*notes, note]
 
 

@@ -92,13 +92,13 @@ def find_saved_table(
             table = file.read()
         except KinemeError as error:
             reason = error.reason if isinstance(error, ReadError) else str(error)
-            notes.append(f"{path.name} was left alone: it {reason}")
+            notes.append(f"{path.name} was not used: it {reason}")
             continue
         if fits(table):
             return file, table, notes
         if not of_another(table):
-            notes.append(f"{path.name} was left alone: it is the table of another recording")
-    raise WriteError(listed.path, "has no free file name for its table")
+            notes.append(f"{path.name} was not used: it belongs to another recording")
+    raise WriteError(listed.path, "cannot store its table: all its file names are in use")
 
 
 def list_default_table_paths(listed: ListedRecording) -> list[Path]:
