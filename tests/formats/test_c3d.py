@@ -296,7 +296,7 @@ def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
     number = next(
         i for i, head in enumerate(heads) if (head.name, head.group) == ("EMG1", "analog")
     )
-    tile = loaded.curves().tile(loaded.source, number, 0, 0)
+    tile = loaded.curves().tile(loaded.get_source, number, 0, 0)
     muscle = ANALOG[:, :, 1]
     ends = np.stack([muscle.min(axis=1), muscle.max(axis=1)], axis=1)
     np.testing.assert_allclose(np.frombuffer(tile, "<f4").reshape(-1, 2), ends, rtol=1e-5)

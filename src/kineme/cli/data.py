@@ -99,7 +99,7 @@ def _parse_numbers(text: str | None) -> list[int] | None:
         numbers += span
     if not numbers or min(numbers) < 1:
         raise typer.BadParameter(f"{text!r} contains no trial number", param_hint="--trials")
-    return numbers
+    return [*dict.fromkeys(numbers)]
 
 
 @contextmanager

@@ -77,8 +77,7 @@ class Database:
         numbers = {joint: bone for bone, joint in enumerate(bones, 1)}
         parents = tuple(numbers.get(motion.skeleton.parents[joint], 0) for joint in bones)
         skeleton = ("root", *(motion.skeleton.names[j] for j in bones)), (-1, *parents)
-        self.skeleton = self.skeleton or skeleton
-        if motion.rotations is None or self.skeleton != skeleton:
+        if motion.rotations is None or (self.skeleton or skeleton) != skeleton:
             lacks = (
                 "other bones than the previous motion" if motion.rotations is not None else "points"
             )

@@ -285,9 +285,9 @@ def _read_unnamed_columns(
     # Without clock times, whole numbers are milliseconds, others seconds.
     is_ms = not clocks and not any("." in row[begin] for _, row in rows)
     for line, row in rows:
-        if len(row) <= chosen[1]:
+        if len(row) <= end:
             raise ReadError(path, f"{len(row)} cells, but other rows have {len(first)}", line=line)
-        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in chosen[:2])
+        start, stop = (_parse_table_seconds(row[i], path, line, is_ms=is_ms) for i in (begin, end))
         yield row[0], start, stop, row[len(first) - 1] if len(row) >= len(first) else ""
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
+from kineme._util.checks import is_number
 from kineme.errors import ParameterError
 from kineme.synthesis.graph import MotionGraph
 
@@ -139,7 +140,9 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
     3
     """
     if not 0 < duration < 1e6:
-        raise ParameterError(f"the duration must be above 0 seconds, not {duration}")
+        raise ParameterError(f"the duration must be above 0 and below 1e6 s, not {duration}")
+    if not (is_number(seed) and seed == int(seed) and seed >= 0):
+        raise ParameterError(f"the seed must be a whole number from 0, not {seed!r:.60}")
     rng = np.random.default_rng(seed)
     core = graph.core().tolist()
     if not core:

@@ -176,5 +176,5 @@ def _show(hits: list[Hit]) -> None:
     console.print(
         f"{format_count(n, 'hit')} in {format_count(recordings, 'recording')}"
         if hits
-        else "nothing found: raise --threshold to find more"
+        else "nothing found: a higher --threshold, or no --tag, may find more"
     )

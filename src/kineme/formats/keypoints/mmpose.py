@@ -44,7 +44,7 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
             (numbers[-1], instance) for instance in instances if isinstance(instance, Mapping)
         ]
     if not instances_found:
-        raise content.error("nobody is found in any frame")
+        raise content.error("no person found in any frame")
     width = max((len(_get_points(instance)) for _, instance in instances_found), default=0)
     names = _find_names(data, width)
     if not names:
