@@ -1,13 +1,12 @@
-"""What estimating the poses of a video takes, and whether fast movement is counted at each rate.
+"""Measure the time of pose estimation, and the counts of fast movement at each rate of poses.
 
     python -m benchmarks pose [--rates 12.5 30] [--speeds 1 2 3] [--record]
 
-First the seconds a minute of 640 by 360 pixels: of decoding, of conversion to RGB, of finding moves
-of the camera, of MediaPipe, of its start, and of `kineme pose` as a whole. Processor time, which
-other work on the machine leaves alone, and seconds by the clock. Then the squats that are counted
-in the two videos as they are, and twice and three times as fast, at each rate of poses.
+Times are seconds per minute of video of 640 by 360 pixels: decoding, conversion to RGB, detection of
+camera moves, MediaPipe, its start, and `kineme pose` as a whole; processor time and wall time. Then
+the squats in two videos are counted at each rate, at their own speed, and at two and three times it.
 
-Promise: 30 s a minute on two cores. It is judged by processor time, so one core is enough.
+Target: 30 s per minute on two cores, judged by processor time.
 Needs MediaPipe up to 0.10.21, which includes its model.
 """
 
@@ -25,34 +24,36 @@ from typing import NamedTuple
 
 import kineme
 from _figures import add_option, record
-from _measure import verdict
-from _options import command_line, few, need_packages, needed, skip
+from _measure import judge
+from _options import choose_size, find_data, make_parser, need_packages, skip
 from kineme.pose.camera import CameraWatch
 from kineme.pose.decoding import Frame, OpenVideo, open_video
 from kineme.pose.estimating import DEFAULT_RATE, estimate_poses
 from kineme.pose.mediapipe_estimator import start_mediapipe
 
 VIDEOS = {"squats_side_view.mp4": 3, "squats_panning.mp4": 6}
-"""Squats in each, counted by eye."""
+"""Number of squats in each video."""
 SIZE = (640, 360)
-MOST_S = 30.0
+MAX_S = 30.0
+"""Seconds of processor time per minute of video."""
 
 
-class Took(NamedTuple):
-    """Seconds that something took."""
+class Duration(NamedTuple):
+    """Processor time and wall time in seconds."""
 
     processor: float
-    clock: float
+    wall: float
 
 
-def measure(work: Callable[[], object]) -> Took:
+def measure(work: Callable[[], object]) -> Duration:
+    """Call a function and return its duration."""
     clock, processor = perf_counter(), process_time()
     work()
-    return Took(process_time() - processor, perf_counter() - clock)
+    return Duration(process_time() - processor, perf_counter() - clock)
 
 
 def write_small(source: Path, target: Path) -> None:
-    """Write a video in the size that the promise is about."""
+    """Write a copy of a video with `SIZE`."""
     import av
 
     with av.open(str(source)) as old, av.open(str(target), "w") as new:
@@ -67,14 +68,14 @@ def write_small(source: Path, target: Path) -> None:
 
 
 def show_parts(video: Path) -> None:
-    """Print and record what each part of the work takes, per minute of the video."""
+    """Print and record the time of each part of the work, per minute of video."""
     with open_video(video) as opened:
         minutes, step = opened.duration / 60, opened.find_step(DEFAULT_RATE)
         parts = {"decoding": measure(lambda: list(opened.frames(3600.0)))}
     frames: list[Frame] = []
     with open_video(video) as opened:
         both = measure(lambda: frames.extend(opened.frames(step)))
-    parts["conversion to RGB"] = Took(
+    parts["conversion to RGB"] = Duration(
         *(a - b for a, b in zip(both, parts["decoding"], strict=True))
     )
     camera = CameraWatch()
@@ -90,19 +91,19 @@ def show_parts(video: Path) -> None:
         )
     parts["as a whole"] = measure(lambda: estimate_poses(video))
     print(f"seconds a minute of {SIZE[0]} x {SIZE[1]} video, {len(frames) / minutes:.0f} poses:")
-    for name, took in parts.items():
-        processor, clock = took.processor / minutes, took.clock / minutes
-        print(f"  {name:22}{processor:6.1f} s of processor time, {clock:6.1f} s by the clock")
+    for name, duration in parts.items():
+        processor, wall = duration.processor / minutes, duration.wall / minutes
+        print(f"  {name:22}{processor:6.1f} s of processor time, {wall:6.1f} s of wall time")
         record(f"pose.{name.replace(' ', '_')}.processor", round(processor, 1), unit="s")
-    print(f"  start, once           {start.processor:6.1f} s, {start.clock:6.1f} s by the clock")
+    print(f"  start, once           {start.processor:6.1f} s, {start.wall:6.1f} s of wall time")
     whole = parts["as a whole"].processor / minutes
-    print(f"  {verdict(whole, MOST_S)}, by processor time")
+    print(f"  {judge(whole, MAX_S)}, by processor time")
 
 
 def speed_up(
     speed: float, frames: Callable[..., Iterator[Frame]]
 ) -> Callable[..., Iterator[Frame]]:
-    """Return `OpenVideo.frames` of a video that is played so many times as fast."""
+    """Return `OpenVideo.frames` of a video played at a multiple of its speed."""
 
     def play(video: OpenVideo, step: float = 0.0, after: float | None = None) -> Iterator[Frame]:
         for frame in frames(video, step * speed, after):
@@ -112,7 +113,7 @@ def speed_up(
 
 
 def show_counts(video: Path, squats: int, rates: list[float], speeds: list[float]) -> None:
-    """Print and record how many squats are counted at each rate and speed."""
+    """Print and record the number of squats counted at each rate and speed."""
     frames = OpenVideo.frames
     for rate in rates:
         counts = []
@@ -126,17 +127,21 @@ def show_counts(video: Path, squats: int, rates: list[float], speeds: list[float
             found = kineme.segment(kineme.read(table))
             counts.append(sum(row.kind == "primitive" for row in found.primitives))
             record(f"pose.count.{video.stem}.{rate:g}_hz.{speed:g}", counts[-1])
-        told = ", ".join(f"{n} at {s:g} of the speed" for n, s in zip(counts, speeds, strict=True))
-        print(f"{video.name}, {squats} squats, rate {rate:g}: {told}", flush=True)
+        text = ", ".join(
+            f"{n} at {s:g} times the speed" for n, s in zip(counts, speeds, strict=True)
+        )
+        print(f"{video.name}, {squats} squats, rate {rate:g}: {text}", flush=True)
 
 
 def main() -> None:
-    parser = command_line(__doc__)
-    parser.add_argument("--rates", type=float, nargs="*", default=few([DEFAULT_RATE, 30], []))
+    parser = make_parser(__doc__)
+    parser.add_argument(
+        "--rates", type=float, nargs="*", default=choose_size([DEFAULT_RATE, 30], [])
+    )
     parser.add_argument("--speeds", type=float, nargs="*", default=[1, 2, 3])
     add_option(parser)
     options = parser.parse_args()
-    folder = needed("video")
+    folder = find_data("video")
     need_packages("av", "mediapipe")
     import mediapipe
 
@@ -144,7 +149,7 @@ def main() -> None:
         skip("this MediaPipe includes no model: install 0.10.21")
     with tempfile.TemporaryDirectory() as home:
         small = Path(home) / "small.mp4"
-        write_small(folder / few("squats_panning.mp4", "squats_side_view.mp4"), small)
+        write_small(folder / choose_size("squats_panning.mp4", "squats_side_view.mp4"), small)
         show_parts(small)
         for name, squats in VIDEOS.items():
             copy = Path(home) / name
