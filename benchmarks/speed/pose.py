@@ -2,9 +2,9 @@
 
     python -m benchmarks pose [--rates 12.5 30] [--speeds 1 2 3] [--record]
 
-Times are seconds per minute of video of 640 by 360 pixels: decoding, conversion to RGB, detection of
-camera moves, MediaPipe, its start, and `kineme pose` as a whole; processor time and wall time. Then
-the squats in two videos are counted at each rate, at their own speed, and at two and three times it.
+Times are seconds per minute of video of 640 by 360 pixels: decoding, conversion to RGB, detection
+of camera moves, MediaPipe, its start, and `kineme pose` as a whole; processor time and wall time.
+Then the squats in two videos are counted at each rate, at one, two and three times their speed.
 
 Target: 30 s per minute on two cores, judged by processor time.
 Needs MediaPipe up to 0.10.21, which includes its model.
