@@ -248,7 +248,7 @@ def test_data_says_what_it_took_or_why_not(kineme, data_dir, tmp_path):
         KINEME_CMU_SITE="http://127.0.0.1:9",
     )
     assert ran.returncode == 1
-    assert "gave up after 5 attempts" in ran.stderr
+    assert "gave up after 5 failed attempts" in ran.stderr
 
 
 @pytest.mark.parametrize("trials", ["one", "0", "", "3-1", "1,3-1", "3-"])

@@ -81,7 +81,7 @@ SENSELESS = [
     (("build", "takes", "--into", "lib", "--preset", "none"), 2, "no preset"),
     (("search", "takes", "--like", "takes/take.bvh"), 1, "is not a library"),
     (("search", "lib"), 2, "nothing to search for"),
-    (("search", "lib", "--like", "nobody.bvh"), 1, "no such file"),
+    (("search", "lib", "--like", "nobody.bvh"), 1, "there is no file or recording"),
     (("search", "lib", "--like", "a.bvh", "--like", "b.bvh", "--start", "1"), 2, "single"),
     (("search", "lib", "--like", "take.bvh", "--start", "2", "--stop", "1"), 2, "must stop after"),
     (("search", "lib", "--like", "take.bvh", "--threshold", "-1"), 1, "threshold"),
@@ -89,7 +89,7 @@ SENSELESS = [
     (("query", "lib", "select nothing"), 1, "nothing"),
     (("export", "lib", "--output", "table.xlsx"), 1, "suffix"),
     (("name", "lib", "99", "walk"), 1, "no cluster is called 99"),
-    (("split", "lib", "0", "nobody.bvh"), 1, "can only be split by naming some"),
+    (("split", "lib", "0", "nobody.bvh"), 1, "there is no recording"),
 ]  # fmt: skip
 
 

@@ -68,7 +68,7 @@ def test_a_random_walk_and_a_picture(kineme, graph: Path, tmp_path: Path) -> Non
     [
         (["--actions", "wlak"], "no node is called 'wlak'; there are walk (9), squat (4)"),
         (["--actions", "walk*x"], "'walk*x' is not an action: give names with counts"),
-        (["--duration", "-1"], "the duration must be above 0 seconds, not -1"),
+        (["--duration", "-1"], "the duration must be above 0 and below 1e6 s, not -1"),
         ([], "give --actions, --path or both, or --duration"),
         (["--actions", "walk", "--duration", "3"], "--path or both, or --duration"),
         (["--path", "0,0"], "'0,0' is not a line on the floor: give two or more points x,z"),

@@ -269,7 +269,7 @@ def test_what_the_database_does_not_have_is_named(site, tmp_path):
         get(site, tmp_path, 9)
     with pytest.raises(ReadError, match="subject 7 has no trial 5"):
         get(site, tmp_path, trials=[5])
-    with pytest.raises(ParameterError, match="count from 1, not 0"):
+    with pytest.raises(ParameterError, match="numbered from 1, not 0"):
         get(site, tmp_path, trials=[0])
 
 

@@ -198,7 +198,7 @@ def test_a_score_of_ones_own_is_taken_up(corpus) -> None:
         sources = find_labels(find_recordings(corpus), corpus / "labels.csv")
         result = evaluate_folder(sources, ["uniform"], processes=1)
         assert result.methods["uniform"][0].scores["longest"] == 15
-        with pytest.raises(ParameterError, match="there is a score 'longest' already"):
+        with pytest.raises(ParameterError, match="a score named 'longest' exists already"):
             register(Score("longest", "", "", "segments", longest))
         with pytest.raises(ParameterError, match="level of 'a' must be one of frames, segments"):
             Score("a", "", "", "rows", longest)

@@ -172,7 +172,7 @@ def test_length_unit(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("lost", "why"),
     [
-        (len("foot 3 5\n"), "without foot"),
+        (len("foot 3 5\n"), "has no values for foot"),
         (len(" 5\n"), "has 1 values"),
         (len("ot 3 5\n"), "'fo' is not in"),
     ],

@@ -135,7 +135,7 @@ def test_a_format_of_ones_own_is_read_and_written_by_its_suffix(tmp_path: Path) 
         write_segments(SEGMENTS, tmp_path / "take.toy")
         back = read_segments(tmp_path / "take.toy", fps=10)
         assert back.activities.label.tolist() == ["walk", "jump"]
-        with pytest.raises(ParameterError, match="there is a label format 'toy' already"):
+        with pytest.raises(ParameterError, match="a label format named 'toy' exists already"):
             register(toy)
         with pytest.raises(
             ParameterError, match="holds of 'toy' must be one of all, levels, level"

@@ -356,8 +356,9 @@ def test_what_is_no_library_is_not_written_into(takes: Path, tmp_path: Path) -> 
         build(takes, takes)
     with pytest.raises(ParameterError, match="nothing to build from"):
         build((), tmp_path / "library")
-    with pytest.raises(ParameterError, match="is not a source"):
+    with pytest.raises(ParameterError, match="nothing to build from"):
         build((), tmp_path / "other", remove=[takes])
+    assert not (tmp_path / "other").exists()
 
 
 def test_progress_tells_how_far_it_is_and_what_is_left(takes: Path, tmp_path: Path) -> None:

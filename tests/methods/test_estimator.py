@@ -135,7 +135,7 @@ def test_constants_are_parameters_like_others() -> None:
 def test_what_a_preset_cannot_take_is_said_by_fit() -> None:
     with pytest.raises(ParameterError, match="sensors has no parameter 'radius'"):
         Segmenter(fps=50, radius=0.4).fit(two_movements())
-    with pytest.raises(ParameterError, match="one of voegele2014 and krueger2017"):
+    with pytest.raises(ParameterError, match="belongs to voegele2014 and krueger2017"):
         Segmenter(fps=50, radius=0.4).fit(two_movements())
     with pytest.raises(ParameterError, match="no left and right"):
         Segmenter("krueger2017", fps=50, mirror=True).fit(two_movements())

@@ -98,7 +98,7 @@ def test_what_is_no_slice_is_refused_in_our_words(make) -> None:
         ("a", "not 'a'"),
         (slice(0, 10, 2), "step 2"),
         (slice(0.5, 2), "whole numbers of frames"),
-        (slice(7, 7), "frames 7 to 7 of 100 are none"),
+        (slice(7, 7), "frames 7 to 7 of 100 contain no frame"),
     ]:
         with pytest.raises(ParameterError, match=said):
             make()[wrong]

@@ -145,7 +145,7 @@ def test_tables_that_are_not_nested_are_refused() -> None:
 
     with pytest.raises(ParameterError, match="border at frame 40"):
         Hierarchy((0.5, 1.0), (table(40), table(50, 60)))
-    with pytest.raises(ParameterError, match="rise"):
+    with pytest.raises(ParameterError, match="must increase"):
         Hierarchy((1.0, 0.5), (table(), table()))
     kept = Hierarchy.of({0.25: table(), 0.5: table(), 1.0: table(40), 2.0: table(40)})
     assert kept.details == (0.25, 1.0)

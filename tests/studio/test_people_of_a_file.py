@@ -56,7 +56,7 @@ def labels(duet: Studio) -> set[str]:
 def test_it_asks_once_and_each_has_a_table_of_its_own(duet: Studio) -> None:
     asked = duet.get(f"/api/recordings/{duet.id}")
     assert (asked.status_code, asked.json()["people"]) == (400, ["Anna", "Bob"])
-    assert "2 people are in it" in asked.json()["error"]
+    assert "2 people found" in asked.json()["error"]
     assert ids_of(duet) == {"duet.trc": duet.id}
     shown = choose(duet, everybody=True)
     assert shown == [*ids_of(duet).values()]

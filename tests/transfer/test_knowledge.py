@@ -90,10 +90,10 @@ HEAD = {
 @pytest.mark.parametrize(("content", "reason"), [
     (b"", "not a knowledge base, or is damaged"),
     (b"level,kind\n", "not a knowledge base, or is damaged"),
-    (stored({**HEAD, "schema": "kineme.knowledge/9"}), "of version 'kineme.knowledge/9'"),
+    (stored({**HEAD, "schema": "kineme.knowledge/9"}), "has version 'kineme.knowledge/9'"),
     (stored({**HEAD, "schema": "kineme.knowledge/1"}), "label its recordings again"),
     (stored({**HEAD, "fps": 30.0}), "with fps 30.0, not 15.0"),
-    (stored([1]), "of version"),
+    (stored([1]), "has version"),
     (stored(HEAD, lengths=BASE.lengths + 1), "lengths add up to"),
     (stored(HEAD, labels=BASE.labels[1:]), "same length"),
     (stored(HEAD, labels=np.arange(len(BASE))), "labels holds int"),
@@ -134,5 +134,5 @@ def test_segments_without_labels_or_of_another_recording_teach_nothing() -> None
         KnowledgeBase.from_recording(MADE.motion, blank)
     columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
     other = Segmentation.from_columns(columns, n_frames=9, fps=60.0)
-    with pytest.raises(ParameterError, match="of 9 frames"):
+    with pytest.raises(ParameterError, match="have 9 frames"):
         KnowledgeBase.from_recording(MADE.motion, other)

@@ -98,7 +98,7 @@ def test_a_part_is_not_the_whole() -> None:
     ("example", "options", "said"),
     [
         (np.zeros((5, 7)), {}, "same features"),
-        (np.zeros((0, 6)), {}, "a sample"),
+        (np.zeros((0, 6)), {}, "at least one sample"),
         (np.zeros(6), {}, "samples x dims"),
         ("walk", {}, "array of numbers"),
         (np.zeros((5, 6)), {"threshold": 0}, "above 0, not 0"),

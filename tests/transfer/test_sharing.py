@@ -65,7 +65,7 @@ def test_walking_is_one_cluster_in_all_takes_of_a_subject(data_dir: Path) -> Non
 def test_segments_of_another_recording_are_refused() -> None:
     motion = kineme.read(bundled_recording(), unit="cm")
     found = kineme.segment(motion)
-    with pytest.raises(ParameterError, match="do not belong"):
+    with pytest.raises(ParameterError, match="do not match"):
         share_clusters([cut(motion, 0, 100)], [found])
 
 

@@ -114,7 +114,7 @@ def find_warpings(distances):
     return [total / m for total, _ in ends], [begin for _, begin in ends]
 
 
-def find_least_squares(windows, wanted, finer):
+def find_smallest_distances(windows, wanted, finer):
     """Return the least squared distance of each window to the wanted ones."""
     return [
         min(sum((finer * a - b) ** 2 for a, b in zip(window, one)) for one in wanted)

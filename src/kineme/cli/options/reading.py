@@ -20,9 +20,7 @@ from kineme.formats.options import ReadOptions
 Skeleton = Annotated[
     Path | None, option(READING_OPTIONS, "ASF skeleton of an AMC file.", metavar="FILE")
 ]
-Fps = Annotated[
-    float | None, option(READING_OPTIONS, "Frames per second; overrides that of the file.")
-]
+Fps = Annotated[float | None, option(READING_OPTIONS, "Frames per second; overrides the file.")]
 Unit = Annotated[
     str | None,
     option(READING_OPTIONS, "Unit: m, cm, mm, inch, cmu, or its length in metres, such as 0.0254."),
@@ -32,18 +30,16 @@ Up = Annotated[
 ]
 Person = Annotated[
     str | None,
-    option(
-        READING_OPTIONS, "Person to read if there are several, by name or number.", metavar="NAME"
-    ),
+    option(READING_OPTIONS, "Person to read: name or number.", metavar="NAME"),
 ]
 Confidence = Annotated[
-    float | None, option(READING_OPTIONS, "Leave out points below this confidence, such as 0.5.")
+    float | None, option(READING_OPTIONS, "Least confidence of points, such as 0.5.")
 ]
 Take = Annotated[
     str | None,
     option(
         READING_OPTIONS,
-        "Animation to read if there are several, by name or number; or all.",
+        "Animation to read: name, number or all.",
         metavar="NAME",
     ),
 ]
@@ -51,7 +47,7 @@ Columns = Annotated[
     str | None,
     option(
         INPUT,
-        "Read these columns or channels instead of joints; * and ? are wildcards, as in acc_*.",
+        "Read these columns or channels, not joints; with wildcards * and ?.",
         metavar="NAME,NAME,…",
     ),
 ]
@@ -59,7 +55,7 @@ Emg = Annotated[
     bool,
     option(
         INPUT,
-        "Read the columns as muscle signals and use their envelopes; in a C3D, read muscles only.",
+        "Columns are muscle signals: use envelopes. Of a C3D, only muscles.",
         "--emg",
     ),
 ]
