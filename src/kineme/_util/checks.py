@@ -49,6 +49,13 @@ def is_number(value: object) -> bool:
         return False
 
 
+def is_whole_number(value: object, least: int) -> bool:
+    """Return whether a value is a whole number, possibly a float, of at least ``least``."""
+    if not (isinstance(value, Real) and is_number(value)):
+        return False
+    return float(value) >= least and float(value).is_integer()
+
+
 def is_text(name: str) -> bool:
     """Return whether a name can be encoded as UTF-8, that is, has no lone surrogates."""
     return not any("\ud800" <= letter <= "\udfff" for letter in name)

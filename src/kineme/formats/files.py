@@ -58,7 +58,7 @@ class FileContent:
 
     @property
     def text(self) -> str:
-        """The bytes as text: UTF-8 or UTF-16, else Windows-1252.
+        """Return the bytes as text: UTF-8 or UTF-16, else Windows-1252.
 
         Bytes that fit none of these are replaced; they occur in comments and names only.
         """
@@ -113,7 +113,7 @@ class FileContent:
 
 @dataclass(frozen=True)
 class FileHead(FileContent):
-    """The first bytes of a file too large to load; its reader opens the path."""
+    """First bytes of a file that is too large to load; its reader opens the path."""
 
     @cached_property
     def digest(self) -> str:

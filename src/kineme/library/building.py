@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._util.checks import check_type, is_number
+from kineme._util.checks import check_type, is_whole_number
 from kineme._util.files import AnyPath, OwnedFolder, is_draft
 from kineme._util.json import options_to_json
 from kineme._version import __version__
@@ -157,7 +157,7 @@ def build(
     (1, 1)
     """
     import_arrow()
-    if not (is_number(jobs) and jobs == int(jobs) and jobs >= 1):
+    if not is_whole_number(jobs, 1):
         raise ParameterError(f"jobs must be a whole number from 1, not {jobs!r:.60}")
     check_type(recursive, (bool, type(None)), "build", "recursive is True or False")
     checked = ((read_options, ReadOptions), (segment_options, SegmentOptions))

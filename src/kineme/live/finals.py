@@ -57,7 +57,7 @@ class Look(NamedTuple):
 
 
 class Looks(NamedTuple):
-    """The present look and the one before.
+    """Two successive looks at the recent past.
 
     Attributes
     ----------

@@ -24,7 +24,7 @@ Settings = dict[str, Any]
 
 @dataclass
 class Announced:
-    """The activity that was announced last, and how many of its repetitions were."""
+    """Activity that was announced last, and the number of its repetitions announced."""
 
     start: int = 0
     cluster: int = -1

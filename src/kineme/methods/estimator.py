@@ -14,7 +14,7 @@ from sklearn.base import BaseEstimator, ClusterMixin
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from kineme._util.arrays import Ints
-from kineme._util.checks import format_count, is_number, warn
+from kineme._util.checks import format_count, is_whole_number, warn
 from kineme.errors import ParameterError
 from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
@@ -114,9 +114,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         """Segment the rows of X, (rows,) or (rows, channels); y is ignored."""
         for name in ("n_segments", "n_states"):
             wanted = getattr(self, name)
-            if wanted is not None and not (
-                is_number(wanted) and wanted >= 1 and wanted == int(wanted)
-            ):
+            if wanted is not None and not is_whole_number(wanted, 1):
                 raise ParameterError(f"{name} is {wanted!r:.60}: give a whole number above 0")
         if self.n_segments and self.n_states:
             raise ParameterError("give n_segments or n_states, not both")

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import check_type, is_number
+from kineme._util.checks import check_type, is_number, is_whole_number
 from kineme.errors import ParameterError
 from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
@@ -76,7 +76,7 @@ def plot_strip(
     """
     if not isinstance(recording, Signals):
         check_type(recording, Motion, "plot_strip", "kineme.read gives one")
-    if not (is_number(poses) and poses == int(poses) and poses >= 1):
+    if not is_whole_number(poses, 1):
         raise ParameterError(f"poses must be a whole number above 0, not {poses!r:.60}")
     first, last = _find_frames(recording, start_s, stop_s)
     stroke = get_cluster_color(0) if color is None else color

@@ -117,7 +117,7 @@ class OpenRecording:
 
     @property
     def table(self) -> Segmentation:
-        """The present table; waits until the recording is segmented."""
+        """Return the current table; wait until the recording is segmented."""
         self.find()
         with self._lock:
             return self._table

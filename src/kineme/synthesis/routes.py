@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import is_number
+from kineme._util.checks import is_whole_number
 from kineme.errors import ParameterError
 from kineme.synthesis.graph import MotionGraph
 
@@ -141,7 +141,7 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
     """
     if not 0 < duration < 1e6:
         raise ParameterError(f"the duration must be above 0 and below 1e6 s, not {duration}")
-    if not (is_number(seed) and seed == int(seed) and seed >= 0):
+    if not is_whole_number(seed, 0):
         raise ParameterError(f"the seed must be a whole number from 0, not {seed!r:.60}")
     rng = np.random.default_rng(seed)
     core = graph.core().tolist()

@@ -40,7 +40,7 @@ _MAX_DEPTH = 30  # nesting of structures
 
 
 class _DamagedError(ValueError):
-    """The file contradicts itself."""
+    """Raised if a file contradicts itself."""
 
 
 def parse_mat(content: FileContent) -> dict[str, Value]:

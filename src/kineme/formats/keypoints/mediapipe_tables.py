@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -86,8 +86,7 @@ def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
         frames=frames.tolist(),
         notes=clock.notes,
     )
-    provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
-    return split_at(replace(motion, provenance=provenance), gaps)
+    return _apply_clock(motion, clock, gaps)
 
 
 def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -125,6 +124,11 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     motion = landmarks_to_motion(
         table.content, people, options, fps=clock.fps or None, notes=clock.notes
     )
+    return _apply_clock(motion, clock, gaps)
+
+
+def _apply_clock(motion: Motion, clock: Timing, gaps: Iterable[tuple[int, int]]) -> Motion:
+    """Return the motion with the times of its rows, split at the gaps."""
     provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
     return split_at(replace(motion, provenance=provenance), gaps)
 

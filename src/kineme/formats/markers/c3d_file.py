@@ -173,7 +173,7 @@ def _pad(labels: list[str], n: int) -> list[str]:
 
 @dataclass(frozen=True)
 class Header:
-    """The used fields of the first block."""
+    """Used fields of the first block."""
 
     points: int
     analog_per_frame: int

@@ -45,7 +45,7 @@ MIN_FRAME_MEMORY = 1 << 28
 
 
 class Transform(NamedTuple):
-    """The transform of a node relative to its parent: one for all frames, or one for each.
+    """Transform of a node relative to its parent: one for all frames, or one for each.
 
     ``translation`` is (3,) or (frames, 3), ``rotation`` (4,) or (frames, 4), unit quaternions
     (w, x, y, z), ``scale`` (3,) or (frames, 3).

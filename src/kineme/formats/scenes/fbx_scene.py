@@ -330,7 +330,7 @@ class Pose:
             elif _get_choice(properties, "RotationAccumulationMode", 2) == 1:
                 # Layers are added per axis, so convert a product back to angles.
                 angles = angles if turn is None else _to_angles(turn, order)
-                angles = angles * (1 - weight if _replaces(properties) else 1) + value * weight
+                angles = angles * _weigh_previous(weight, properties) + value * weight
                 turn = None
             else:
                 turn = _to_rotation(angles, order) if turn is None else turn
@@ -352,7 +352,7 @@ class Pose:
             if weight is None:
                 result = value
                 continue
-            previous_weight = 1 - weight if _replaces(properties) else 1
+            previous_weight = _weigh_previous(weight, properties)
             mode = _get_choice(properties, "ScaleAccumulationMode", 2)
             if property_name == SCALING and mode == 0:  # multiplied: weights are exponents
                 result = np.abs(result) ** previous_weight * np.abs(value) ** weight
@@ -424,6 +424,11 @@ def invert_transform(
 def _replaces(properties: Properties) -> bool:
     """Return whether a layer replaces the previous ones according to its weight."""
     return _get_choice(properties, "BlendMode", 3) == _PASS_THROUGH
+
+
+def _weigh_previous(weight: Floats | float, properties: Properties) -> Floats | float:
+    """Return the weight of the previous layers under a layer of this weight."""
+    return 1 - weight if _replaces(properties) else 1.0
 
 
 def _to_rotation(angles: Floats, axes: str) -> Floats:

@@ -49,7 +49,7 @@ class Asset(Struct):
 
 
 class Head(Struct):
-    """The part of the JSON that all versions share."""
+    """Part of the JSON that all versions share."""
 
     asset: Asset
 
@@ -129,7 +129,7 @@ class KeySampler(Struct):
 
 
 class Target(Struct):
-    """The property of a node that a channel drives."""
+    """Property of a node that a channel animates."""
 
     path: str
     node: int | None = None
@@ -151,7 +151,7 @@ class Animation(Struct):
 
 
 class Tree(Struct, rename="camel"):
-    """The parts of the JSON that are read."""
+    """Parts of the JSON that kineme reads."""
 
     asset: Asset
     buffers: list[Buffer] = field(default_factory=list)
@@ -174,7 +174,7 @@ class GLTFFile:
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
         self.text = text
-        """The JSON as text."""
+        """Return the JSON as text."""
         self.tree = decode_json(text, content.path, Tree)
         self.external_size = 0
         """Size in bytes of buffers in other files."""

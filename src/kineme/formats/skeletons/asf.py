@@ -36,7 +36,7 @@ _BLANKS = str.maketrans("(),", "   ")
 
 @dataclass
 class Figure:
-    """The content of an ASF.
+    """Content of an ASF file.
 
     ``bones`` start with the root, parents first; ``skeleton`` is in metres; ``scale`` is metres per
     file unit; ``angle_unit`` radians per unit of angle.

@@ -22,7 +22,7 @@ Rows = list[Segment]
 
 @dataclass(frozen=True)
 class Part:
-    """The activities that contain some frames, and their primitives.
+    """Activities that contain some frames, and their primitives.
 
     ``activity`` of these rows counts from the first of the activities. ``spans`` are the positions
     of both in the table.
