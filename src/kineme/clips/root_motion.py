@@ -24,7 +24,7 @@ from kineme.recordings import Motion
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root, get_rig
 
-STILL = 1e-9
+STRAIGHT = 1e-9
 """Turn in radians per round below which a path is a straight line."""
 
 
@@ -171,7 +171,7 @@ def _solve_even_shift(carry: Carry) -> Floats:
 
 def _compute_mean_rotation(turn: float) -> Floats:
     """Return the mean of the rotations from 0 to ``turn`` about the vertical."""
-    if abs(turn) < STILL:
+    if abs(turn) < STRAIGHT:
         return np.eye(3)
     # Integrals of cosine and sine from 0 to the turn, divided by it.
     even, odd = sin(turn) / turn, (1 - cos(turn)) / turn

@@ -21,7 +21,7 @@ from kineme.studio.running import CancelledError, Run
 from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.web.messages import PosesProgress
 
-IDLE = PosesProgress(recording="", name="", share=None, pace=0.0, done=0, all=0, failed=[])
+NO_POSES = PosesProgress(recording="", name="", share=None, pace=0.0, done=0, all=0, failed=[])
 """Progress when no video is in the queue."""
 
 
@@ -58,7 +58,7 @@ class PoseQueue:
         self._lock = threading.Lock()
         self._waiting: list[ListedRecording] = []
         self._run: Run | None = None
-        self._progress = IDLE
+        self._progress = NO_POSES
 
     def start(self, videos: Iterable[ListedRecording]) -> PosesProgress:
         """Add videos that are not in the queue yet, and start the thread if it is idle."""
@@ -69,7 +69,7 @@ class PoseQueue:
             self._waiting += new
             if self._run is None and new:
                 self._run = Run("")
-                self._progress = structs.replace(IDLE, recording=new[0].id, name=new[0].name)
+                self._progress = structs.replace(NO_POSES, recording=new[0].id, name=new[0].name)
                 threading.Thread(
                     target=self._run_queue, args=[self._run], name="poses", daemon=True
                 ).start()

@@ -43,7 +43,12 @@ from kineme._util.files import atomic_write, translate_read_errors
 from kineme._util.json import decode_json
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.features.canonical.matching import DIMS, MATCHING_FPS, OFFSETS_S, matching_features
+from kineme.features.canonical.matching import (
+    FEATURE_DIMS,
+    MATCHING_FPS,
+    OFFSETS_S,
+    matching_features,
+)
 from kineme.features.effectors import Names
 from kineme.formats.arrays.numpy_files import read_arrays
 from kineme.formats.files import load
@@ -171,8 +176,10 @@ class KnowledgeBase:
     stop_s: NDArray[np.float64]
 
     def __post_init__(self) -> None:
-        if self.features.ndim != 2 or self.features.shape[1] != DIMS:
-            raise ParameterError(f"features must be frames x {DIMS}, not {self.features.shape}")
+        if self.features.ndim != 2 or self.features.shape[1] != FEATURE_DIMS:
+            raise ParameterError(
+                f"features must be frames x {FEATURE_DIMS}, not {self.features.shape}"
+            )
         for name, column in self.columns().items():
             if column.shape != self.labels.shape or column.ndim != 1:
                 raise ParameterError(f"{name} and labels must be of the same length")

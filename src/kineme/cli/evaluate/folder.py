@@ -79,7 +79,7 @@ def run_folder(
     if as_json:
         typer.echo(result.to_json())
     elif not quiet:
-        _show(result)
+        _show_scores(result)
     if output is not None:
         write_result(result, output)
     return any(not one.error for ones in result.methods.values() for one in ones)
@@ -101,7 +101,7 @@ def _print_problems(result: FolderScores, *, quiet: bool) -> None:
             typer.echo(escape_controls(f"{one.recording}: {'; '.join(one.notes)}"), err=True)
 
 
-def _show(result: FolderScores) -> None:
+def _show_scores(result: FolderScores) -> None:
     """Print the scores of each recording by method, then the scores over all recordings."""
     columns: dict[str, Any] = {method: result.pool_scores(method) for method in result.methods}
     evaluated = [one for some in result.methods.values() for one in some]

@@ -53,12 +53,12 @@ def run_people(
     if as_json:
         typer.echo(result.to_json())
     elif not quiet:
-        _show(result)
+        _show_agreement(result)
     if output is not None:
         write_result(result, output)
 
 
-def _show(result: AnnotatorAgreement) -> None:
+def _show_agreement(result: AnnotatorAgreement) -> None:
     """Print a row for each pair of people, one for all, and one for each recording."""
     pairs = [
         (f"{first}, {second}", [format_score(kappa), format_score(f1), "", str(recordings)])

@@ -7,11 +7,3 @@ from kineme.features.canonical.matching import (
     matching_poses,
     mirror_features,
 )
-
-__all__ = [
-    "MATCHING_FPS",
-    "matching_features",
-    "matching_poses",
-    "mirror_features",
-    "mirror_poses",
-]

@@ -29,7 +29,7 @@ LEG, ARM = (0.5, 0.5), (0.34, 0.33)
 """Lengths of thigh and shin, upper arm and forearm, in leg lengths."""
 RISE = 0.5
 """Seconds; the vertical speed is given as the rise of the pelvis in this time."""
-DIMS = 17
+POSE_DIMS = 17
 """Numbers in a pose."""
 
 _STRAIGHT = 0.98
@@ -57,17 +57,17 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     ndarray
     """
     pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
-    hips = _normalize(joints["left_hip"] - joints["right_hip"])
+    hips = _normalize_vectors(joints["left_hip"] - joints["right_hip"])
     shoulders, sides = hips, dict(joints)
     # Without shoulders, the chest is on the line from pelvis to head, at the canonical share.
     chest = pelvis + TRUNK / (TRUNK + NECK) * (joints["head"] - pelvis)
     if {"left_shoulder", "right_shoulder"} <= joints.keys():
-        shoulders = _normalize(joints["left_shoulder"] - joints["right_shoulder"])
+        shoulders = _normalize_vectors(joints["left_shoulder"] - joints["right_shoulder"])
         chest = (joints["left_shoulder"] + joints["right_shoulder"]) / 2
     else:
         sides |= {"left_shoulder": chest, "right_shoulder": chest}
     # From here on, points are relative to the middle of the hips.
-    trunk = TRUNK * _normalize(chest - pelvis)
+    trunk = TRUNK * _normalize_vectors(chest - pelvis)
     legs = [
         sign * HIP * hips
         + _compute_limb(sides, (f"{side}_hip", f"{side}_knee", f"{side}_ankle"), LEG)
@@ -80,7 +80,9 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
         for side, sign in _SIDES
     ]
     # (frames, 5, 3) in the order of the end effectors: ankles, head, wrists.
-    ends = np.stack([*legs, trunk + NECK * _normalize(joints["head"] - chest), *arms], axis=1)
+    ends = np.stack(
+        [*legs, trunk + NECK * _normalize_vectors(joints["head"] - chest), *arms], axis=1
+    )
     ground = np.minimum(joints["left_ankle"][:, 1], joints["right_ankle"][:, 1])
     leg = _measure_legs(joints)
     # The gradient needs two frames.
@@ -121,12 +123,14 @@ def _compute_limb(
     top, end = joints[names[0]], joints[names[2]]
     if names[1] in joints:
         middle = joints[names[1]]
-        return bones[0] * _normalize(middle - top) + bones[1] * _normalize(end - middle)
+        return bones[0] * _normalize_vectors(middle - top) + bones[1] * _normalize_vectors(
+            end - middle
+        )
     # Without a middle joint, the distance of end and top shows how far the limb is bent.
     reach = np.linalg.norm(end - top, axis=1, keepdims=True)
     # A high quantile is robust to tracking errors, unlike the maximum.
     bent = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
-    straight: Floats = sum(bones) * bent * _normalize(end - top)
+    straight: Floats = sum(bones) * bent * _normalize_vectors(end - top)
     return straight
 
 
@@ -149,7 +153,7 @@ _TINY = 1e-9
 """Smallest divisor."""
 
 
-def _normalize(vectors: Floats) -> Floats:
+def _normalize_vectors(vectors: Floats) -> Floats:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
     unit: Floats = vectors / np.maximum(lengths, _TINY)
     return unit

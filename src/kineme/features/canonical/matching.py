@@ -32,7 +32,7 @@ MATCHING_FPS = 15.0
 """Features per second."""
 OFFSETS_S = (-0.2, -0.1, 0.0, 0.1, 0.2)
 """Time offsets of the stacked frames, s."""
-DIMS = 40
+FEATURE_DIMS = 40
 """Numbers in a feature."""
 POSE_FPS = 30.0
 """Poses per second; every second pose becomes a feature."""

@@ -55,7 +55,7 @@ _JOINTS: tuple[tuple[str, str | None, tuple[float, float, float]], ...] = (
     ("right_wrist", "right_elbow", (-0.248, 0, 0)),
     ("head_end", "head", (0, 0.18, 0)),
 )
-_RATES = ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate")
+_AMASS_RATES = ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate")
 _N_TURNING = len(_JOINTS) - 1
 
 
@@ -90,7 +90,7 @@ def poses_to_motion(
     return Motion.from_rotations(
         make_smpl_skeleton(),
         rotations,
-        options.fps or find_rate(content, arrays, _RATES),
+        options.fps or find_rate(content, arrays, _AMASS_RATES),
         path,
         provenance=content.provenance("AMASS", notes),
     )

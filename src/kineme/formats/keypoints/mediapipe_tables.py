@@ -96,7 +96,9 @@ def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
     landmark_column, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
     rows = table.numbers([frame or 0, *field_columns.values(), *timing])
-    landmarks = _parse_landmarks(table.content, table.texts(landmark_column or 0)[: len(rows)])
+    landmarks = _parse_landmark_numbers(
+        table.content, table.texts(landmark_column or 0)[: len(rows)]
+    )
     # Index of the frame of each row.
     frames, frame_index = np.unique(
         to_frame_numbers(table.content, rows[:, 0]), return_inverse=True
@@ -153,7 +155,7 @@ def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
     return {}
 
 
-def _parse_landmarks(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
+def _parse_landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
     """Return the numbers of landmarks that are given by number or name."""
     numbers = []
     for text in texts:

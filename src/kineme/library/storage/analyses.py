@@ -33,7 +33,7 @@ FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
 KEY_LENGTH = 32
 """Length of the key of an analysis; see `kineme.library.planning.make_analysis_key`."""
 _FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
-LARGEST = 1e30
+LARGEST_SUM = 1e30
 """Largest sum of squares of a recording's features for which no distance overflows."""
 LARGEST_SAMPLE = 1e18
 """Largest absolute value in the samples of channels."""
@@ -192,7 +192,7 @@ def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
 
 def _check_plausible(features: NDArray[np.float32]) -> None:
     squares = float(np.vdot(features, features))  # not finite if any value is not
-    if not squares < LARGEST:
+    if not squares < LARGEST_SUM:
         raise ValueError("features that no recording has")
 
 

@@ -23,7 +23,7 @@ from kineme.errors import (
     WriteError,
 )
 
-EXTRA = "remote"
+REMOTE_EXTRA = "remote"
 """Extra that installs the dependencies of URLs."""
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
 
@@ -43,7 +43,7 @@ def make_path(path: str | PathLike[str], caller: str = "make_path") -> Path:
         return Path(path)
     if path.lower().startswith("file://"):
         return Path(url2pathname(urlparse(path).path))
-    with require_extra("universal_pathlib", EXTRA):
+    with require_extra("universal_pathlib", REMOTE_EXTRA):
         from upath import UPath
     try:
         remote = UPath(path)
