@@ -30,9 +30,8 @@ from kineme.recordings import Motion
 from kineme.segments import editing
 from kineme.segments.editing.annotating import find_marked
 from kineme.segments.segmentation import Segmentation
-from kineme.studio.storage.journal import Journal
-from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.sidecars import (
+    ListedRecording,
     list_recordings,
     list_sidecar_problems,
     make_video_message,
@@ -42,7 +41,7 @@ from kineme.studio.storage.sidecars import (
     write_shared_labels,
     write_video_offset,
 )
-from kineme.studio.storage.tables import find_saved_table
+from kineme.studio.storage.tables import Journal, find_saved_table
 from kineme.synthesis import motion_graph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
 

@@ -12,12 +12,16 @@ import numpy as np
 from _options import choose_size, find_data
 from kineme import Library, read
 from kineme._version import __version__
-from kineme.library.compiling import compile_tables
 from kineme.library.descriptions import make_analysis
-from kineme.library.storage.analyses import Analysis, has_analysis, write_analysis
-from kineme.library.storage.index import write_index
+from kineme.library.gathering import compile_tables
 from kineme.library.storage.layout import ANALYSES, HEAD, SCHEMA, write_json
-from kineme.library.storage.tables import write_tables
+from kineme.library.storage.tables import (
+    Analysis,
+    has_analysis,
+    write_analysis,
+    write_index,
+    write_tables,
+)
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.clusters import CONSTANTS

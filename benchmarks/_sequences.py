@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
-from kineme.datasets.synthetic import SyntheticRecording
-from kineme.datasets.timeline import Row, make_segmentation
+from kineme.datasets.synthetic import Row, SyntheticRecording, make_segmentation
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.operations import move, turn

@@ -18,12 +18,12 @@ from matplotlib.patches import Rectangle
 
 import kineme
 from kineme.datasets import bundled_truth
-from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.kineme.pipeline import KinemeFound
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.prepare import compute_motion_features
+from kineme.methods.region_growing.activities import find_primitive_cuts
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
-from kineme.methods.region_growing.primitives import find_primitive_cuts
 from kineme.methods.region_growing.warping import label_components
 from kineme.plot.matrix import (
     BORDER,
@@ -31,7 +31,7 @@ from kineme.plot.matrix import (
     SHADES,
     plot_matrix,
 )
-from kineme.segments.colors import PALETTE, get_cluster_color
+from kineme.segments.html import PALETTE, get_cluster_color
 from kineme_reproduction.figures.matrix import draw_neighbors
 
 IMAGES = Path(__file__).parent / "images"

@@ -18,8 +18,7 @@ import pytest
 
 import kineme
 from kineme._util.json import options_from_json, options_to_json
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import READING
+from kineme.cli.options import READING, SEGMENTING
 from kineme.formats import ReadOptions
 from kineme.library.planning import read_kept_options
 from kineme.methods.segmenter import SegmentOptions
@@ -37,7 +36,7 @@ import numpy as np
 
 from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.methods import Preset, constant
-from kineme.methods.constants import Limits
+from kineme.methods.base import Limits
 
 
 @dataclass(frozen=True)
@@ -112,7 +111,7 @@ FORMAT = Format("PLAIN", (".plain",), lambda head: False, read, write_signals=wr
 """
 
 DIALECT = """
-from kineme.formats.columns import columns_to_motion
+from kineme.formats.points import columns_to_motion
 from kineme.formats.dialects import Dialect
 
 
@@ -175,7 +174,7 @@ STUDIO = """
 import json, sys, time
 from pathlib import Path
 from starlette.testclient import TestClient
-from kineme.studio.app import create_app
+from kineme.studio.server import create_app
 from kineme.studio.http.events import Hub
 from kineme.studio.folder import Folder
 from kineme.studio.open_recordings import OpenRecordings

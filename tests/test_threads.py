@@ -92,7 +92,7 @@ def announce():
 
 
 def compute():
-    import kineme.methods.region_growing._neighbor_kernels
+    import kineme.methods.region_growing._kernels
 
 
 sys.meta_path.insert(0, Pause())

@@ -31,8 +31,7 @@ from _figures import add_option, record
 from _options import DATA, choose_size, find_data, make_parser
 from kineme.features import mirror_features
 from kineme.methods.prepare import compute_motion_features
-from kineme.methods.region_growing.analysis import analyze_regions
-from kineme.methods.region_growing.found import RegionsFound
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")

@@ -28,8 +28,8 @@ from _figures import add_option, record
 from _measure import judge, run_kineme
 from _options import choose_size, find_data, make_parser
 from _viewers import count_errors, list_missing, read_in_blender, read_in_three
+from kineme.clips.root_motion import measure_travel
 from kineme.clips.shaping import find_planted_feet, measure_loops
-from kineme.clips.tags import measure_travel
 from kineme.recordings.posing import add_root, get_rig
 
 SOURCES = (("samba.fbx", None), ("Xbot.glb", "walk"), ("RobotExpressive.glb", "Walking"),

@@ -42,7 +42,7 @@ from _recordings import (
 from _sources import NEAR_S, join_sessions
 from kineme.evaluation.folder import find_recordings
 from kineme.methods.base import Columns
-from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.kineme.pipeline import KinemeFound
 from kineme.methods.segmenter import segment_and_found
 from kineme.recordings import Motion, Signals
 from sets import read_sensors

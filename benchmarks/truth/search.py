@@ -24,7 +24,7 @@ from _options import choose_size, find_data, make_parser
 from _recordings import ACTORS, read_hdm05, read_rows
 from _sources import PERSON, list_body_recordings
 from kineme.features.canonical import MATCHING_FPS, matching_features, mirror_features
-from kineme.library.searching import find_matches
+from kineme.library.finding import find_matches
 from kineme.recordings import Motion
 from kineme.transfer.subsequences import THRESHOLD, Matches
 

@@ -32,7 +32,7 @@ from _sources import SOURCES, score_labels
 from kineme.evaluation.comparison import UNLABELLED, Comparison
 from kineme.evaluation.score import pool_scores
 from kineme.live import ActivityStarted, Event, Repetition, Stream
-from kineme.live.journal import recover_journal
+from kineme.live.storage import recover_journal
 from kineme.recordings import Motion, Signals
 
 EVERY = {"subject_86": 1, "uiprmd": 9, "hugadb": 40}

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 import kineme
-import kineme.library.compiling
+import kineme.library.gathering
 from _figures import add_option, record
 from _libraries import build_library
 from _options import DATA, choose_size, make_parser

@@ -10,8 +10,8 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme._util.files import atomic_write
-from kineme.cli.messages import show_progress
 from kineme.cli.tables import show_scores
+from kineme.cli.terminal import show_progress
 from kineme.errors import ParameterError, WriteError
 from kineme_reproduction.benchmark import (
     METHODS,

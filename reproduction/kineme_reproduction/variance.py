@@ -27,7 +27,7 @@ from kineme.errors import ParameterError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import Score, choose_number
 from kineme.evaluation.truth import TRANSITION, Labelling
-from kineme.features._warping_kernels import find_cheapest_path
+from kineme.features._kernels import find_cheapest_path
 from kineme.features.point_clouds import compute_cloud_distances
 
 Distances = Callable[[slice, slice], Floats]

@@ -10,7 +10,7 @@ import pytest
 
 import kineme
 from _viewers import BPY, read_in_blender
-from kineme.formats.scenes.fbx_copy import copy_takes
+from kineme.formats.scenes.fbx_writer import copy_takes
 
 pytestmark = [
     pytest.mark.skipif(not BPY, reason="KINEME_BPY names no Python with bpy"),

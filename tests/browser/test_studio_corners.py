@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 from screen import Screen, box_of, until
 
 ON_TOP = """button => {

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 import kineme as package
 from kineme.cli.app import app
-from kineme.cli.options.method import format_value, parse_constants
+from kineme.cli.options import format_value, parse_constants
 from kineme.datasets import bundled_recording
 from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS

@@ -13,7 +13,7 @@ import pytest
 
 import kineme as package
 from kineme._util import files as _files
-from kineme.cli.options.targets import choose_files
+from kineme.cli.files import choose_files
 from kineme.datasets import bundled_recording
 from kineme.recordings.operations import cut
 

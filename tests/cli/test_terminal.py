@@ -8,9 +8,8 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
-from kineme.cli.messages import print_error
 from kineme.cli.tables import make_table
-from kineme.cli.terminal import Console, escape_controls
+from kineme.cli.terminal import Console, escape_controls, print_error
 
 STEERS = "\x1b[2J\x1b]0;owned\x07\x9b1A\u202e"
 

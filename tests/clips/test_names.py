@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.names import make_clip_name, make_file_name, make_unique_name
+from kineme.clips.options import make_clip_name, make_file_name, make_unique_name
 from kineme.clips.split import write_clips
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut

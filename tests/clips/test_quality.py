@@ -14,8 +14,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.loops import Carry, find_carry, make_loop
-from kineme.clips.quality import measure_distances, measure_loop, measure_usual_steps
+from kineme.clips.loops import (
+    Carry,
+    find_carry,
+    make_loop,
+    measure_distances,
+    measure_loop,
+    measure_usual_steps,
+)
 from kineme.clips.root_motion import measure_root_motion, remove_root_motion, straighten
 from kineme.clips.split import split
 from kineme.errors import ParameterError

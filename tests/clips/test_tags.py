@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import kineme
+from kineme.clips.root_motion import measure_travel
 from kineme.clips.split import split
-from kineme.clips.tags import measure_travel
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut, turn
 from kineme.recordings.posing import add_root

@@ -14,8 +14,8 @@ from kineme.evaluation.inputs import (
     score,
     score_agreement,
 )
-from kineme.evaluation.label_truth import make_truth
 from kineme.evaluation.score import compute_results, get_value
+from kineme.evaluation.truth import make_truth
 from kineme.labels.collections import LabelSource
 from kineme.segments.segmentation import Segmentation
 

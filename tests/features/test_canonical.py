@@ -13,12 +13,13 @@ from kineme.datasets import Action, synthesize
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import mirror
 from kineme.features.canonical import (
+    JOINTS,
     MATCHING_FPS,
+    match_canonical_joints,
     matching_features,
     matching_poses,
     mirror_poses,
 )
-from kineme.features.canonical.joints import JOINTS, match_canonical_joints
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 from kineme.recordings.operations import move, resample, scale, turn

@@ -13,8 +13,8 @@ import kineme
 from _fbx import Keys, Name, make_node, make_walker
 from kineme.errors import KinemeWarning, WriteError
 from kineme.formats.files import load
-from kineme.formats.scenes.fbx_copy import copy_takes
 from kineme.formats.scenes.fbx_file import get_head_struct, parse_fbx
+from kineme.formats.scenes.fbx_writer import copy_takes
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root
 

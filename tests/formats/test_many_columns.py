@@ -8,7 +8,7 @@ import numpy as np
 
 import kineme
 from growth import LINEAR, times_longer
-from kineme.features.topology import find_by_shape
+from kineme.features.effectors import find_by_shape
 
 
 def test_thousands_of_columns_are_read_and_written(tmp_path: Path) -> None:

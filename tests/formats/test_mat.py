@@ -14,7 +14,7 @@ from scipy.io import loadmat, savemat
 
 import kineme
 from kineme.errors import ReadError
-from kineme.formats.arrays.mat_file import parse_mat
+from kineme.formats.arrays.mat import parse_mat
 from kineme.formats.files import FileContent
 
 

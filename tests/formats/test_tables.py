@@ -17,7 +17,7 @@ from marker_samples import PLUG_IN_GAIT, walking
 import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read_motion
-from kineme.formats.arrays.amass import make_smpl_skeleton
+from kineme.formats.arrays.numpy_files import make_smpl_skeleton
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
 JOINTS += ["right_wrist", "nose"]

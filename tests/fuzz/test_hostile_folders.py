@@ -27,11 +27,11 @@ from typer.testing import CliRunner
 from kineme._util.files import is_draft
 from kineme.cli.app import app
 from kineme.library import build
-from kineme.studio.app import create_app
 from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.server import create_app
+from kineme.studio.storage.sidecars import make_file_id
 
 pytestmark = [
     pytest.mark.slow,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from kineme.datasets.bundled import bundled_recording, bundled_truth
-from kineme.datasets.synthetic import synthesize
-from kineme.datasets.timeline import Action
+from kineme.datasets.synthetic import Action, synthesize
 from kineme.formats import write
 from kineme.labels import write_segments
 

@@ -13,7 +13,7 @@ from typing import Any
 import httpx2 as httpx
 
 import kineme
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 from screen import Screen
 from studio_server import StudioServer
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 import kineme
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 
 ADDRESS = re.compile(r"(http://127\.0\.0\.1:(\d+)/)\?token=(\S+)")
 

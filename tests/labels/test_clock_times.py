@@ -16,7 +16,7 @@ from kineme._util.checks import format_count
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.labels.collections import convert_to_frames, find_labels
 from kineme.labels.spans import Labels, Span, convert_clock_times
-from kineme.recordings.clock import Clock
+from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 
 FPS = 30.0

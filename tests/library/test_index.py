@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import naive
-from kineme.library import Example, Library, searching
+from kineme.library import Example, Library, finding
 from kineme.library._kernels import find_smallest_distances
-from kineme.library.storage import index as storage
+from kineme.library.storage import tables as storage
 from kineme.library.windows import (
     FINER,
     LENGTHS,
@@ -24,8 +24,8 @@ def test_what_is_searched_first_holds_what_an_exact_search_finds(
 ) -> None:
     exact = Library(folder)
     monkeypatch.setattr(storage, "FROM_HOURS", 0.0)
-    monkeypatch.setattr(searching, "SHARE", 0.2)
-    monkeypatch.setattr(searching, "MORE", 1)
+    monkeypatch.setattr(finding, "SHARE", 0.2)
+    monkeypatch.setattr(finding, "MORE", 1)
     storage.write_index(folder, exact.head["tables"], exact.recordings)
     indexed = Library(folder)
     for example in (Example("walk.bvh", 2.0, 3.2), Example("jacks.bvh", 4.0, 7.5)):

@@ -13,13 +13,13 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.live.journal import Journal, recover_journal
 from kineme.live.sources import Rows
+from kineme.live.storage import Journal, recover_journal
 
 CODE = """
 import sys, time
 import numpy as np
-from kineme.live.journal import Journal
+from kineme.live.storage import Journal
 journal = Journal(sys.argv[1], ["x", "y"], 100.0)
 for i in range(10**6):
     journal.write(np.array([[i % 7, i * i % 11]]))

@@ -12,7 +12,6 @@ from scipy.spatial.distance import cdist
 
 import kineme
 from kineme.datasets import random_recording
-from kineme.methods.doubts import list_doubts
 from kineme.methods.kineme.confidence import (
     compute_changes,
     compute_mean_correlation,
@@ -21,6 +20,7 @@ from kineme.methods.kineme.confidence import (
 )
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
+from kineme.methods.segments import list_doubts
 from loops import make_swings
 
 

@@ -12,7 +12,7 @@ from presets import OWN
 
 import kineme
 from kineme.methods import PRESETS, Preset
-from kineme.methods.constants import Constant
+from kineme.methods.base import Constant
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from kineme.evaluation import (
     Truth,
     evaluate,
 )
-from kineme.features._warping_kernels import find_cheapest_path
+from kineme.features._kernels import find_cheapest_path
 from kineme.features.point_clouds import compute_cloud_distances
 from kineme_reproduction.variance import feature_variance, overall, point_cloud_variance
 

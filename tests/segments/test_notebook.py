@@ -8,8 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 
 from kineme.segments import html
-from kineme.segments.colors import choose_label_colors, get_cluster_color
-from kineme.segments.html import FIRST_ROWS
+from kineme.segments.html import FIRST_ROWS, choose_label_colors, get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 

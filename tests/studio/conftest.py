@@ -12,10 +12,10 @@ from starlette.testclient import TestClient
 from studio_clients import PORT, TOKEN, Process, Studio
 
 from kineme.datasets import bundled_recording
-from kineme.studio.app import create_app
 from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
+from kineme.studio.server import create_app
 
 FRAMES = 240
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import httpx2 as httpx
 
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 from studio_server import StudioServer
 
 TOKEN, PORT = "the token", 8750

@@ -17,7 +17,7 @@ from studio_clients import Studio
 
 import kineme
 from kineme.segments.history import LONGEST
-from kineme.studio.storage import journal
+from kineme.studio.storage import tables
 
 
 def named(studio: Studio, label: str = "hop") -> dict[str, Any]:
@@ -161,7 +161,7 @@ def test_a_history_that_cannot_be_read_is_no_obstacle_and_its_tables_stay(
 
 
 def test_the_history_is_plain_and_bounded(studio, folder: Path, monkeypatch) -> None:
-    monkeypatch.setattr(journal, "MAX_VERSIONS", 3)
+    monkeypatch.setattr(tables, "MAX_VERSIONS", 3)
     state = studio.recording()
     for _ in range(6):
         state = studio.done(
@@ -175,9 +175,9 @@ def test_the_history_is_plain_and_bounded(studio, folder: Path, monkeypatch) -> 
     said = json.loads((place / "history.json").read_text())
     assert said["schema"] == "kineme.history/1"
     assert said["revision"] == state["revision"]
-    tables = sorted(place.glob("[0-9]*.json"))
-    assert len(tables) == LONGEST + 1 + 3
-    assert all(kineme.read_segments(path) is not None for path in tables)
+    written = sorted(place.glob("[0-9]*.json"))
+    assert len(written) == LONGEST + 1 + 3
+    assert all(kineme.read_segments(path) is not None for path in written)
     assert [f["name"] for f in studio.get("/api/state").json()["annotations"]] == []
 
 

@@ -22,10 +22,10 @@ from kineme.methods.kineme import primitives
 from kineme.segments import editing
 from kineme.studio.downloads import export_download
 from kineme.studio.folder import Folder
+from kineme.studio.jobs import STAGE_SHARES, Run
 from kineme.studio.loading import LoadedRecording
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.recording_cache import RecordingCache
-from kineme.studio.running import STAGE_SHARES, Run
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 from kineme.web.tables import make_table_change
@@ -131,8 +131,8 @@ def test_segments_that_cannot_be_found_are_said_to_be_missing(tmp_path, monkeypa
 def large_take(tmp_path, monkeypatch):
     """A recording that is read once ``wanted`` is set: its folder, id and news."""
     wanted, read = threading.Event(), RecordingCache.read
-    monkeypatch.setattr("kineme.studio.sketches.LARGE_FILE", 1000)
-    monkeypatch.setattr("kineme.studio.sketches.MAX_POSES", 200)
+    monkeypatch.setattr("kineme.studio.loading.LARGE_FILE", 1000)
+    monkeypatch.setattr("kineme.studio.loading.MAX_POSES", 200)
     monkeypatch.setattr(
         RecordingCache, "read", lambda cache, path: wanted.wait(60) and read(cache, path)
     )
@@ -201,8 +201,8 @@ def test_a_large_file_that_is_damaged_says_so_once_it_is_read(tmp_path, monkeypa
     text = kineme.bundled_recording().read_text().splitlines()
     text[-7] = text[-7].replace(text[-7].split()[3], "x", 1)
     (tmp_path / "take.bvh").write_text("\n".join(text))
-    monkeypatch.setattr("kineme.studio.sketches.LARGE_FILE", 1000)
-    monkeypatch.setattr("kineme.studio.sketches.MAX_POSES", 200)
+    monkeypatch.setattr("kineme.studio.loading.LARGE_FILE", 1000)
+    monkeypatch.setattr("kineme.studio.loading.MAX_POSES", 200)
     recordings, name, told = open_take(tmp_path)
     assert recordings.message(name).finding
     assert told.get(timeout=600)[0] == name

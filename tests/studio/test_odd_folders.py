@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 from studio_clients import Studio
 
 from kineme.studio.storage import sidecars
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 
 ODD = os.fsdecode(b"w\xe9")
 

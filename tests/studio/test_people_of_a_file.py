@@ -15,7 +15,7 @@ from kineme.cli.app import app
 from kineme.cli.studio import _split_people
 from kineme.formats import ReadOptions
 from kineme.studio.storage import sidecars
-from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
+from kineme.studio.storage.sidecars import ListedRecording, make_file_id
 from people_files import write_people
 
 NAME = {"level": "activity", "frame": 0}

@@ -25,7 +25,7 @@ from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
 from kineme.studio.recording_cache import RecordingCache
-from kineme.studio.storage.listed_recording import ListedRecording
+from kineme.studio.storage.sidecars import ListedRecording
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
 from kineme.web.encoding import to_json

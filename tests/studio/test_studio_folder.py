@@ -18,7 +18,7 @@ from kineme.clips.loops import Carry
 from kineme.formats.scenes.gltf_writer import write_animations
 from kineme.recordings.operations import turn
 from kineme.studio.overview import read_brief, summarize_table
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 from kineme.web.encoding import to_json
 
 

@@ -14,7 +14,7 @@ from starlette.testclient import TestClient
 
 from kineme.pose import Pose, register
 from kineme.pose.estimators import ESTIMATORS
-from kineme.studio.storage.listed_recording import make_file_id
+from kineme.studio.storage.sidecars import make_file_id
 from squats import drawn_estimator, squat, write_squats, write_video
 
 AT_30_HZ = np.arange(90) / 30

@@ -14,8 +14,7 @@ from kineme.errors import ParameterError
 from kineme.features.canonical import matching_poses, mirror_poses
 from kineme.recordings.operations import cut, scale, turn
 from kineme.transfer import share_clusters
-from kineme.transfer.channel_samples import compute_channel_samples
-from kineme.transfer.embeddings import embedding
+from kineme.transfer.embeddings import compute_channel_samples, embedding
 from kineme.transfer.sharing import share_by_samples
 
 

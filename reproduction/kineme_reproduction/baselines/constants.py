@@ -12,14 +12,17 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from kineme.errors import ParameterError
-from kineme.methods.base import RATE, Preset, Unit, View
-from kineme.methods.constants import (
+from kineme.methods.base import (
     COUNT,
     FACTOR,
+    RATE,
     SHARE,
     SOME,
     SOME_SHARE,
     SOME_TIME,
+    Preset,
+    Unit,
+    View,
     constant,
 )
 

@@ -21,7 +21,7 @@ from kineme_reproduction.baselines.constants import (
 )
 
 if TYPE_CHECKING:
-    from kineme.methods.stages import Progress
+    from kineme.methods.base import Progress
     from kineme_reproduction.baselines.found import SegmentsFound
     from kineme_reproduction.baselines.segments import Segments
 
@@ -40,7 +40,7 @@ class BaselinePreset(BaselineConstants):
         progress: Progress | None = None,
     ) -> SegmentsFound:
         """Segments of the activity level; see the method's own module."""
-        from kineme.methods.stages import time_stages
+        from kineme.methods.base import time_stages
         from kineme_reproduction.baselines.found import SegmentsFound
 
         rows = as_features(features)

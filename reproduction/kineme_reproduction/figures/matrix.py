@@ -22,14 +22,13 @@ from numpy.typing import NDArray
 from kineme.evaluation.truth import TRANSITION, Truth
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import PUBLISHED
-from kineme.methods.region_growing.analysis import analyze_regions
-from kineme.methods.region_growing.found import RegionsFound
+from kineme.methods.region_growing.activities import find_primitive_cuts
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.neighbors import NeighborGraph
 from kineme.methods.region_growing.preset import RegionGrowingPreset
-from kineme.methods.region_growing.primitives import find_primitive_cuts
 from kineme.methods.region_growing.warping import label_components
 from kineme.plot.matrix import MAX_PIXELS, SHADES
-from kineme.segments.colors import PALETTE
+from kineme.segments.html import PALETTE
 from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
 from kineme_reproduction.trials import Trial
 

@@ -18,9 +18,8 @@ from matplotlib.collections import PatchCollection
 from matplotlib.patches import Rectangle
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.label_truth import make_labelling
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
-from kineme.segments.colors import PALETTE
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, make_labelling
+from kineme.segments.html import PALETTE
 from kineme_reproduction.benchmark import Result
 from kineme_reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
 from kineme_reproduction.trials import Trial

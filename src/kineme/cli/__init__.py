@@ -35,7 +35,7 @@ def main() -> None:
 
 def _run() -> None:
     from kineme.cli.app import app
-    from kineme.cli.messages import shorten_warnings
+    from kineme.cli.terminal import shorten_warnings
 
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="backslashreplace")

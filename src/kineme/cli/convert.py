@@ -8,11 +8,9 @@ from typing import Annotated
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, Recursive, make_parent_folder
 from kineme.cli.help import INPUT, LABELS, OUTPUT, option
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Recursive
-from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.targets import make_parent_folder
+from kineme.cli.options import READING, Quiet, add_options
 from kineme.errors import WriteError
 from kineme.formats.options import ReadOptions
 from kineme.labels import read_segments, write_segments
@@ -45,7 +43,7 @@ def _is_channel_table(path: Path) -> bool:
     from kineme.errors import ReadError
     from kineme.formats.dialects import hold_channels, recognise_table
     from kineme.formats.files import load
-    from kineme.formats.label_tables import refuse_labels
+    from kineme.formats.listing import refuse_labels
 
     try:
         refuse_labels(content := load(path))

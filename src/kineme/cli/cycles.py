@@ -11,13 +11,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, Files, Recursive, SegmentTable
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import ALL, READING, Quiet
+from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment
+from kineme.cli.terminal import Failures
 from kineme.errors import ParameterError
 from kineme.formats import read_analog
 from kineme.formats.options import ReadOptions
@@ -216,7 +214,7 @@ def _check_targets(
     output: Path | None, plot: Path | None, compare: Path | None, sides: Path | None
 ) -> None:
     """Raise typer.BadParameter for files that cannot be written, before any work is done."""
-    from kineme.cli.options.targets import PICTURES
+    from kineme.cli.files import PICTURES
     from kineme.cycles.export import SUFFIXES
     from kineme.report.page import SUFFIXES as PAGES
 

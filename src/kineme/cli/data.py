@@ -12,8 +12,8 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, OUTPUT, option
-from kineme.cli.messages import Failures
-from kineme.cli.options.reading import Quiet
+from kineme.cli.options import Quiet
+from kineme.cli.terminal import Failures
 
 if TYPE_CHECKING:
     from kineme.datasets.cmu import Fetched

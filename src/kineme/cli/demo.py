@@ -7,11 +7,11 @@ from typing import Annotated
 
 import typer
 
+from kineme.cli.files import check_target_folder, check_writable
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures, show_progress
-from kineme.cli.options.reading import Quiet
-from kineme.cli.options.targets import check_target_folder, check_writable
+from kineme.cli.options import Quiet
 from kineme.cli.segment import read_and_segment, write_results
+from kineme.cli.terminal import Failures, show_progress
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 

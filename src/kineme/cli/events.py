@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, Files, Recursive
 from kineme.cli.help import OUTPUT, TABLES, option
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options import READING, Quiet, add_options
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 

@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, FilesOfFormats, Recursive
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
-from kineme.cli.options.method import Effectors
-from kineme.cli.options.reading import READING, Json
+from kineme.cli.options import READING, Effectors, Json, add_options
 from kineme.errors import EndEffectorError
 from kineme.formats import read, read_analog
 from kineme.formats.options import ReadOptions

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, Files, Recursive
 from kineme.cli.help import INPUT, OUTPUT, option
-from kineme.cli.messages import Failures
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import BODY, Quiet
+from kineme.cli.options import BODY, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import load_or_find_segments
+from kineme.cli.terminal import Failures
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions

@@ -14,24 +14,22 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.files import check_writable
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
-from kineme.cli.messages import format_line, print_error, print_skipped
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.targets import check_writable
+from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
+from kineme.cli.terminal import format_line, print_error, print_skipped
 from kineme.errors import KinemeError
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
-from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
+from kineme.live.finals import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
 from kineme.live.outputs import OUTPUTS, Send
 from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from kineme.live.journal import Journal
     from kineme.live.sources import Source
+    from kineme.live.storage import Journal
     from kineme.live.stream import Stream
 
 OUTPUT_OPTIONS = {
@@ -90,7 +88,7 @@ def live(
 
     For example: sensor | kineme live --fps 100 --record take
     """
-    from kineme.live.journal import Journal, recover_journal
+    from kineme.live.storage import Journal, recover_journal
 
     sources = {"--replay": replay, "--lsl": lsl, "--osc": osc}
     given_sources = [name for name, value in sources.items() if value is not None]

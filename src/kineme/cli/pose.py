@@ -9,11 +9,10 @@ from typing import Annotated, Any
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, Files, Recursive, make_parent_folder
 from kineme.cli.help import METHOD, OUTPUT, option
-from kineme.cli.messages import print_error
-from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.reading import Json, Quiet
-from kineme.cli.options.targets import make_parent_folder
+from kineme.cli.options import Json, Quiet
+from kineme.cli.terminal import print_error
 from kineme.errors import ParameterError
 
 

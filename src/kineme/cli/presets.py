@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme.cli.options.method import format_value
+from kineme.cli.options import format_value
 from kineme.errors import ParameterError
 from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
 

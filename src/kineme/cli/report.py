@@ -7,12 +7,9 @@ from typing import Annotated
 
 import typer
 
+from kineme.cli.files import Batch, Files, Recursive, SegmentTable, check_writable
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import READING, Quiet
-from kineme.cli.options.targets import check_writable
+from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment, show_envelopes
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions

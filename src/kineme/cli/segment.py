@@ -11,12 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.parallel import announce_compilation
+from kineme.cli.files import Batch, FilesOfFormats, Recursive, check_writable
 from kineme.cli.help import INPUT, OUTPUT, TABLES, option
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, FilesOfFormats, Recursive
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import READING, Json, Quiet
-from kineme.cli.options.targets import check_writable
+from kineme.cli.options import READING, SEGMENTING, Json, Quiet, add_options
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
@@ -159,7 +156,7 @@ def show_envelopes(recording: Motion | Signals, options: SegmentOptions) -> Moti
 
     if not (options.emg and isinstance(recording, Signals)):
         return recording
-    from kineme.features.emg import emg_envelope
+    from kineme.features.filters import emg_envelope
 
     return replace(recording, values=emg_envelope(recording.values, recording.fps))
 

@@ -9,13 +9,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import Batch, Files, Recursive, SegmentTable, make_parent_folder
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.options.clips import CLIPS
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Files, Recursive, SegmentTable
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import ALL, READING, Quiet, expand_read_options
-from kineme.cli.options.targets import make_parent_folder
+from kineme.cli.options import (
+    ALL,
+    CLIPS,
+    READING,
+    SEGMENTING,
+    Quiet,
+    add_options,
+    expand_read_options,
+)
 from kineme.cli.segment import read_and_segment
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions

@@ -9,10 +9,8 @@ from typing import Annotated
 import typer
 
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures
-from kineme.cli.options.declare import add_options, are_given
-from kineme.cli.options.method import Effectors
-from kineme.cli.options.reading import ALL, BODY
+from kineme.cli.options import ALL, BODY, Effectors, add_options, are_given
+from kineme.cli.terminal import Failures
 from kineme.errors import ParameterError
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures, show_progress
-from kineme.cli.options.reading import Quiet
+from kineme.cli.options import Quiet
+from kineme.cli.terminal import Failures, show_progress
 from kineme.errors import ParameterError
 
 CONTENT = "New motion"

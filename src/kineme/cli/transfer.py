@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme.cli.files import Batch, Files, Recursive, check_writable
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
-from kineme.cli.messages import Failures
-from kineme.cli.options.declare import add_options
-from kineme.cli.options.inputs import Batch, Files, Recursive
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import BODY, Json, Quiet
-from kineme.cli.options.targets import check_writable
+from kineme.cli.options import BODY, SEGMENTING, Json, Quiet, add_options
 from kineme.cli.segment import PrintedLevel, load_or_find_segments, print_segments
+from kineme.cli.terminal import Failures
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions

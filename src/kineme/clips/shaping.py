@@ -12,22 +12,27 @@ import numpy as np
 from kineme._util.arrays import Masks
 from kineme._util.checks import check_flag, is_number, is_one_of
 from kineme.clips import RootMotionMode
-from kineme.clips.loops import Carry, find_carry, make_loop, repeat_first_frame
-from kineme.clips.quality import (
+from kineme.clips.loops import (
+    Carry,
     LoopQuality,
+    find_carry,
+    make_loop,
     measure_distances,
     measure_loop,
     measure_usual_steps,
     rank_qualities,
+    repeat_first_frame,
 )
 from kineme.clips.root_motion import (
     RootMotion,
+    Tag,
+    Travel,
     extract_root_motion,
     measure_root_motion,
+    measure_travel,
     remove_root_motion,
     straighten,
 )
-from kineme.clips.tags import Tag, Travel, measure_travel
 from kineme.cycles.contacts import stands_from_positions
 from kineme.cycles.joints import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError

@@ -6,7 +6,7 @@ recording with its clips as animations. If the path of such a file is given inst
 clips go into it, or into a copy of the source file if that has the same format. The manifests are
 then beside it, such as ``clips.manifest.csv`` for ``clips.glb``. Clips of signals are rows of their
 source file (see `kineme.formats.channels.writing`). Files are named ``RECORDING_NUMBER_TEXT`` (see
-`kineme.clips.names`), with the text of `kineme.labels.spans`.
+`kineme.clips.options`), with the text of `kineme.labels.spans`.
 
 ``manifest.csv`` has one row per clip, in the order of the segments; ``manifest.json`` has more
 details (see `kineme.clips.manifest`):
@@ -16,9 +16,9 @@ details (see `kineme.clips.manifest`):
 ``start_frame``, ...         ``stop_frame``, ``start_s``, ``stop_s``: where in it
 ``level``, ``kind``          as in the segment table
 ``cluster``, ``label``       as in the segment table
-``tags``                     direction, turn, start and stop (see `kineme.clips.tags`)
+``tags``                     direction, turn, start and stop (see `kineme.clips.root_motion`)
 ``rank``, ``cost``           for loops: rank in the cluster, 1 for the best, and the
-                             cost it is sorted by (see `kineme.clips.quality`)
+                             cost it is sorted by (see `kineme.clips.loops`)
 ``turn_deg``, ``x_m``,       for loops: motion from one round to the next, a turn
 ``z_m``                      about the vertical axis, then a shift
 ``animation``                for files with several clips: the name of the clip
@@ -37,16 +37,23 @@ from typing import Any, Unpack, get_args
 
 from kineme._util.checks import is_number, is_one_of
 from kineme._util.files import atomic_folder, atomic_write
-from kineme.clips.companions import Companions
 from kineme.clips.manifest import (
     MANIFEST,
     MANIFEST_JSON,
     Clip,
+    Companions,
     name_manifests,
     write_manifests,
 )
-from kineme.clips.names import fill_template, make_clip_name, make_file_name, make_unique_name
-from kineme.clips.options import Chosen, ClipOptions, resolve_options
+from kineme.clips.options import (
+    Chosen,
+    ClipOptions,
+    fill_template,
+    make_clip_name,
+    make_file_name,
+    make_unique_name,
+    resolve_options,
+)
 from kineme.clips.shaping import RankedLoop, ShapedClip, shape_clips
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.features import mirror as mirrored
@@ -97,7 +104,7 @@ def split(
     format : str, optional
         Suffix of a format that writes motions, such as "bvh", "amc" or "glb".
     best : int, optional
-        Write only so many loops of each cluster, the best ones (see `kineme.clips.quality`), and
+        Write only so many loops of each cluster, the best ones (see `kineme.clips.loops`), and
         no transitions.
     root_motion : {"keep", "extract", "in-place"}, optional
         Keep root motion; move it to a root bone, which is added if missing; or remove it, with
@@ -111,7 +118,7 @@ def split(
     fps : float, optional
         Frames per second of the clips; borders are rounded to whole frames. Motions only.
     name : str, optional
-        Template of names, such as ``{take}_{label}_{n:02}`` (see `kineme.clips.names.FIELDS`).
+        Template of names, such as ``{take}_{label}_{n:02}`` (see `kineme.clips.options.FIELDS`).
     target : {"unreal", "unity", "blender", "godot"}, optional
         Program that sets defaults for format, root motion, closing and names.
     sheet : str or PathLike, optional

@@ -110,7 +110,7 @@ def _warp_to_mean(curves: Floats) -> Floats:
 
 def _warp_cycle(mean: Floats, curve: Floats) -> Floats:
     """Return the phase of a cycle at each time of the mean, by the cheapest path in a band."""
-    from kineme.features._warping_kernels import find_cheapest_path
+    from kineme.features._kernels import find_cheapest_path
 
     grid, points = np.linspace(0, 1, GRID), np.arange(GRID)
     # (GRID, GRID): squared distance of each point of the mean to each point of the cycle.

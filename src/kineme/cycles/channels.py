@@ -44,7 +44,7 @@ from kineme.cycles.joints import (
 )
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import compute_body_frame, compute_heading
-from kineme.features.feet import measure_speed
+from kineme.features.effectors import measure_speed
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import SIDES
 from kineme.recordings.kinematics import compute_world_rotations, place_at_rest

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
 from kineme.errors import ParameterError
-from kineme.features.feet import find_low_and_slow
+from kineme.features.effectors import find_low_and_slow
 from kineme.recordings.arrays import find_spans
 
 STEADY = 0.12

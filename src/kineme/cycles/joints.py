@@ -34,7 +34,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.errors import EndEffectorError
 from kineme.features import PARTS, end_effectors
-from kineme.features.canonical.joints import find_limbs
+from kineme.features.canonical import find_limbs
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.joint_names import SIDES, find_joints, simplify_name
 

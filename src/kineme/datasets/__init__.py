@@ -1,9 +1,8 @@
 """Example data: synthetic recordings with known truth, and a bundled recording."""
 
-from kineme.datasets.actions import ACTIONS
 from kineme.datasets.bundled import bundled_recording, bundled_truth
-from kineme.datasets.synthetic import SyntheticRecording, random_recording, synthesize
-from kineme.datasets.timeline import Action
+from kineme.datasets.figure import ACTIONS
+from kineme.datasets.synthetic import Action, SyntheticRecording, random_recording, synthesize
 
 __all__ = [
     "ACTIONS",

@@ -12,7 +12,6 @@ from kineme.evaluation.annotators import (
     fleiss_kappa,
 )
 from kineme.evaluation.comparison import Comparison, Spans, compare
-from kineme.evaluation.label_truth import make_labelling
 from kineme.evaluation.measures import (
     BorderScore,
     border_ratio,
@@ -37,7 +36,7 @@ from kineme.evaluation.score import (
     register,
     scores,
 )
-from kineme.evaluation.truth import TRANSITION, Labelling, Truth
+from kineme.evaluation.truth import TRANSITION, Labelling, Truth, make_labelling
 
 __all__ = [
     "TRANSITION",

@@ -30,10 +30,9 @@ from kineme._version import __version__
 from kineme.errors import KinemeError, ParameterError
 from kineme.evaluation.comparison import Comparison, Spans, find_runs, map_clusters
 from kineme.evaluation.inputs import choose_comparison_rate
-from kineme.evaluation.label_truth import make_truth
 from kineme.evaluation.measures import border_score, cohen_kappa
 from kineme.evaluation.score import to_finite, to_plain
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth
+from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth, make_truth
 from kineme.labels.collections import Extent, LabelSource
 from kineme.segments.segmentation import Segmentation
 

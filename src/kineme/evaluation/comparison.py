@@ -29,8 +29,15 @@ from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
-from kineme.evaluation.label_truth import add_repetitions, make_labelling, make_truth
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, Truth
+from kineme.evaluation.truth import (
+    TRANSITION,
+    UNLABELLED,
+    Labelling,
+    Truth,
+    add_repetitions,
+    make_labelling,
+    make_truth,
+)
 from kineme.labels.spans import format_text
 from kineme.segments.segmentation import Segmentation
 
@@ -284,7 +291,7 @@ def compare(
     ----------
     truth : Segmentation
         The labels of its activities are the classes; its transitions are frames without a label.
-        For its repetitions see `kineme.evaluation.label_truth`.
+        For its repetitions see `kineme.evaluation.truth`.
     found : Segmentation
         The clusters of its activities are compared. Transitions are one cluster; each activity
         without a cluster is a separate one.

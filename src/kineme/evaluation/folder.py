@@ -31,9 +31,9 @@ from kineme.labels.collections import LabelSource
 from kineme.methods.presets import PRESETS
 from kineme.recordings.motion import Motion
 from kineme.recordings.signals import Signals
-from kineme.segments.editing.rows import renumber_clusters
+from kineme.segments.editing.borders import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import ChannelSamples, compute_channel_samples
+from kineme.transfer.embeddings import ChannelSamples, compute_channel_samples
 from kineme.transfer.sharing import share_by_samples, share_clusters
 
 Mapped = Literal["recording", "folder"]

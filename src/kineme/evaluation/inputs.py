@@ -21,12 +21,18 @@ from pathlib import Path
 import numpy as np
 
 from kineme._util.json import decode_json
-from kineme.datasets.annotated_trials import TRIAL_FPS, Action, read_actions
+from kineme.datasets.cmu import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison, find_runs
-from kineme.evaluation.label_truth import add_repetitions, make_truth
 from kineme.evaluation.score import compare_with_truth, compute_results, get_value
-from kineme.evaluation.truth import UNLABELLED, Truth, check_length, round_half_up
+from kineme.evaluation.truth import (
+    UNLABELLED,
+    Truth,
+    add_repetitions,
+    check_length,
+    make_truth,
+    round_half_up,
+)
 from kineme.labels.registry import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
 from kineme.segments.segmentation import Segmentation

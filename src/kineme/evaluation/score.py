@@ -28,8 +28,7 @@ from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, WriteError
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.label_truth import make_labelling
-from kineme.evaluation.truth import Labelling, Truth
+from kineme.evaluation.truth import Labelling, Truth, make_labelling
 from kineme.formats.delimited import as_text
 from kineme.segments.segmentation import Segmentation
 
@@ -234,7 +233,7 @@ def evaluate_segmentation(
     --------
     >>> import kineme
     >>> from kineme.datasets import bundled_truth
-    >>> from kineme.evaluation.label_truth import make_truth
+    >>> from kineme.evaluation.truth import make_truth
     >>> labels = kineme.read_segments(bundled_truth())
     >>> truth = make_truth(labels, n_frames=labels.n_frames, fps=labels.fps)
     >>> evaluate_segmentation(truth, labels)["one_to_one"]

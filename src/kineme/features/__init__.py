@@ -4,11 +4,16 @@ Without a body, features are distances between points. ``bundling`` is not impor
 here, because it loads compiled code.
 """
 
-from kineme.features.body_frame import compute_body_frame, compute_heading
 from kineme.features.distances import compute_distance_features
 from kineme.features.effectors import PARTS, EndEffectors, Names, end_effectors, measure_body_size
 from kineme.features.mirroring import mirror, mirror_features
-from kineme.features.pose import pose_features, round_offsets, stack
+from kineme.features.pose import (
+    compute_body_frame,
+    compute_heading,
+    pose_features,
+    round_offsets,
+    stack,
+)
 
 __all__ = [
     "PARTS",

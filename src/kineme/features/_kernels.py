@@ -1,6 +1,14 @@
 """Compiled loop of the bundling: move points to the medians of their neighbours.
 
 The naive version is in ``tests/helpers/naive``.
+
+@@_filter_kernels: Compiled loop of the filters: a cascade of second-order sections over all channels.
+
+It replaces `scipy.signal.sosfiltfilt`, which takes over a second to import.
+
+@@_warping_kernels: Compiled dynamic time warping (Sakoe and Chiba 1978).
+
+The naive version is in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -80,3 +88,57 @@ def move_to_medians(points, directions, neighbors, start, stop, moved):
                 break
         for d in range(dims):
             moved[i, d] = points[i, d] + at[d]
+
+
+@njit("void(float64[:, ::1], float64[:, ::1])", **OPTIONS)
+def filter_sections(values, sections):
+    """Filter (frames, channels) in place by sections (sections, 5): b0, b1, b2, a1, a2.
+
+    The initial state of each section is that after a constant input of the first frame.
+    """
+    frames, channels = values.shape
+    near, far = np.empty(channels), np.empty(channels)  # the state, direct form II transposed
+    for s in range(len(sections)):
+        b0, b1, b2, a1, a2 = sections[s]
+        # Gain for a constant input, from which the steady state follows.
+        gain = (b0 + b1 + b2) / (1 + a1 + a2)
+        for c in range(channels):
+            near[c] = (gain - b0) * values[0, c]
+            far[c] = (b2 - a2 * gain) * values[0, c]
+        for t in range(frames):
+            for c in range(channels):
+                x = values[t, c]
+                y = b0 * x + near[c]
+                near[c] = b1 * x - a1 * y + far[c]
+                far[c] = b2 * x - a2 * y
+                values[t, c] = y
+
+
+@njit("Tuple((float64, int64[:], int64[:]))(float64[:, ::1], float64)", **OPTIONS)
+def find_cheapest_path(cost, step):
+    """Return the least sum of ``cost`` from the first to the last corner, and its path.
+
+    The path is given by its rows and columns. A move along one axis alone costs ``step`` in
+    addition. Infinite costs block the path.
+    """
+    n, m = cost.shape
+    # One more row and column than costs: index 0 is the state before the first pair.
+    sums = np.full((n + 1, m + 1), np.inf)
+    sums[0, 0] = 0
+    for i in range(n):
+        for j in range(m):
+            aside = min(sums[i, j + 1], sums[i + 1, j]) + step
+            sums[i + 1, j + 1] = cost[i, j] + min(sums[i, j], aside)
+    rows, columns = np.empty(n + m, np.int64), np.empty(n + m, np.int64)
+    i, j, first = n, m, n + m
+    while i > 0 and j > 0:  # backtrack
+        first -= 1
+        rows[first], columns[first] = i - 1, j - 1
+        both, down, right = sums[i - 1, j - 1], sums[i - 1, j] + step, sums[i, j - 1] + step
+        if both <= min(down, right):
+            i, j = i - 1, j - 1
+        elif down <= right:
+            i -= 1
+        else:
+            j -= 1
+    return sums[n, m], rows[first:], columns[first:]

@@ -6,14 +6,24 @@ segmentation of a recording.
 Sources: T. W. Parks and C. S. Burrus, Digital Filter Design, 1987, chapter 7; for the padding and
 the initial state: F. Gustafsson, Determining the initial states in forward-backward filtering, IEEE
 Transactions on Signal Processing 44(4), 1996.
+
+@@emg: Compute the envelopes of muscle signals (electromyograms).
+
+Electrodes measure noise of both signs, whose strength shows the activity of a muscle.
+The rectified and low-passed signal is the envelope, which repeats with the movement.
+
+Source: Krüger et al. 2017, section VII-B (rectified, resampled, low-passed). Here the
+low-pass filter comes before the resampling, to avoid aliasing. Its cutoff and order are
+those usual for linear envelopes in biomechanics.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
+from kineme.errors import ParameterError
 
 Poles = NDArray[np.complex128]
 
@@ -96,7 +106,7 @@ def _make_sections(poles: Poles, gain: float, zeros: list[float]) -> Floats:
 
 def _filter_both_ways(values: Floats, sections: Floats, padding: int) -> Floats:
     """Filter values forwards and backwards, with ends extended by point reflection."""
-    from kineme.features._filter_kernels import filter_sections
+    from kineme.features._kernels import filter_sections
 
     filtered = np.empty(values.shape)
     for start in range(0, values.shape[1], BLOCK):
@@ -110,3 +120,48 @@ def _filter_both_ways(values: Floats, sections: Floats, padding: int) -> Floats:
         filter_sections(padded, sections)
         filtered[:, start : start + BLOCK] = padded[::-1][padding : padding + len(part)]
     return filtered
+
+
+CUTOFF = 6.0
+"""Default cutoff of the low-pass filter, Hz."""
+
+
+def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> NDArray[np.float64]:
+    """Return the envelopes (frames, channels) of raw muscle signals, at the same rate, at least 0.
+
+    Each channel is centred, rectified, and low-passed without delay (Butterworth filter
+    of second order, forwards and backwards: fourth order in total).
+
+    Parameters
+    ----------
+    values : (frames, channels) or (frames,)
+    fps : float
+        Samples per second; more than twice the cutoff.
+    cutoff : float, optional
+        Cutoff frequency, Hz.
+
+    Raises
+    ------
+    ParameterError
+        The cutoff is not below half of the sampling rate.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import kineme
+    >>> burst = np.sin(np.arange(2000.0)) * (np.arange(2000) > 1000)
+    >>> envelope = kineme.emg_envelope(burst, 1000.0)
+    >>> bool(envelope[1500] > 10 * envelope[500])
+    True
+    """
+    if not 0 < cutoff < fps / 2:
+        raise ParameterError(
+            f"a cutoff of {cutoff:g} Hz needs signals of more than {2 * cutoff:g} Hz, not {fps:g}"
+        )
+    raw = np.asarray(values, np.float64)
+    rectified = np.abs(raw - raw.mean(axis=0))
+    # One period of the cutoff, but less than the recording.
+    padding = min(len(raw) - 1, int(fps / cutoff))
+    smooth = filter_low(rectified.reshape(len(raw), -1), fps, cutoff, padding)
+    # The filter overshoots below 0 after strong bursts.
+    return np.asarray(np.maximum(smooth, 0.0), np.float64).reshape(raw.shape)

@@ -2,7 +2,7 @@
 
 Readers of CSV, TSV, MOT, STO, TRC and exports of capture programs use a `DelimitedText`, which
 `kineme.formats.sniffing` creates. Tables separated by semicolons or tabs may have decimal commas.
-Empty cells become NaN. Columns of times may hold dates, see `kineme.formats.timing`.
+Empty cells become NaN. Columns of times may hold dates, see `kineme.formats.sniffing`.
 """
 
 from __future__ import annotations

@@ -14,10 +14,10 @@ from pkgutil import iter_modules
 
 from kineme._util.checks import Registry
 from kineme.formats import devices
-from kineme.formats.columns import list_joints
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
+from kineme.formats.points import list_joints
 from kineme.formats.registry import recognises_safely
 from kineme.formats.sniffing import sniff
 from kineme.recordings import Motion, Signals
@@ -68,8 +68,8 @@ DIALECTS: Registry[Dialect] = Registry(
         "markers.capture_tables:QTM",
         "keypoints.deeplabcut:DIALECT",
         "keypoints.sleap:DIALECT",
-        "keypoints.mediapipe_tables:WIDE",
-        "keypoints.mediapipe_tables:LONG",
+        "keypoints.mediapipe:WIDE",
+        "keypoints.mediapipe:LONG",
     ),
     newest_first=True,
 )

@@ -13,26 +13,66 @@ that were estimated from a video are read with the video.
 
 Files that cannot be judged (damaged, deleted or unreadable) are skipped with a reason and never
 stop the listing.
+
+@@label_tables: Recognise tables of labels, which share suffixes with recordings, by their first bytes.
 """
 
 from __future__ import annotations
 
 import os
+import re
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from kineme._util.checks import format_count
-from kineme._util.files import POSES, read_head, read_tail
+from kineme._util.files import HEAD, POSES, read_head, read_tail
 from kineme.errors import ReadError
-from kineme.formats.columns import list_joints
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import list_frame_files
-from kineme.formats.label_tables import find_label_program
+from kineme.formats.points import list_joints
 from kineme.formats.registry import is_video, recognises_safely, supported_formats
 from kineme.recordings.times import is_timing
+
+_ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\S+)", re.IGNORECASE)
+_CLOCK_TIME = r"\d+:\d\d:\d\d\.\d{1,3}"
+_SECONDS = r"\d+(?:\.\d+)?"
+_ELAN_ROW = re.compile(
+    # tier, participant (may be empty), begin, end, duration (optional), text
+    rf"(?!{_SECONDS}\t)[^\t]+\t[^\t]*(?:\t(?:{_CLOCK_TIME}|{_SECONDS})){{2,}}\t[^\t]*[^\d\s][^\t]*"
+)
+
+
+def is_elan_table(head: str) -> bool:
+    """Return whether a text starts like a tab-delimited export of ELAN, with or without names."""
+    lines = [line.strip("\r") for line in head.splitlines() if line.strip()]
+    lines = [line for line in lines if not line.startswith('"#')]
+    if not lines:
+        return False
+    return len(_ELAN_HEADER.findall(lines[0])) >= 2 or all(map(_ELAN_ROW.fullmatch, lines[:2]))
+
+
+def is_boris_table(head: str) -> bool:
+    """Return whether a text starts like an export of events from BORIS."""
+    cells = {cell.strip('"') for cell in re.split(r"[,\t\r\n]", head)}
+    return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
+
+
+def find_label_program(head: str) -> str | None:
+    """Return the program whose table of labels starts with this text, or None."""
+    return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
+
+
+def refuse_labels(content: FileContent) -> None:
+    """Raise ReadError if a text file holds labels."""
+    if program := find_label_program(content.text[:HEAD]):
+        raise content.error(
+            f"holds labels of {program}, not a recording: read it with "
+            "kineme.read_segments, or use kineme convert with --fps"
+        )
+
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""

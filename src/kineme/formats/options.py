@@ -1,13 +1,17 @@
-"""Define the options for reading files."""
+"""Define the options for reading files.
+
+@@persons: Choose the person to read from a file with several.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from os import fspath
+from pathlib import Path
 
-from kineme._util.checks import as_texts, check_flag, check_path, is_number, is_one_of
-from kineme.errors import ParameterError
+from kineme._util.checks import as_texts, check_flag, check_path, is_number, is_one_of, join_names
+from kineme.errors import ParameterError, SeveralPeopleError
 from kineme.formats.units import AXES, UNITS
 
 
@@ -68,3 +72,26 @@ class ReadOptions:
     def channels(self) -> bool:
         """Whether channels are requested, regardless of what else a file holds."""
         return self.columns is not None or self.emg
+
+
+def choose_person(
+    path: str | Path,
+    people: Collection[str],
+    person: str | None,
+    what: str = "people",
+    shown: Sequence[str] = (),
+) -> str:
+    """Return the requested person, or the only one; raise SeveralPeopleError if neither exists.
+
+    ``shown`` are the people as listed in the message, ``what`` is the noun for them.
+    """
+    if person is None and len(people) == 1:
+        return next(iter(people))
+    if person is not None and person in people:
+        return person
+    question = (
+        f"{len(people)} {what} are in it: choose one with person= (--person):"
+        if person is None
+        else f"there is no person {person!r}: choose from"
+    )
+    raise SeveralPeopleError(path, f"{question} {join_names(shown or [*people])}", people)

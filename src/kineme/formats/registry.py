@@ -132,7 +132,7 @@ FORMATS: Registry[Format] = Registry(
         "scenes.fbx:FORMAT",
         "scenes.gltf:FORMAT",
         "scenes.usd:FORMAT",
-        ".pose.video:FORMAT",
+        ".pose.estimating:FORMAT",
     ),
     newest_first=True,
 )

@@ -1,6 +1,6 @@
 """Read tables of joint positions or channels (CSV, TSV, MOT, STO, Parquet), and write CSV.
 
-`kineme.formats.delimited` parses text tables, `kineme.formats.columns` names of joint columns, and
+`kineme.formats.delimited` parses text tables, `kineme.formats.points` names of joint columns, and
 `kineme.formats.dialects` tables of specific programs. MOT and STO, OpenSim's tables of joint
 angles, forces or other channels, hold no positions without their model. They are read as signals,
 whatever their columns are called.
@@ -29,14 +29,14 @@ from kineme.formats.channels.reading import (
     to_signals,
 )
 from kineme.formats.channels.writing import write_signals
-from kineme.formats.columns import columns_to_motion, is_used
 from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, make_unique_names
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
 from kineme.formats.files import FileContent, clean_names, format_point_name, save
-from kineme.formats.gaps import mark_gaps
 from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_motion
-from kineme.formats.label_tables import refuse_labels
+from kineme.formats.listing import refuse_labels
 from kineme.formats.options import ReadOptions
+from kineme.formats.plausibility import mark_gaps
+from kineme.formats.points import columns_to_motion, is_used
 from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
 from kineme.recordings.times import NO_TIMES, RATE, is_date, is_timing

@@ -35,7 +35,7 @@ from kineme.labels.spans import (
     convert_clock_times,
     note_lost_labels,
 )
-from kineme.recordings.clock import Clock
+from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 

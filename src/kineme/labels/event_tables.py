@@ -34,7 +34,7 @@ from typing import Any
 from kineme._util.files import atomic_write
 from kineme._util.json import load_json
 from kineme.errors import ReadError, WriteError
-from kineme.formats.label_tables import is_boris_table
+from kineme.formats.listing import is_boris_table
 from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,

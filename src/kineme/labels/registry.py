@@ -27,7 +27,7 @@ from kineme._util.checks import (
 from kineme._util.files import translate_read_errors
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
-from kineme.recordings.clock import Clock
+from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

@@ -33,7 +33,7 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.errors import ParameterError, ReadError
-from kineme.recordings.clock import Clock
+from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, choose_kind
 

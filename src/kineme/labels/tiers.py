@@ -42,7 +42,7 @@ from xml.etree import ElementTree as ET
 
 from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
-from kineme.formats.label_tables import is_elan_table
+from kineme.formats.listing import is_elan_table
 from kineme.labels.delimited import open_new_text, parse_number, read_first_bytes
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, format_text

@@ -6,12 +6,12 @@ from .building import (
 from .building import (
     build as build,
 )
-from .library import (
-    Library as Library,
-)
-from .searching import (
+from .finding import (
     Example as Example,
 )
-from .searching import (
+from .finding import (
     Hit as Hit,
+)
+from .library import (
+    Library as Library,
 )

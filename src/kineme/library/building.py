@@ -29,8 +29,6 @@ from kineme.library.planning import (
     name_recordings,
     open_folder,
 )
-from kineme.library.storage.analyses import KEY_LENGTH, has_analysis, is_analysis
-from kineme.library.storage.index import write_index
 from kineme.library.storage.layout import (
     ANALYSES,
     HEAD,
@@ -39,12 +37,23 @@ from kineme.library.storage.layout import (
     SCHEMA,
     TABLES,
     import_arrow,
+    is_inside,
     lock_for_writing,
+    make_path,
     read_json,
+    translate_remote_errors,
     write_json,
 )
-from kineme.library.storage.places import is_inside, make_path, translate_remote_errors
-from kineme.library.storage.tables import is_table_file, is_tables_folder, read_table, write_tables
+from kineme.library.storage.tables import (
+    KEY_LENGTH,
+    has_analysis,
+    is_analysis,
+    is_table_file,
+    is_tables_folder,
+    read_table,
+    write_index,
+    write_tables,
+)
 from kineme.methods.segmenter import SegmentOptions
 from kineme.transfer.clusters import CONSTANTS, Spans
 
@@ -248,7 +257,7 @@ def _update_tables(
     if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         following, tables = head["following"], head["tables"]
     else:
-        from kineme.library.compiling import compile_tables, list_activities
+        from kineme.library.gathering import compile_tables, list_activities
 
         progress("clusters in common")
         following = max(head.get("following", 0), read_edits(plan.folder).following)

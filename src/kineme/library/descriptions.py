@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Float32s, Floats
 from kineme._util.checks import format_count
 from kineme.errors import MotionError
-from kineme.features.canonical.matching import MATCHING_FPS, compute_features_and_poses
+from kineme.features.canonical import MATCHING_FPS, compute_features_and_poses
 from kineme.features.channels import (
     compute_channel_statistics,
     resample_channels,
     standardize_channels,
 )
-from kineme.features.emg import emg_envelope
-from kineme.library.storage.analyses import LARGEST_SAMPLE, Analysis
+from kineme.features.filters import emg_envelope
 from kineme.library.storage.layout import BODIES, EMBEDDED
+from kineme.library.storage.tables import LARGEST_SAMPLE, Analysis
 from kineme.methods.kineme.preset import SENSORS
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
@@ -126,7 +126,7 @@ def make_analysis(
 
     Channel samples exist for signals only; a row holds the second, means and deviations.
     """
-    from kineme.transfer.channel_samples import compute_channel_samples
+    from kineme.transfer.embeddings import compute_channel_samples
 
     segmentation, _ = segment_with_options(recording, options)
     described = describe(recording, options)

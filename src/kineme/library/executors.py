@@ -29,10 +29,10 @@ PRELOADED = (
     "kineme.library.gathering",
     "kineme.library.descriptions",
     "kineme.methods.segmenter",
-    "kineme.transfer.channel_samples",
+    "kineme.transfer.embeddings",
     "kineme.formats.skeletons._amc_kernels",
     "kineme.methods.kineme.pipeline",
-    "kineme.methods.kineme.found",
+    "kineme.methods.kineme.pipeline",
     "pyarrow.parquet",
 )
 """Modules that take long to import."""

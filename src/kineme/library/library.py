@@ -15,19 +15,29 @@ from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.library.executors import connect
 from kineme.library.exporting import get_table, run_query, write_hits, write_pictures, write_table
-from kineme.library.finding import as_examples, choose_typical_examples, find_hits, select_tagged
+from kineme.library.finding import (
+    Example,
+    Hit,
+    as_examples,
+    choose_typical_examples,
+    find_hits,
+    select_tagged,
+)
 from kineme.library.open_library import Cluster, OpenTables, find_cluster_numbers, list_clusters
-from kineme.library.searching import Example, Hit
-from kineme.library.storage.layout import as_column, import_arrow
-from kineme.library.storage.places import make_path, translate_remote_errors
+from kineme.library.storage.layout import (
+    as_column,
+    import_arrow,
+    make_path,
+    translate_remote_errors,
+)
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.subsequences import THRESHOLD
 
 if TYPE_CHECKING:
     from kineme.clips.options import ClipOptions
-    from kineme.clips.tags import Tag
-    from kineme.library.clipping import Coverage, Per
+    from kineme.clips.root_motion import Tag
+    from kineme.library.exporting import Coverage, Per
 
 
 class Library:
@@ -167,7 +177,7 @@ class Library:
             Also search for mirror images of the examples (bodies only). Their distances are
             estimates (see `kineme.features.canonical.mirror_features`).
         tag : str, optional
-            Return only hits with this tag, such as "backwards" (see `kineme.clips.tags`). This
+            Return only hits with this tag, such as "backwards" (see `kineme.clips.root_motion`). This
             reads the recordings of the hits.
         client : dask.distributed.Client or str, optional
             Search on this Dask cluster, or on that of the scheduler at an address.
@@ -204,7 +214,7 @@ class Library:
 
     def coverage(self) -> list[Coverage]:
         """Return the coverage of each cluster in each direction; reads all recordings of bodies."""
-        from kineme.library.clipping import measure_coverage
+        from kineme.library.exporting import measure_coverage
 
         return measure_coverage(self._tables)
 
@@ -233,7 +243,7 @@ class Library:
         WriteError
             The folder is not empty, or cannot be written.
         """
-        from kineme.library.clipping import write_best_loops
+        from kineme.library.exporting import write_best_loops
 
         return write_best_loops(self._tables, folder, per=per, **options)
 

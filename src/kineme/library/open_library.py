@@ -22,9 +22,9 @@ from kineme.library.storage.layout import (
     as_column,
     import_arrow,
     lock_for_writing,
+    make_path,
     read_head,
 )
-from kineme.library.storage.places import make_path
 from kineme.library.storage.tables import DESCRIBED, read_table
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals

@@ -22,8 +22,17 @@ from kineme.formats import ReadOptions, read
 from kineme.formats.keypoints.openpose import list_frame_files
 from kineme.formats.listing import holds_recording, scan_folder
 from kineme.formats.skeletons.amc import find_skeleton
-from kineme.library.storage.layout import ANALYSES, HEAD, TABLES, read_head, read_json
-from kineme.library.storage.places import is_inside, is_remote, make_path, translate_remote_errors
+from kineme.library.storage.layout import (
+    ANALYSES,
+    HEAD,
+    TABLES,
+    is_inside,
+    is_remote,
+    make_path,
+    read_head,
+    read_json,
+    translate_remote_errors,
+)
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 

@@ -17,9 +17,8 @@ from math import ceil, floor, log10
 import numpy as np
 
 from kineme._util.arrays import Floats, Masks
-from kineme.recordings.clock import is_unix_time
 from kineme.recordings.regular import LONGEST_S, UNEVEN, Timing
-from kineme.recordings.times import UNITS_OF_TIME
+from kineme.recordings.times import UNITS_OF_TIME, is_unix_time
 
 BLOCK_S = 0.1
 """Seconds of frames that are made at once."""

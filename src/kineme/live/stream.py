@@ -14,11 +14,20 @@ from kineme._util.checks import as_floats, as_texts, check_type, is_number
 from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice
-from kineme.live.finals import Finals, Look, Looks, Row
+from kineme.live.finals import (
+    ActivityEnded,
+    ActivityStarted,
+    Event,
+    Finals,
+    Gap,
+    Look,
+    Looks,
+    Notice,
+    Row,
+)
 from kineme.live.intake import Frames, Hole, Intake, Piece
 from kineme.live.looking import Layout, RecentPast, choose_options
-from kineme.live.state import Announced, StreamState, load_state, save_state
+from kineme.live.storage import Announced, StreamState, load_state, save_state
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import as_rate

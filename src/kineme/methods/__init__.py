@@ -9,10 +9,18 @@ A preset is a method with a name and values of its constants.
 `kineme.methods.base` defines the interfaces of presets and of their results.
 """
 
-from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset, Unit
-from kineme.methods.constants import Constant, constant
+from kineme.methods.base import (
+    Columns,
+    Constant,
+    Found,
+    Leveled,
+    Mirror,
+    Preset,
+    Progress,
+    Unit,
+    constant,
+)
 from kineme.methods.presets import DEFAULT, PRESETS, register, resolve_preset
-from kineme.methods.stages import Progress
 
 __all__ = [
     "DEFAULT",

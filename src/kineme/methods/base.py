@@ -7,32 +7,307 @@ All other code works with any method.
 To add a method from another package, subclass `Preset` and register an instance
 with `kineme.methods.register`, or declare it as an entry point in the group
 ``kineme.presets``.
+
+@@constants: Constants: the fields of a preset, each with its meaning, unit and limits.
+
+`constant` creates a field with all that the command line, studio and docs show of
+it, so a constant added to a preset appears in each of them. `check` validates the
+types, limits and choices of a preset. `suggest_names` corrects misspelt names.
+
+@@stages: Announce and time the stages of an analysis.
 """
 
 from __future__ import annotations
 
+import math
+import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, runtime_checkable
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import MISSING, dataclass, field, fields, replace
+from difflib import get_close_matches
+from functools import cache
+from types import NoneType
+from typing import (
+    Any,
+    ClassVar,
+    Literal,
+    NamedTuple,
+    Protocol,
+    Self,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+    runtime_checkable,
+)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
-from kineme.methods.constants import (
-    TIME,
-    Constant,
-    Limits,
-    check,
-    collect_values,
-    constant,
-    list_constants,
-    suggest_names,
-)
 
-if TYPE_CHECKING:
-    from kineme.methods.stages import Progress
+MAX_TIME = 3600.0
+"""Largest value of a constant that is a time, s."""
+MAX_LENGTH = 1e4
+"""Largest value of a constant that is a length: metres, body sizes or standard deviations."""
+MAX_COUNT = 1_000_000
+"""Largest value of a constant that is a count."""
+
+
+class Limits(NamedTuple):
+    """Range of a number: from ``minimum`` (exclusive if ``above``) to ``maximum``."""
+
+    minimum: float
+    maximum: float
+    above: bool = False
+
+    def allow(self, value: object) -> bool:
+        """Return whether ``value`` is a number within the limits."""
+        if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+            return False
+        try:
+            number = float(value)
+        except OverflowError:
+            return False
+        if not math.isfinite(number):
+            return False
+        return self.minimum <= number <= self.maximum and not (
+            self.above and number == self.minimum
+        )
+
+    def describe(self) -> str:
+        """Describe the limits in words."""
+        low = f"above {self.minimum:g}" if self.above else f"from {self.minimum:g}"
+        return f"a number {low} to {self.maximum:g}"
+
+
+TIME = Limits(0.0, MAX_TIME)
+SOME_TIME = Limits(0.0, MAX_TIME, above=True)
+LENGTH = Limits(0.0, MAX_LENGTH)
+SOME_LENGTH = Limits(0.0, MAX_LENGTH, above=True)
+COUNT = Limits(0, MAX_COUNT)
+SOME = Limits(1, MAX_COUNT)
+SHARE = Limits(0.0, 1.0)
+SOME_SHARE = Limits(0.0, 1.0, above=True)
+FACTOR = Limits(0.0, 1000.0)
+SOME_FACTOR = Limits(0.0, 1000.0, above=True)
+
+
+class Slider(NamedTuple):
+    """Range and step of the slider that web pages show for a constant."""
+
+    minimum: float
+    maximum: float
+    step: float
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A constant of a preset, as shown to users.
+
+    Parameters
+    ----------
+    name : str
+        Name of the field.
+    help : str
+        What it does, in a phrase.
+    unit : str
+        ``s``, ``Hz``, ``body sizes``, ``metres``, or empty.
+    value : Any
+        Its value in this preset.
+    hint : Any
+        Its type.
+    limits : Limits, optional
+        Range of a number.
+    slider : Slider, optional
+        Slider on web pages; None if pages do not show it.
+    fine : bool
+        Whether it rarely needs to be changed.
+    default : Any
+        Default of the preset's class; ``dataclasses.MISSING`` if the class has none.
+    """
+
+    name: str
+    help: str
+    unit: str
+    value: Any
+    hint: Any
+    limits: Limits | None
+    slider: Slider | None
+    fine: bool
+    default: Any = MISSING
+
+    @property
+    def allowed(self) -> str:
+        """Describe the allowed values in words; empty for free text.
+
+        Examples
+        --------
+        >>> import kineme
+        >>> constants = {each.name: each for each in kineme.PRESETS["voegele2014"].constants()}
+        >>> [constants[name].allowed for name in ("radius", "growth", "max_lag")]
+        ['above 0 to 10000', 'squares, scan_lines', 'above 0 to 3600, none']
+        """
+        members = get_args(self.hint)
+        optional = NoneType in members
+        hint = next((each for each in members if each is not NoneType), None)
+        hint = hint if optional else self.hint
+        if get_origin(hint) is Literal:
+            words = ", ".join(get_args(hint))
+        elif hint is bool:
+            words = "yes, no"
+        elif self.limits is None:
+            words = ""
+        else:
+            above = "above " if self.limits.above else ""
+            words = f"{above}{self.limits.minimum:.9g} to {self.limits.maximum:.9g}"
+        return ", ".join(filter(None, (words, "none" if optional else "")))
+
+
+def constant(
+    text: str,
+    *,
+    unit: str = "",
+    limits: Limits | None = None,
+    slider: tuple[float, float, float] | None = None,
+    fine: bool = False,
+    default: Any = MISSING,
+) -> Any:
+    """Create a field of a preset, with its help, unit and limits.
+
+    Parameters
+    ----------
+    text : str
+        What it does, in a phrase.
+    unit : str
+        As in `Constant`.
+    limits : Limits, optional
+        Range of the number, or of each number of a tuple.
+    slider : tuple of float, optional
+        Minimum, maximum and step of the slider on web pages.
+    fine : bool
+        Whether it rarely needs to be changed.
+    default : Any
+        Default of the class; leave out if each preset sets its own value.
+    """
+    details = {
+        "help": text,
+        "unit": unit,
+        "limits": limits,
+        "slider": None if slider is None else Slider(*slider),
+        "fine": fine,
+    }
+    return field(default=default, metadata={"constant": details})
+
+
+def list_constants(preset: Any) -> tuple[Constant, ...]:
+    """Return the constants of a preset, in the order of its fields."""
+    hints = _get_type_hints(preset.__class__)
+    defaults = {each.name: each.default for each in fields(preset)}
+    return tuple(
+        Constant(
+            name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **details
+        )
+        for name, details in _get_details(preset.__class__).items()
+    )
+
+
+def collect_values(preset: Any) -> dict[str, Any]:
+    """Return the value of each constant of a preset by name."""
+    return {name: getattr(preset, name) for name in _get_details(preset.__class__)}
+
+
+def check(preset: Any) -> None:
+    """Raise ParameterError for the first invalid constant; convert counts such as 3.0 to int."""
+    for each in list_constants(preset):
+        _check(each.name, each.value, each.hint, each.limits, each.unit)
+        if each.hint is int and type(each.value) is not int:
+            object.__setattr__(preset, each.name, int(each.value))
+
+
+def suggest_names(name: str, names: Collection[str]) -> str:
+    """Return a hint for an unknown name: the most similar name, or else all names.
+
+    Examples
+    --------
+    >>> suggest_names("min_acton", ["radius", "min_action"])
+    'did you mean min_action?'
+    >>> suggest_names("width", ["radius", "min_action"])
+    'there are radius, min_action'
+    """
+    similar = get_close_matches(name, names, n=1)
+    return f"did you mean {similar[0]}?" if similar else f"there are {', '.join(names)}"
+
+
+def _check(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
+    """Raise ParameterError if the value does not fit the type hint and limits."""
+    members = get_args(hint)
+    # `T | None`: None is valid, any other value is checked as a `T`.
+    if NoneType in members:
+        if value is None:
+            return
+        hint = next(member for member in members if member is not NoneType)
+        members = get_args(hint)
+    if get_origin(hint) is Literal:
+        if not (isinstance(value, str) and value in members):
+            raise ParameterError(f"{name} must be {' or '.join(members)}, not {value!r:.60}")
+    elif get_origin(hint) is tuple:
+        _check_tuple(name, value, hint, limits, unit)
+    elif hint is bool:
+        if not isinstance(value, bool):
+            raise ParameterError(f"{name} must be true or false, not {value!r:.60}")
+    elif limits is not None:
+        if hint is int and isinstance(value, float) and not value.is_integer():
+            raise ParameterError(f"{name} must be a whole number, not {value!r:.60}")
+        if not limits.allow(value):
+            allowed = f"{limits.describe()} {unit}".rstrip()
+            raise ParameterError(f"{name} must be {allowed}, not {value!r:.60}")
+
+
+def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
+    members = get_args(hint)
+    if not isinstance(value, tuple) or not value:
+        raise ParameterError(f"{name} must be a tuple of numbers, not {value!r:.60}")
+    is_fixed_length = Ellipsis not in members
+    if is_fixed_length and len(value) != len(members):
+        raise ParameterError(f"{name} must be {len(members)} numbers, not {value!r:.60}")
+    for each in value:
+        _check(f"each of {name}", each, members[0], limits, unit)
+
+
+@cache
+def _get_details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
+    return {
+        each.name: each.metadata["constant"]
+        for each in fields(cast(Any, kind))
+        if "constant" in each.metadata
+    }
+
+
+@cache
+def _get_type_hints(kind: Hashable) -> dict[str, Any]:
+    return get_type_hints(cast(Any, kind))
+
+
+Progress = Callable[[str], None]
+
+
+def time_stages(
+    timings: dict[str, float], progress: Progress | None
+) -> Callable[[str], AbstractContextManager[None]]:
+    """Return a context manager ``stage(name)`` that calls ``progress`` and records seconds."""
+
+    @contextmanager
+    def stage(name: str) -> Iterator[None]:
+        if progress is not None:
+            progress(name)
+        start = time.perf_counter()
+        yield
+        timings[name] = time.perf_counter() - start
+
+    return stage
+
 
 Columns = dict[str, NDArray[Any]]
 Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]

@@ -36,8 +36,8 @@ from kineme.features import (
 from kineme.features.channels import resample_channels, standardize_channels
 from kineme.features.distances import SIZE, have_bones
 from kineme.features.effectors import Names, suggest_remedy
-from kineme.features.emg import emg_envelope
-from kineme.features.rotations import compute_joint_quaternions, compute_log_maps
+from kineme.features.filters import emg_envelope
+from kineme.features.pose import compute_joint_quaternions, compute_log_maps
 from kineme.methods.base import Mirror, Preset
 from kineme.recordings import Motion, Signals
 from kineme.recordings.coordinates import group_axes, is_body

@@ -13,8 +13,7 @@ from typing import Any
 
 from kineme._util.checks import Registry
 from kineme.errors import ParameterError
-from kineme.methods.base import Preset
-from kineme.methods.constants import suggest_names
+from kineme.methods.base import Preset, suggest_names
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 
@@ -33,7 +32,7 @@ PRESETS: Registry[Preset] = Registry(
     builtins=(
         "kineme.preset:KINEME",
         "kineme.preset:SENSORS",
-        "kineme.series:SERIES",
+        "kineme.preset:SERIES",
         "region_growing.preset:VOEGELE2014",
         "region_growing.preset:KRUEGER2017",
     ),

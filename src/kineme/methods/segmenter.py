@@ -19,10 +19,9 @@ from kineme._util.checks import as_features, check_flag, is_number, warn
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.features.effectors import Names
-from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset
+from kineme.methods.base import Columns, Found, Leveled, Mirror, Preset, Progress, time_stages
 from kineme.methods.prepare import Prepared, RecordedSpan, prepare_motion, prepare_signals
 from kineme.methods.presets import DEFAULT, resolve_preset
-from kineme.methods.stages import Progress, time_stages
 from kineme.recordings import Motion, Signals
 from kineme.recordings.samples import as_signals
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail

@@ -30,8 +30,12 @@ from kineme.features.effectors import Names
 from kineme.features.similarity import compare_frames
 from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
-from kineme.segments.colors import NO_CLUSTER, choose_label_colors, get_cluster_color
-from kineme.segments.html import get_segment_color
+from kineme.segments.html import (
+    NO_CLUSTER,
+    choose_label_colors,
+    get_cluster_color,
+    get_segment_color,
+)
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 

@@ -8,6 +8,8 @@ is removed.
 By default the table of ``squats.mp4`` is ``squats.mp4.poses.parquet`` beside it, or in the user's
 cache if that folder cannot be written. It holds the digest of the video: if the video changes, its
 poses are estimated again.
+
+@@video: Read videos as recordings: the first reading estimates the poses of the people in them.
 """
 
 from __future__ import annotations
@@ -25,7 +27,15 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import check_path, is_number
-from kineme._util.files import POSES, AnyPath, atomic_write, is_locked, lock_shared, refuse_link
+from kineme._util.files import (
+    POSES,
+    VIDEOS,
+    AnyPath,
+    atomic_write,
+    is_locked,
+    lock_shared,
+    refuse_link,
+)
 from kineme._util.parallel import announce, check_cancelled
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
 from kineme.formats.channels.parquet import open_parquet
@@ -37,11 +47,16 @@ from kineme.formats.keypoints.poses import (
     find_poses,
     make_row_type,
     parse_head,
+    poses_to_motion,
+    read_poses,
     write_poses,
 )
+from kineme.formats.options import ReadOptions
+from kineme.formats.registry import Format
 from kineme.pose.camera import CameraWatch
 from kineme.pose.decoding import Frame, OpenVideo, open_video
 from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator, choose_estimator
+from kineme.recordings import Motion
 
 ProgressCallback = Callable[[float | None, float], None]
 """Receives the share of the video that is done (None if unknown) and the frames per second."""
@@ -313,3 +328,22 @@ def _parse_part(part: Path, keypoints: int) -> tuple[Head, Rows, int]:
         head = {}
     dtype = make_row_type(keypoints)
     return head, np.frombuffer(rest, dtype, len(rest) // dtype.itemsize), len(line) + 1
+
+
+_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free")
+_EBML = b"\x1a\x45\xdf\xa3"  # Matroska and WebM
+
+
+def read_video(content: FileContent, options: ReadOptions) -> Motion:
+    """Return the motion of one person in a video; estimate its poses unless they are there."""
+    poses = read_poses(keep_poses(content))
+    return poses_to_motion(content, poses, options)
+
+
+def begins_video(head: bytes) -> bool:
+    """Return whether a file starts like MP4, QuickTime, Matroska, WebM or AVI."""
+    is_avi = head.startswith(b"RIFF") and head[8:12] == b"AVI "
+    return head[4:8] in _BOXES or head.startswith(_EBML) or is_avi
+
+
+FORMAT = Format("video", VIDEOS, begins_video, read_video, is_video=True)

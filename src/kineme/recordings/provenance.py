@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, Self
 
 from kineme._util.arrays import Floats
-from kineme.recordings.clock import Clock
+from kineme.recordings.times import Clock
 
 Severity = Literal["info", "warning"]
 

@@ -27,8 +27,8 @@ from kineme._util.arrays import Floats, Ints, Masks
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import find_spans
-from kineme.recordings.clock import Clock, is_unix_time
 from kineme.recordings.provenance import Note
+from kineme.recordings.times import Clock, is_unix_time
 
 LONGEST_S = 0.2
 """Longest hole that is filled, in seconds."""

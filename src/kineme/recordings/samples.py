@@ -14,12 +14,11 @@ from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, find_spans
-from kineme.recordings.channel_names import is_channel_name
-from kineme.recordings.clock import Clock
+from kineme.recordings.coordinates import is_channel_name
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
-from kineme.recordings.times import UNITS_NAMED, as_seconds, find_time_unit, is_rate, is_time
+from kineme.recordings.times import UNITS_NAMED, Clock, as_seconds, find_time_unit, is_rate, is_time
 
 ASSUMED_FPS = 30.0
 """Default rows per second if neither data nor caller tell the rate."""

@@ -27,11 +27,11 @@ from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.web.curves import as_recording, make_report_curves
 from kineme.web.cycle_curves import CycleCurves
+from kineme.web.display import describe_video, draw_picture
 from kineme.web.encoding import to_json
 from kineme.web.matrix import make_report_tiles
 from kineme.web.messages import Recording, ReportCurves
 from kineme.web.page_data import PageData, Shown, make_page_data, make_recording_message
-from kineme.web.video import describe_video, draw_picture
 
 SUFFIXES = (".html", ".htm")
 

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.checks import check_type, format_count, is_number, is_one_of
 from kineme._util.json import convert_json, find_fault
 from kineme.errors import ParameterError
-from kineme.recordings.clock import Clock
+from kineme.recordings.times import Clock
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.table import (

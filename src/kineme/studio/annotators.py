@@ -18,7 +18,7 @@ from pathlib import Path
 from kineme.errors import KinemeError, ParameterError
 from kineme.labels.collections import LabelSource, find_labels
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
+from kineme.studio.storage.sidecars import ListedRecording, make_file_id
 from kineme.studio.storage.tables import find_table_path
 from kineme.web.annotator_messages import (
     Agreement,

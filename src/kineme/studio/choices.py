@@ -15,7 +15,7 @@ from msgspec import UNSET
 from kineme.errors import ParameterError
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, Constant, resolve_preset
-from kineme.methods.constants import Slider
+from kineme.methods.base import Slider
 from kineme.methods.levels import DETAILS
 from kineme.methods.presets import DEFAULT
 from kineme.segments.hierarchy import DEFAULT_DETAIL

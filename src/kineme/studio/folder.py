@@ -16,8 +16,7 @@ from kineme.formats.listing import drop_duplicates, holds_recording, list_files
 from kineme.labels import holds_labels
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.overview import read_brief
-from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
-from kineme.studio.storage.sidecars import list_recordings
+from kineme.studio.storage.sidecars import ListedRecording, list_recordings, make_file_id
 from kineme.studio.storage.tables import find_table_path, list_default_table_paths
 
 

@@ -27,15 +27,14 @@ from kineme.formats import ReadOptions
 from kineme.labels import read_segments
 from kineme.library import Example, Library
 from kineme.library.edits import read_edits
-from kineme.library.searching import Named
-from kineme.library.storage.layout import EDITS, HEAD
-from kineme.library.storage.places import is_remote
+from kineme.library.finding import Named
+from kineme.library.storage.layout import EDITS, HEAD, is_remote
 from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import Folder, count_progress
-from kineme.studio.library_history import LibraryHistory
 from kineme.studio.library_tables import (
+    LibraryHistory,
     LibraryTables,
     apply_library_clusters,
     match_library_clusters,
@@ -43,7 +42,7 @@ from kineme.studio.library_tables import (
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
 from kineme.studio.recording_cache import read_stamp
-from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
+from kineme.studio.storage.sidecars import ListedRecording, make_file_id
 from kineme.studio.storage.tables import find_table_path
 from kineme.web.library_messages import (
     CallCluster,

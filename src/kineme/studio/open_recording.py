@@ -26,17 +26,23 @@ from kineme.segments.editing.carrying import count_names
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import FileLookup, apply_edit
+from kineme.studio.jobs import Run
 from kineme.studio.loading import LoadedRecording, get_digest
 from kineme.studio.recording_cache import RecordingCache
-from kineme.studio.running import Run
-from kineme.studio.storage.journal import Change, Journal
-from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from kineme.studio.storage.sidecars import (
+    ListedRecording,
     list_sidecar_problems,
+    make_file_id,
     make_video_message,
     read_saved_options,
 )
-from kineme.studio.storage.tables import ChangedOnDiskError, TableFile, find_saved_table
+from kineme.studio.storage.tables import (
+    Change,
+    ChangedOnDiskError,
+    Journal,
+    TableFile,
+    find_saved_table,
+)
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 

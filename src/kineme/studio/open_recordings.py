@@ -18,13 +18,13 @@ from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import make_repeat_request
 from kineme.studio.folder import Folder
+from kineme.studio.jobs import IDLE, READING
+from kineme.studio.loading import SKETCH_REVISION, Sketch, Sketcher
 from kineme.studio.open_recording import STILL_FINDING, OpenRecording
 from kineme.studio.overview import read_brief, summarize_table
 from kineme.studio.reader import Reader
 from kineme.studio.recording_cache import RecordingCache
-from kineme.studio.running import IDLE, READING
-from kineme.studio.sketches import SKETCH_REVISION, Sketch, Sketcher
-from kineme.studio.storage.listed_recording import ListedRecording
+from kineme.studio.storage.sidecars import ListedRecording
 from kineme.studio.storage.tables import find_table_path
 from kineme.web.messages import (
     BriefTable,

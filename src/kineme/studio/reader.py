@@ -9,8 +9,8 @@ from kineme.errors import SeveralPeopleError
 from kineme.formats import ReadOptions
 from kineme.studio.folder import Folder
 from kineme.studio.recording_cache import RecordingCache
-from kineme.studio.storage.listed_recording import ListedRecording
 from kineme.studio.storage.sidecars import (
+    ListedRecording,
     read_saved_options,
     read_saved_reading,
     resolve_read_options,

@@ -11,9 +11,8 @@ from kineme.errors import ReadError
 from kineme.formats import ReadOptions, list_people, read_analog, read_quietly
 from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
-from kineme.studio.poses import require_poses
-from kineme.studio.storage.listed_recording import ListedRecording
-from kineme.studio.storage.sidecars import resolve_read_options
+from kineme.studio.jobs import require_poses
+from kineme.studio.storage.sidecars import ListedRecording, resolve_read_options
 
 if TYPE_CHECKING:
     from kineme.recordings import Motion, Signals

@@ -38,12 +38,13 @@ from kineme.studio.http.bodies import (
     read_chunks,
 )
 from kineme.studio.http.events import Hub
+from kineme.studio.jobs import PoseQueue, lacks_estimator, needs_poses
+from kineme.studio.loading import SKETCH_REVISION
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.open_recordings import OpenRecordings, UnknownError
-from kineme.studio.poses import PoseQueue, lacks_estimator, needs_poses
-from kineme.studio.sketches import SKETCH_REVISION
-from kineme.studio.storage.listed_recording import ListedRecording, make_file_id
 from kineme.studio.storage.sidecars import (
+    ListedRecording,
+    make_file_id,
     read_shared_labels,
     write_shared_labels,
     write_video_offset,

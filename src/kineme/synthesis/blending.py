@@ -24,7 +24,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_type, format_count
 from kineme.errors import EndEffectorError, ParameterError
 from kineme.features import end_effectors
-from kineme.features.feet import find_low_and_slow
+from kineme.features.effectors import find_low_and_slow
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.arrays import find_spans
 from kineme.recordings.kinematics import (

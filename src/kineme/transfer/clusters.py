@@ -38,7 +38,7 @@ from threadpoolctl import threadpool_limits
 from kineme._util.arrays import Float32s, Floats, Ints
 from kineme._util.parallel import map_threads
 from kineme.segments.table import SegmentTable
-from kineme.transfer.channel_samples import fit_units
+from kineme.transfer.embeddings import fit_units
 from kineme.transfer.subsequences import THRESHOLD, Searched
 
 FARTHEST = 1.0

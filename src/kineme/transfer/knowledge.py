@@ -1,7 +1,7 @@
 """Knowledge base: labelled primitives of any recordings, for label transfer.
 
 A primitive consists of its label, its source, and its matching features, fifteen
-per second (see `kineme.features.canonical.matching`). These are features of a
+per second (see `kineme.features.canonical`). These are features of a
 canonical body, so people, skeletons and frame rates may differ.
 
 A knowledge base is stored as one ``.npz``, a zip of plain numpy arrays without pickle:
@@ -43,7 +43,7 @@ from kineme._util.files import atomic_write, translate_read_errors
 from kineme._util.json import decode_json
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.features.canonical.matching import (
+from kineme.features.canonical import (
     FEATURE_DIMS,
     MATCHING_FPS,
     OFFSETS_S,
@@ -56,7 +56,7 @@ from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
-from kineme.transfer.matching import Primitives
+from kineme.transfer.subsequences import Primitives
 
 SCHEMA = "kineme.knowledge/2"
 KINDS = {

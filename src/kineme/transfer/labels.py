@@ -1,7 +1,7 @@
 """Label the primitives of a recording by a knowledge base.
 
 Every unlabelled primitive takes the label of its cheapest match (see
-`kineme.transfer.matching`), if that is cheap enough. Its confidence is the margin: 1 - cost / cost
+`kineme.transfer.subsequences`), if that is cheap enough. Its confidence is the margin: 1 - cost / cost
 of the next label, from 0 (equal costs) to 1.
 
 A recording that is too short has no activities to label. Its features are searched for each
@@ -25,12 +25,17 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats, check_flag, check_type, is_number
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import replace_rows
+from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
 from kineme.transfer.knowledge import FPS, KnowledgeBase, find_working_frames
-from kineme.transfer.matching import Primitives, compute_label_costs, number_movements
-from kineme.transfer.subsequences import THRESHOLD, search
+from kineme.transfer.subsequences import (
+    THRESHOLD,
+    Primitives,
+    compute_label_costs,
+    number_movements,
+    search,
+)
 
 Row = tuple[int, int, str]
 """Start, stop and label."""

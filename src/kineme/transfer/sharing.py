@@ -13,17 +13,11 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
 from kineme.errors import ParameterError
-from kineme.features.canonical.matching import MATCHING_FPS, compute_features_and_poses
+from kineme.features.canonical import MATCHING_FPS, compute_features_and_poses
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.segments.editing.rows import renumber_clusters
+from kineme.segments.editing.borders import renumber_clusters
 from kineme.segments.segmentation import Segmentation
-from kineme.transfer.channel_samples import (
-    ChannelSamples,
-    compute_channel_samples,
-    fit_units,
-    thin_samples,
-)
 from kineme.transfer.clusters import (
     CONSTANTS,
     ClusterSet,
@@ -36,7 +30,13 @@ from kineme.transfer.clusters import (
     link_clusters,
     list_spans,
 )
-from kineme.transfer.embeddings import embedding
+from kineme.transfer.embeddings import (
+    ChannelSamples,
+    compute_channel_samples,
+    embedding,
+    fit_units,
+    thin_samples,
+)
 from kineme.transfer.subsequences import THRESHOLD
 
 

@@ -187,7 +187,7 @@ class TableAtDetail(Struct, frozen=True, kw_only=True):
 
 
 class Picture(Struct, frozen=True, kw_only=True):
-    """Keypoints drawn over a video with this size in pixels; see `kineme.web.video`."""
+    """Keypoints drawn over a video with this size in pixels; see `kineme.web.display`."""
 
     width: int
     height: int

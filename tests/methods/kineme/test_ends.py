@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
-from kineme.methods.kineme.ends import Ends, fit_ends
+from kineme.methods.kineme.borders import Ends, fit_ends
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 from loops import make_swings

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
-from kineme.methods.kineme.found import KinemeFound
-from kineme.methods.kineme.pipeline import analyze
+from kineme.methods.kineme.pipeline import KinemeFound, analyze
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import resolve_preset

@@ -11,10 +11,10 @@ import kineme
 import naive
 from gestures import make_wandering, stack_features
 from kineme.datasets import random_recording
-from kineme.methods.kineme import _repeating_kernels as kernels
-from kineme.methods.kineme.found import KinemeFound
+from kineme.methods.kineme import _repetition_kernels as kernels
+from kineme.methods.kineme.pipeline import KinemeFound
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repeating import Repeating, measure_channel_energies
+from kineme.methods.kineme.repetitions import Repeating, measure_channel_energies
 
 seconds = settings(max_examples=60)
 FPS = round(KINEME.working_fps)

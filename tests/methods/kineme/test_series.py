@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.methods.kineme.series import estimate_period
+from kineme.methods.kineme.preset import estimate_period
 from kineme.recordings import Signals
 
 PERIOD, HALF = 40, 2000

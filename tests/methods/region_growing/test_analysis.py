@@ -16,8 +16,7 @@ from kineme.datasets import random_recording
 from kineme.errors import ParameterError
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import PUBLISHED, resolve_preset
-from kineme.methods.region_growing.analysis import analyze_regions
-from kineme.methods.region_growing.found import RegionsFound
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.warping import BASIC_STEPS
 

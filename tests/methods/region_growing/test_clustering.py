@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import naive
 from graphs import as_lists, flatten_paths, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
-from kineme.methods.region_growing.clustering import cluster_segments
+from kineme.methods.region_growing.activities import cluster_segments
 from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.methods.region_growing.warping import BASIC_STEPS, warping_paths
 

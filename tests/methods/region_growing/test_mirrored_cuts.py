@@ -14,9 +14,8 @@ from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
 from kineme.features import mirror, mirror_features
 from kineme.methods.prepare import compute_motion_features
-from kineme.methods.region_growing.analysis import analyze_regions
-from kineme.methods.region_growing.found import RegionsFound
-from kineme.methods.region_growing.mirroring import merge_cuts
+from kineme.methods.region_growing.activities import merge_cuts
+from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
 from kineme.methods.segmenter import segment_and_found
 

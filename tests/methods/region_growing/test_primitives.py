@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 import naive
 from graphs import as_lists, flatten_paths, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
+from kineme.methods.region_growing.activities import _choose_cuts, find_primitive_cuts
 from kineme.methods.region_growing.neighbors import neighbor_graph
-from kineme.methods.region_growing.primitives import _choose_cuts, find_primitive_cuts
 from kineme.methods.region_growing.warping import BASIC_STEPS, WarpingPaths, warping_paths
 
 seconds = settings(max_examples=60)

@@ -16,7 +16,7 @@ import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Labelling
 from kineme.evaluation.inputs import read_trials
-from kineme.features.rotations import compute_joint_quaternions, compute_log_maps
+from kineme.features.pose import compute_joint_quaternions, compute_log_maps
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines._kernels import (
     cheapest_lengths,

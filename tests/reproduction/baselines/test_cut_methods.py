@@ -15,7 +15,7 @@ import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import Comparison, Labelling, border_score
 from kineme.evaluation.inputs import read_trials
-from kineme.features.rotations import compute_joint_quaternions
+from kineme.features.pose import compute_joint_quaternions
 from kineme.methods import PRESETS
 from kineme_reproduction.baselines.gmm import gmm
 from kineme_reproduction.baselines.segments import Segments

@@ -11,8 +11,8 @@ MODULES = {
     "show": "kineme.cli.library.commands",
     "search": "kineme.cli.library.search",
     **dict.fromkeys(("name", "merge"), "kineme.cli.library.commands"),
-    "split": "kineme.cli.library.clips",
-    "coverage": "kineme.cli.library.clips",
+    "split": "kineme.cli.library.commands",
+    "coverage": "kineme.cli.library.commands",
     **dict.fromkeys(("query", "export"), "kineme.cli.library.commands"),
 }
 """Module of each command, in the order of the help."""

@@ -10,13 +10,11 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme._util.parallel import count_threads
+from kineme.cli.files import Batch
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, parse_path_or_url
-from kineme.cli.messages import Failures, format_line, print_skipped, show_progress
-from kineme.cli.options.declare import add_options, are_given
-from kineme.cli.options.inputs import Batch
-from kineme.cli.options.method import SEGMENTING
-from kineme.cli.options.reading import READING, Quiet
+from kineme.cli.options import READING, SEGMENTING, Quiet, add_options, are_given
+from kineme.cli.terminal import Failures, format_line, print_skipped, show_progress
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 
@@ -91,7 +89,7 @@ def build(
             start_fork_server()  # worker processes start while modules are imported
         from kineme.library.building import build as build_library
         from kineme.library.planning import change_sources
-        from kineme.library.storage.places import is_remote
+        from kineme.library.storage.layout import is_remote
 
         as_before = not are_given(context, OPTIONS)
         sources = change_sources(into, files or (), remove or ())

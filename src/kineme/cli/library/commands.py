@@ -1,6 +1,8 @@
 """``kineme library show``, ``query``, ``export``, ``name``, ``merge``.
 
 Each command opens the library in the argument ``LIB``.
+
+@@clips: ``kineme library split`` and ``coverage``: clips of all recordings, and their variety.
 """
 
 from __future__ import annotations
@@ -9,13 +11,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from json import dumps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
-from kineme.cli.messages import Failures, format_line
+from kineme.cli.options import CLIPS, add_options
+from kineme.cli.terminal import Failures, format_line
 
 if TYPE_CHECKING:
     from kineme.library import Library
@@ -29,7 +32,7 @@ MAX_ROWS = 1000
 def parse_path_or_url(text: str) -> Path:
     """Return a path or URL that the user typed."""
     from kineme.errors import KinemeError
-    from kineme.library.storage.places import make_path
+    from kineme.library.storage.layout import make_path
 
     try:
         return make_path(text)
@@ -218,3 +221,81 @@ def _format_cell(value: object) -> str:
     if value is None:
         return ""
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+@add_options(CLIPS)
+def split(
+    folder: Folder,
+    clip_options: dict[str, Any],
+    cluster: Annotated[
+        str | None, typer.Argument(help="Number or name of the cluster to split in two.")
+    ] = None,
+    recordings: Annotated[
+        list[str] | None,
+        typer.Argument(help="Names of the recordings in which it is another movement."),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        option(OUTPUT, "New folder for the best loops as clips.", "--output", "-o"),
+    ] = None,
+    best: Annotated[int, option(OUTPUT, "Largest number of loops per cluster.", min=1)] = 3,
+    per: Annotated[
+        Literal["cluster", "direction", "recording"],
+        option(
+            OUTPUT,
+            "Choose the best loops per cluster, or per direction or recording within each cluster.",
+        ),
+    ] = "cluster",
+) -> None:
+    """Write the best loops of each cluster, or split a cluster in two.
+
+    For example: kineme library split LIB --best 3 --per cluster -o loops. Near duplicates are left
+    out. With a cluster and recordings, the segments in these recordings move to a new cluster,
+    whose number is printed.
+    """
+    if cluster is not None:
+        if not recordings:
+            raise typer.BadParameter(
+                "name the recordings in which this cluster is another movement",
+                param_hint="RECORDINGS",
+            )
+        with open_library(folder) as library:
+            typer.echo(library.split(cluster, recordings))
+        return
+    target = output or Path(f"{folder.name}_loops")
+    with open_library(folder) as library:
+        clips = library.loops(target, best=best, per=per, **clip_options)
+        typer.echo(f"{format_count(len(clips), 'clip')} in {target}")
+
+
+def coverage(folder: Folder, json: Json = False) -> None:
+    """Show the directions, speeds and turns in each cluster."""
+    with open_library(folder) as library:
+        covered = library.coverage()
+        if json:
+            for row in covered:
+                typer.echo(dumps(row._asdict()))
+            return
+        from rich.text import Text
+
+        from kineme.cli.tables import format_cluster, make_table
+        from kineme.cli.terminal import Console
+
+        table = make_table(
+            "cluster", "label", "direction", "clips", "seconds", "m/s", "turn °", "starts", "stops"
+        )
+        for row in covered:
+            turns = [f"{row.left_deg:.0f} left"] * (row.left_deg >= 1)
+            turns += [f"{row.right_deg:.0f} right"] * (row.right_deg >= 1)
+            table.add_row(
+                format_cluster(row.cluster),
+                Text(row.label),
+                row.direction,
+                str(row.clips),
+                f"{row.seconds:.1f}",
+                f"{row.slowest_m_s:.1f}-{row.fastest_m_s:.1f}",
+                ", ".join(turns),
+                str(row.starts),
+                str(row.stops),
+            )
+        Console(highlight=False).print(table)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.checks import format_count
+from kineme.cli.files import make_parent_folder
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.library.commands import Folder, Json, Scheduler, open_library
-from kineme.cli.options.reading import Quiet
-from kineme.cli.options.targets import make_parent_folder
+from kineme.cli.options import Quiet
 
 if TYPE_CHECKING:
     from kineme.library import Example, Hit

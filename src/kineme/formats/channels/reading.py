@@ -10,7 +10,7 @@ MAT            vectors and columns of matrices that have the most frequent lengt
 ============== ==================================================================
 
 The frame rate comes from the file (its header, or a column ``time``, ``time_ms`` or ``fps``, see
-`kineme.formats.columns`) or from the user. Columns that count rows or hold no numbers are not
+`kineme.formats.points`) or from the user. Columns that count rows or hold no numbers are not
 channels; a note lists them. `kineme.recordings.regular` converts rows to frames.
 """
 
@@ -28,9 +28,9 @@ from kineme._util.arrays import Floats
 from kineme.errors import ParameterError
 from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
-from kineme.formats.timing import find_table_timing
+from kineme.formats.sniffing import find_table_timing
 from kineme.recordings import Signals
-from kineme.recordings.channel_names import is_channel_name
+from kineme.recordings.coordinates import is_channel_name
 from kineme.recordings.regular import Timing, fill_gaps_in_channels
 from kineme.recordings.times import NO_TIMES, name_clock
 

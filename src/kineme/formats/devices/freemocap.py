@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from kineme.formats.columns import columns_to_motion, list_joints
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
+from kineme.formats.points import columns_to_motion, list_joints
 from kineme.recordings import Motion
 
 _BODY = "body_"

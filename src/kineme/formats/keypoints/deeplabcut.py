@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kineme.formats.columns import columns_to_motion
 from kineme.formats.delimited import DelimitedText, split_cells
 from kineme.formats.dialects import Dialect
-from kineme.formats.options import ReadOptions
-from kineme.formats.persons import choose_person
+from kineme.formats.options import ReadOptions, choose_person
+from kineme.formats.points import columns_to_motion
 from kineme.recordings import Motion
 
 LIKELY = 0.6

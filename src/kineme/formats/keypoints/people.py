@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
-from kineme.formats.persons import choose_person
+from kineme.formats.options import choose_person
 
 Rows = NDArray[np.intp]
 

@@ -42,10 +42,10 @@ from kineme._util.parallel import find_user_cache
 from kineme.features.filters import filter_low
 from kineme.formats.channels.parquet import open_parquet, read_parquet_columns
 from kineme.formats.files import FileContent, load
-from kineme.formats.gaps import mark_gaps, split_at
 from kineme.formats.keypoints.people import Detections, track_people
 from kineme.formats.keypoints.video import MAX_FRAMES_RATIO, Person, Video, video_to_motion
 from kineme.formats.options import ReadOptions
+from kineme.formats.plausibility import mark_gaps, split_at
 from kineme.recordings import Motion, Note
 from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import place_rows

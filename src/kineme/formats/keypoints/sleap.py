@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme.formats.arrays.hdf5_file import SIGNATURE, collect_texts, parse_hdf5
+from kineme.formats.arrays.mat import SIGNATURE, collect_texts, parse_hdf5
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent

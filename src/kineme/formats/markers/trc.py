@@ -17,11 +17,11 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme.formats.delimited import DelimitedText, find_separator, replace_decimal_comma
 from kineme.formats.files import FileContent, clean_names, format_point_name, parse_numbers, save
-from kineme.formats.gaps import mark_gaps, split_at
 from kineme.formats.options import ReadOptions
+from kineme.formats.plausibility import mark_gaps, split_at
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
-from kineme.formats.timing import find_timing, place_points
+from kineme.formats.sniffing import find_timing, place_points
 from kineme.formats.units import parse_unit
 from kineme.recordings import Motion
 from kineme.recordings.regular import Timing

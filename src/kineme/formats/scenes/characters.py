@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from kineme._util.checks import join_names, make_unique
 from kineme.formats.files import FileContent
-from kineme.formats.persons import choose_person
+from kineme.formats.options import choose_person
 from kineme.recordings import Note
 
 MIN_SIZE_RATIO = 0.25

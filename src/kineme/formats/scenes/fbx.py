@@ -6,7 +6,7 @@ file's (``UnitScaleFactor``, ``UpAxis``). Meshes, cameras, lights and constraint
 that they move must be baked to keys on export.
 
 `kineme.formats.scenes.characters` defines characters, `kineme.formats.scenes.fbx_scene` transforms
-of joints, `kineme.formats.scenes.fbx_writer` what is written, and `kineme.formats.scenes.fbx_copy`
+of joints, `kineme.formats.scenes.fbx_writer` what is written, and `kineme.formats.scenes.fbx_writer`
 copies with other takes.
 """
 
@@ -22,12 +22,10 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import MIN_FRAME_MEMORY, assemble, require_frame_memory
 from kineme.formats.scenes.characters import choose_take, find_character, find_moving_takes
-from kineme.formats.scenes.fbx_copy import copy_takes
 from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
-from kineme.formats.scenes.fbx_file import MAGIC, parse_fbx
+from kineme.formats.scenes.fbx_file import MAGIC, TEXT, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
-from kineme.formats.scenes.fbx_text import TEXT
-from kineme.formats.scenes.fbx_writer import write_fbx, write_takes
+from kineme.formats.scenes.fbx_writer import copy_takes, write_fbx, write_takes
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.fbx_nodes import FBXNode
-from kineme.formats.scenes.sampling import find_keys
+from kineme.formats.scenes.assembly import find_keys
+from kineme.formats.scenes.fbx_file import FBXNode
 
 TICKS = 46_186_158_000
 """Ticks per second."""

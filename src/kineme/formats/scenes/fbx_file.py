@@ -12,21 +12,214 @@ since most belong to meshes.
 
 Source: the format is not published; A. Gessler and C. Barton, "FBX binary file format
 specification", Blender's developer blog, 2013, and files of various programs.
+
+@@fbx_nodes: Represent the nodes of an FBX file, binary or text: a tree of names and values.
+
+@@fbx_text: Parse FBX text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
+
+A semicolon starts a comment. Arrays are parsed on demand.
 """
 
 from __future__ import annotations
 
+import re
 import struct
 import zlib
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme.errors import ReadError
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.fbx_nodes import FBXNode, require_node_memory
-from kineme.formats.scenes.fbx_text import parse_text
+
+BYTES_PER_NODE = 600
+"""Bytes of memory of a node with a few values."""
+
+
+class StoredArray(Protocol):
+    """An array that is parsed on demand."""
+
+    def raw(self, content: FileContent) -> bytes:
+        """Return its bytes in the file."""
+        ...
+
+    def read(self, content: FileContent) -> NDArray[Any]: ...
+
+
+@dataclass(slots=True)
+class FBXNode:
+    """A node whose values are numbers, texts, bytes or arrays in the file.
+
+    ``start`` and ``stop`` are its offsets in a binary file, else 0.
+    """
+
+    name: str
+    values: list[Any] = field(default_factory=list)
+    children: list[FBXNode] = field(default_factory=list)
+    start: int = 0
+    stop: int = 0
+
+    def child(self, name: str) -> FBXNode | None:
+        """Return the first child of this name, or None."""
+        return next(self.all(name), None)
+
+    def all(self, name: str) -> Iterator[FBXNode]:
+        return (child for child in self.children if child.name == name)
+
+    def number(self, index: int, default: float = 0.0) -> float:
+        """Return a value as a number, ``default`` if it is not one."""
+        value = self.values[index] if index < len(self.values) else None
+        return value if isinstance(value, int | float) else default
+
+    def text(self, index: int) -> str:
+        value = self.values[index] if index < len(self.values) else None
+        return value if isinstance(value, str) else ""
+
+    def stored(self, child: str) -> StoredArray | None:
+        """Return the unparsed array in a child, None if there is none."""
+        node = self.child(child)
+        value = node.values[0] if node and node.values else None
+        if value is None or isinstance(value, str | bytes | int | float):
+            return None
+        stored: StoredArray = value
+        return stored
+
+    def array(self, content: FileContent, child: str) -> NDArray[Any] | None:
+        """Return the array in a child, None if there is none."""
+        stored = self.stored(child)
+        return None if stored is None else stored.read(content)
+
+
+def require_node_memory(content: FileContent, count: int) -> None:
+    """Raise ReadError if so many nodes need more memory than the file can plausibly need."""
+    if count % 1000 == 0:  # checking each node would be slow
+        content.require_memory(BYTES_PER_NODE * count, f"{count} nodes")
+
+
+TEXT = re.compile(rb"^(\xef\xbb\xbf)?\s*;\s*FBX\s+\d|^FBXHeaderExtension\s*:", re.MULTILINE)
+
+_TOKEN = re.compile(
+    rb"""\s*+ (?: ; [^\n]*+ \s*+ )*+ (?:
+    (?P<text> "[^"]*" ) | (?P<name> [^\s,{}":;*]++ ) [ \t]*+ : | (?P<mark> [{},] ) |
+    \* (?P<count> \d+ ) | (?P<word> [^\s,{}":;*]+ ) )""",
+    re.VERBOSE,
+)
+_ARRAY = re.compile(rb"\s*\{\s*a\s*:")
+_ESCAPES = ((b"&quot;", b'"'), (b"&lf;", b"\n"), (b"&cr;", b"\r"))
+_BOM = b"\xef\xbb\xbf"
+_MAX_DIGITS = 40  # of a number
+
+
+def parse_text(content: FileContent) -> FBXNode:
+    """Return the nodes of a text, below one without a name."""
+    return _TextParser(content).root
+
+
+class _TextParser:
+    """Parse one token after another."""
+
+    def __init__(self, content: FileContent) -> None:
+        self.content = content
+        # Offsets count bytes, so the text stays bytes.
+        self.data = content.text.encode("utf-8") if content.is_utf16 else content.data
+        self.root = FBXNode("")
+        self.open_nodes = [self.root]
+        self.node: FBXNode | None = None  # the node whose values are being read
+        self.count = 0
+        self.offset = len(_BOM) if self.data.startswith(_BOM) else 0
+        while match := _TOKEN.match(self.data, self.offset):
+            self.offset = match.end()
+            self._parse_token(match)
+        if self.data[self.offset :].strip():
+            raise self._make_error(
+                f"{self.data[self.offset : self.offset + 40].strip()!r} is not FBX", self.offset
+            )
+        if len(self.open_nodes) > 1:
+            raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
+
+    def _make_error(self, reason: str, offset: int) -> ReadError:
+        # Count lines only when a message needs them.
+        return self.content.error(reason, self.data.count(b"\n", 0, offset) + 1)
+
+    def _parse_token(self, match: re.Match[bytes]) -> None:
+        kind = match.lastgroup or ""
+        value, offset = match[kind], match.start(kind)
+        if kind == "name":
+            self.node = FBXNode(value.decode("utf-8", "replace"))
+            self.open_nodes[-1].children.append(self.node)
+            self.count += 1
+            require_node_memory(self.content, self.count)
+        elif value == b"}" and kind == "mark":
+            if len(self.open_nodes) == 1:
+                raise self._make_error("there is one '}' too many", offset)
+            self.open_nodes.pop()
+            self.node = None
+        elif self.node is None:
+            raise self._make_error(f"a name expected, found {value[:40]!r}", offset)
+        elif value == b"{" and kind == "mark":
+            self.open_nodes.append(self.node)
+            self.node = None
+        elif kind == "count":
+            self.node.values.append(self._parse_array(value))
+            self.node = None
+        elif kind == "text":
+            self.node.values.append(_unquote(value))
+        elif kind == "word":
+            self.node.values.append(_parse_word(value))
+
+    def _parse_array(self, count: bytes) -> _TextArray:
+        """Return the array that starts here, and skip it."""
+        start, stop = _ARRAY.match(self.data, self.offset), self.data.find(b"}", self.offset)
+        if start is None or stop < 0:
+            raise self._make_error("an array without its numbers", self.offset)
+        array = _TextArray(int(count[:_MAX_DIGITS]), self.data, start.end(), stop)
+        self.offset = stop + 1
+        return array
+
+
+def _unquote(quoted: bytes) -> str:
+    raw = quoted[1:-1]
+    for escape, letter in _ESCAPES:
+        raw = raw.replace(escape, letter)
+    return raw.decode("utf-8", "replace")
+
+
+def _parse_word(word: bytes) -> int | float | str:
+    for number in (int, float):
+        try:
+            # Limit the digits: converting millions of them takes long.
+            return number(word[:_MAX_DIGITS])
+        except ValueError:
+            continue
+    return word.decode("utf-8", "replace")
+
+
+@dataclass(slots=True)
+class _TextArray:
+    """An array in a text file, parsed on demand."""
+
+    count: int
+    data: bytes
+    start: int
+    stop: int
+
+    def raw(self, _: FileContent) -> bytes:
+        return self.data[self.start : self.stop]
+
+    def read(self, content: FileContent) -> NDArray[Any]:
+        words = self.raw(content).split(b",")
+        line = self.data.count(b"\n", 0, self.start) + 1
+        try:
+            values = np.array(words, np.float64) if words != [b""] else np.empty(0)
+        except ValueError:
+            raise content.error("an array contains a value that is not a number", line) from None
+        if len(values) != self.count:
+            raise content.error(f"{len(values)} numbers in an array of {self.count}", line)
+        return values
+
 
 MAGIC = b"Kaydara FBX Binary  \x00"
 

@@ -36,7 +36,7 @@ from kineme.formats.files import FileContent
 from kineme.formats.scenes.assembly import Inheritance, Transform, compose, decompose
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
-from kineme.formats.scenes.fbx_nodes import FBXNode
+from kineme.formats.scenes.fbx_file import FBXNode
 from kineme.formats.units import iterate_blocks
 
 BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})

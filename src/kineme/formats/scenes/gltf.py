@@ -30,6 +30,7 @@ from kineme.formats.scenes.assembly import (
     Transform,
     assemble,
     decompose,
+    find_keys,
     require_frame_memory,
 )
 from kineme.formats.scenes.characters import (
@@ -40,10 +41,8 @@ from kineme.formats.scenes.characters import (
     is_end,
     list_ancestors,
 )
-from kineme.formats.scenes.gltf_copy import copy_animations
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
-from kineme.formats.scenes.gltf_writer import EXTRAS, write_animations, write_gltf
-from kineme.formats.scenes.sampling import find_keys
+from kineme.formats.scenes.gltf_writer import EXTRAS, copy_animations, write_animations, write_gltf
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 

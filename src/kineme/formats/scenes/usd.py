@@ -8,6 +8,12 @@ animation does not move are at rest. Needs ``usd-core``.
 The file is read in a separate process, since the library may crash, hang or print on damaged files.
 
 Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
+
+@@usd_layers: Open USD stages, with limits on the layers they may include and on their size.
+
+A layer includes others by sublayers, references and payloads. Only files in the folder of the main
+file are allowed. References to prims with references multiply, so their number is checked before a
+stage is composed.
 """
 
 from __future__ import annotations
@@ -18,6 +24,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -30,7 +37,7 @@ from kineme._util.checks import make_unique, require_extra
 from kineme._util.files import translate_read_errors
 from kineme._util.rotations import from_matrices
 from kineme.errors import KinemeError, ReadError
-from kineme.formats.files import FileContent, load
+from kineme.formats.files import MAX_EXPANSION, FileContent, find_sibling, load
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
@@ -40,10 +47,120 @@ from kineme.formats.scenes.assembly import (
     require_frame_memory,
 )
 from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
-from kineme.formats.scenes.usd_layers import SUFFIXES, TIMEOUT_S, open_stage
 from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
+
+SUFFIXES = (".usda", ".usdc", ".usd")
+
+MAX_REFERENCES = 100_000
+"""Maximum number of prims included by references; this many take a second and 200 MB."""
+
+MAX_SUBLAYERS = 1000
+
+MIN_STAGE_MEMORY = 1 << 30
+"""Bytes of memory that composing any stage may use."""
+
+TIMEOUT_S = 300.0
+"""Seconds that reading a file may take."""
+
+
+def open_stage(content: FileContent) -> tuple[Any, int]:
+    """Open the stage of a file; return it and the size in bytes of the other layers.
+
+    Raise ReadError if it includes a file outside its folder, or too much.
+    """
+    from pxr import Usd
+
+    layers, other_size = _load_layers(content)
+    _check_sublayers(content, layers)
+    _check_growth(content, layers[0])
+    return Usd.Stage.Open(layers[0]), other_size
+
+
+def _load_layers(content: FileContent) -> tuple[list[Any], int]:
+    """Load the layer of a file and all it includes; return them and the size of the others.
+
+    Missing layers are removed with a warning, since the library would search elsewhere for them.
+    """
+    from pxr import Sdf
+
+    layers: dict[str, Any] = {}
+    waiting, size = [os.path.abspath(content.path)], 0  # noqa: PTH100 (links are kept)
+    while waiting:
+        path = waiting.pop()
+        if path in layers:
+            continue
+        size += Path(path).stat().st_size
+        _limit_process(size)
+        layers[path] = layer = Sdf.Layer.FindOrOpen(path)
+        for name in filter(None, layer.GetCompositionAssetDependencies()):
+            plain, _ = Sdf.Layer.SplitIdentifier(name)
+            # Like the library, resolve ".." in the text, regardless of links.
+            target = os.path.normpath(Path(path).parent / plain)
+            file = find_sibling(content, target)
+            if file.is_file() and file.suffix.lower() in SUFFIXES:
+                waiting.append(target)
+            else:
+                layer.UpdateCompositionAssetDependency(name, "")
+                content.warn(f"the layer {name!r:.60} is missing or not USD, so it is left out")
+    return list(layers.values()), size - len(content.data)
+
+
+def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
+    """Raise ReadError if nested sublayers combine too many layers."""
+    from pxr import Sdf
+
+    for layer in layers:
+        stack = [layer]
+        # The list grows during the loop.
+        for sublayer in stack:
+            stack += [
+                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
+            ]
+            if len(stack) > MAX_SUBLAYERS:
+                raise content.error(f"its sublayers expand to more than {MAX_SUBLAYERS}")
+
+
+def _check_growth(content: FileContent, layer: Any) -> None:
+    """Raise ReadError if references include too much, or values are in clips (other files)."""
+    from pxr import Pcp, Sdf
+
+    cache = Pcp.Cache(Pcp.LayerStackIdentifier(layer), "usd", True)
+    waiting, n_included = [Sdf.Path.absoluteRootPath], 0
+    while waiting:
+        path = waiting.pop()
+        if path.IsPrimPath():
+            cache.RequestPayloads([path], [])
+        index, _ = cache.ComputePrimIndex(path)
+        if any(spec.HasInfo("clips") for spec in index.primStack):
+            raise content.error("has its animation in value clips: flatten the stage first")
+        nodes = list(index.rootNode.children)  # one per target of a reference
+        while nodes:
+            nodes += nodes.pop().children
+            n_included += 1
+            if n_included > MAX_REFERENCES:
+                raise content.error(
+                    f"its references expand to more than {MAX_REFERENCES} prims: export the "
+                    "character by itself"
+                )
+        waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]
+
+
+def _limit_process(size: int) -> None:
+    """Limit this process to the memory that layers of this size may use."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
+    # A limit of 0 for core files: none is written if the process crashes.
+    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
+        soft, hard = resource.getrlimit(limit)
+        wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
+        with suppress(OSError, ValueError):  # some systems do not allow this limit
+            resource.setrlimit(limit, (wanted, hard))
+
 
 CENTIMETRE = 0.01
 """Metres: the default unit of stages."""

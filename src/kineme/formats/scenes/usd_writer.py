@@ -20,7 +20,7 @@ from kineme._util.checks import make_unique, require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import WriteError
 from kineme.formats.files import clean_names, require_rotations
-from kineme.formats.gaps import warn_of_gaps
+from kineme.formats.plausibility import warn_of_gaps
 from kineme.formats.scenes.assembly import compose
 from kineme.recordings import Motion
 from kineme.recordings.posing import get_rig, pose_rig

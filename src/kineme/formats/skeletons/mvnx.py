@@ -22,8 +22,7 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.files import NoEntities
 from kineme.formats.files import FileContent
-from kineme.formats.options import ReadOptions
-from kineme.formats.persons import choose_person
+from kineme.formats.options import ReadOptions, choose_person
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.placing import build_motion
 from kineme.formats.units import to_metres, turn_upright

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 from kineme.errors import ParameterError
-from kineme.methods.base import RATE, Preset, Unit
-from kineme.methods.constants import (
+from kineme.methods.base import (
     FACTOR,
     LENGTH,
+    RATE,
     SHARE,
     SOME,
     SOME_FACTOR,
@@ -23,6 +23,8 @@ from kineme.methods.constants import (
     SOME_TIME,
     TIME,
     Limits,
+    Preset,
+    Unit,
     constant,
 )
 

@@ -24,11 +24,15 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
-from kineme.methods.kineme._repeating_kernels import ROUGH
-from kineme.methods.kineme._repetition_kernels import sample_repetitions
-from kineme.methods.kineme.ends import fit_edges
-from kineme.methods.kineme.repeating import SPAN, score_one_movement
-from kineme.methods.kineme.repetitions import PLACES, find_repetitions, trace_movement
+from kineme.methods.kineme._repetition_kernels import ROUGH, sample_repetitions
+from kineme.methods.kineme.borders import fit_edges
+from kineme.methods.kineme.repetitions import (
+    PLACES,
+    SPAN,
+    find_repetitions,
+    score_one_movement,
+    trace_movement,
+)
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:

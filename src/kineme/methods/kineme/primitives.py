@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
-from kineme.methods.kineme import _repeating_kernels as kernels
+from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
-from kineme.methods.kineme.ends import fit_ends
+from kineme.methods.kineme.borders import fit_ends
 from kineme.methods.kineme.events import Occurrences, find_occurrences
 from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions, trace_movement

@@ -39,7 +39,7 @@ from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
-    from kineme.methods.kineme.repeating import Repeating
+    from kineme.methods.kineme.repetitions import Repeating
 
 Rows = NDArray[np.float32]
 Samples = NDArray[np.int64]

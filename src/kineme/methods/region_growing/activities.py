@@ -10,17 +10,60 @@ or it is scanned line by line (2017).
 
 Sources: Vögele, Krüger and Klein 2014, section 3.1, figure 2; Krüger et al.
 2017; constants and details as in the authors' program.
+
+@@primitives: Find primitives: the repetitions inside an activity.
+
+Every repetition of an activity appears as a minor diagonal in the self-similarity
+matrix: a connected component of the neighbour graph, with a cheapest warping path
+through it. A repetition begins at the column where such a path meets the first rows
+of the activity.
+
+Sources: Vögele, Krüger and Klein 2014, section 3.2, figure 3; Krüger et al.
+2017 and the authors' program for the choice between close cuts.
+
+@@clustering: Cluster segments that match each other, anywhere in the recording.
+
+A segment g is linked to a segment h if a warping path through the rows of g
+covers enough of both. Clusters are the connected components of these links, so
+their number is a result and not a parameter.
+
+Sources: Vögele, Krüger and Klein 2014, section 4; coverage and strong
+components as in the authors' program and Krüger et al. 2017.
+
+@@mirroring: Find mirrored cuts: starts of repetitions with left and right exchanged.
+
+A step with the right foot is similar to the mirrored step with the left. So warping
+paths between mirrored and original frames divide double steps into left and right ones.
+Activities and clusters do not use them.
+
+The symmetry of an activity follows from the positions of its mirrored paths:
+
+- ``symmetric``: on the other paths; left and right do the same at once (squats);
+- ``alternating``: between the other paths; left and right take turns (walking);
+- ``one-sided``: in less than half of the frames; the sides differ (punches with one
+  arm). Limitations: long rests between kicks count as symmetric, and a limp larger
+  than the radius as one-sided.
+
+Source: Krueger et al. 2017, section V. There the type of symmetry decides which
+cuts are added. The authors' program and this module decide for each cut.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
+from kineme._util.parallel import map_threads
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import NeighborGraph
+from kineme.methods.region_growing.warping import Step, WarpingPaths, warping_paths
+from kineme.methods.segments import number_by_appearance
 
 Cuts = NDArray[np.int64]
 
@@ -116,3 +159,229 @@ def _find_peaks(counts: Cuts, min_height: int, min_distance: int) -> Cuts:
         if all(abs(peak - other) > min_distance for other in kept):
             kept.append(int(peak))
     return np.array(sorted(kept), np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class PrimitiveCuts:
+    """Starts of repetitions inside one activity, and the warping paths that give them.
+
+    ``cuts[i]`` is the start of path ``sources[i]``.
+    """
+
+    cuts: NDArray[np.int64]
+    sources: NDArray[np.int64]
+    paths: WarpingPaths
+
+
+def find_primitive_cuts(
+    graph: NeighborGraph,
+    activity: tuple[int, int],
+    *,
+    steps: Sequence[Step],
+    skip_penalty: float,
+    zero_cost: float,
+    min_nodes: int,
+    separation: int | None,
+    max_slope: float,
+    symmetry: float,
+    min_length: float,
+) -> PrimitiveCuts:
+    """Find the frames at which repetitions start inside an activity, ascending.
+
+    Parameters
+    ----------
+    graph : NeighborGraph
+        With the main diagonal.
+    activity : (int, int)
+        (first, last), both inclusive; neighbouring activities share the border frame.
+    steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
+        As in `kineme.methods.region_growing.warping.warping_paths`.
+    symmetry : float
+        Share of a path's rows and columns that another path (or itself) must match with rows and
+        columns exchanged (symmetry coherence).
+    min_length : float
+        Frames; cuts closer than this to a border of the activity are dropped. Of two cuts closer
+        than this, the one with the shorter path is dropped.
+    """
+    first, last = activity
+    # Rows and columns have the same box: the activity is compared with itself.
+    box = (first, last + 1)
+    paths = warping_paths(
+        graph,
+        box,
+        box,
+        steps=steps,
+        skip_penalty=skip_penalty,
+        zero_cost=zero_cost,
+        min_nodes=min_nodes,
+        separation=separation,
+    )
+    coherent = _kernels.mark_coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
+    paths = paths.select(coherent & paths.is_within_slope(max_slope))
+    return _choose_cuts(paths, first + min_length, last - min_length, min_length)
+
+
+def _choose_cuts(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:
+    starts = paths.starts[1].astype(np.int64)
+    cuts: list[int] = []
+    sources: list[int] = []
+    # Longest path first, so that of close cuts the one with the longer path is kept.
+    for p in np.argsort(-paths.n_nodes, kind="stable"):
+        cut = int(starts[p])
+        if low <= cut <= high and all(abs(cut - other) >= min_length for other in cuts):
+            cuts.append(cut)
+            sources.append(int(p))
+    # Sort cuts and their paths by frame.
+    order = np.argsort(cuts)
+    return PrimitiveCuts(np.array(cuts, np.int64)[order], np.array(sources, np.int64)[order], paths)
+
+
+@dataclass(frozen=True, eq=False)
+class Clustering:
+    """Cluster and score of each segment.
+
+    ``labels[g]`` is the cluster of segment g, numbered from 0 by appearance.
+    ``scores[g]`` is the largest share of g and another segment of its cluster
+    that a path covers; 0 if g is alone.
+    """
+
+    labels: NDArray[np.int64]
+    scores: NDArray[np.float64]
+
+
+def cluster_segments(
+    graph: NeighborGraph,
+    borders: NDArray[np.int64],
+    *,
+    steps: Sequence[Step],
+    skip_penalty: float,
+    zero_cost: float,
+    min_nodes: int,
+    separation: int | None,
+    max_slope: float,
+    coverage: float,
+    interpolate: bool,
+    connection: Literal["weak", "strong"],
+) -> Clustering:
+    """Group the segments that are linked by warping paths.
+
+    Parameters
+    ----------
+    graph : NeighborGraph
+        With the main diagonal.
+    borders : ndarray of shape (segments + 1,)
+        Ascending frames; segment g is ``borders[g]..borders[g + 1]``, both inclusive.
+    steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
+        As in `kineme.methods.region_growing.warping.warping_paths`.
+    coverage : float
+        Share of both segments that a path must cover.
+    interpolate : bool
+        Count the rows of a path between the borders of h (2017), or all of them (2014).
+    connection : {"weak", "strong"}
+        Links in one direction suffice (weak), or links in both directions are needed (strong).
+    """
+    n = len(borders) - 1
+
+    # Rows are those of segment g, columns those of the whole recording.
+    def find_links(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        paths = warping_paths(
+            graph,
+            (int(borders[g]), int(borders[g + 1]) + 1),
+            (0, graph.n_columns),
+            steps=steps,
+            skip_penalty=skip_penalty,
+            zero_cost=zero_cost,
+            min_nodes=min_nodes,
+            separation=separation,
+            max_slope=max_slope,
+        )
+        linked: tuple[NDArray[np.int64], NDArray[np.float64]] = _kernels.find_linked_segments(
+            paths.ptr, paths.rows, paths.columns, borders, g, coverage, interpolate
+        )
+        return linked
+
+    targets, shares = zip(*map_threads(find_links, range(n)), strict=True)
+    links = _make_link_matrix(targets, shares)
+    _, components = connected_components(links, directed=True, connection=connection)
+    return Clustering(number_by_appearance(components), _find_best_shares(links, components))
+
+
+def _make_link_matrix(
+    targets: Sequence[NDArray[np.int64]], shares: Sequence[NDArray[np.float64]]
+) -> csr_array:
+    """Return a sparse matrix of the largest share of each ordered pair of different segments."""
+    n = len(targets)
+    # Row of each link: the segment whose paths were searched.
+    g = np.repeat(np.arange(n), [len(linked) for linked in targets])
+    h, share = np.concatenate(targets), np.concatenate(shares)
+    # Sort by pair, the largest share first.
+    order = np.lexsort((-share, h, g))
+    g, h, share = g[order], h[order], share[order]
+    keep = g != h
+    # Keep the first of each pair, which is the largest.
+    keep[1:] &= (np.diff(g) != 0) | (np.diff(h) != 0)
+    return csr_array((share[keep], (g[keep], h[keep])), shape=(n, n))
+
+
+def _find_best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
+    coo = links.tocoo()
+    same = components[coo.row] == components[coo.col]
+    # Both segments of a link within a cluster get its share.
+    scores = np.zeros(len(components))
+    np.maximum.at(scores, coo.row[same], coo.data[same])
+    np.maximum.at(scores, coo.col[same], coo.data[same])
+    return scores
+
+
+HALF = 0.5
+"""Share of frames or nodes that counts as a majority."""
+
+
+def merge_cuts(
+    main: NDArray[np.int64], mirrored: NDArray[np.int64], gap: float
+) -> NDArray[np.int64]:
+    """Add the mirrored cuts that are more than ``gap`` frames from all main cuts.
+
+    Mirrored cuts are not compared with each other.
+    """
+    is_far = ~(np.abs(mirrored[:, None] - main) <= gap).any(axis=1)
+    return np.union1d(main, mirrored[is_far])
+
+
+def classify_symmetry(
+    activity: tuple[int, int], main: PrimitiveCuts, mirrored: PrimitiveCuts, gap: float
+) -> str:
+    """Return the symmetry of an activity: ``symmetric``, ``alternating`` or ``one-sided``.
+
+    Parameters
+    ----------
+    activity : (int, int)
+        (first, last), both inclusive.
+    main, mirrored : PrimitiveCuts
+        As returned by `find_primitive_cuts` for the original and the mirrored frames.
+    gap : float
+        Frames; a mirrored path farther than this from all main ones lies between them.
+    """
+    first, last = activity
+    # Paths in less than half of the frames: the mirrored movement does not occur.
+    if len(np.unique(mirrored.paths.rows)) <= HALF * (last - first + 1):
+        return "one-sided"
+    between = _measure_distances(mirrored.paths, main.paths) > gap
+    return "alternating" if between.mean() > HALF else "symmetric"
+
+
+def _measure_distances(paths: WarpingPaths, others: WarpingPaths) -> NDArray[np.float64]:
+    """Return the distance in columns from each node to the nearest node of others in its row."""
+    order = np.lexsort((others.columns, others.rows))
+    # Map (row, column) to one number, so that a single sorted search handles all rows. Nodes of
+    # one row differ by less than ``stride``, nodes of different rows by more.
+    stride = max(paths.columns.max(), others.columns.max(initial=0)) + 1
+    positions = np.concatenate(
+        [[-np.inf], 2 * stride * others.rows[order] + others.columns[order], [np.inf]]
+    )
+    nodes = 2.0 * stride * paths.rows + paths.columns
+    after = np.searchsorted(positions, nodes)
+    nearest: NDArray[np.float64] = np.minimum(
+        nodes - positions[after - 1], positions[after] - nodes
+    )
+    return nearest

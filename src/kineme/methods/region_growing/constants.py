@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from kineme.methods.base import Preset, Unit
-from kineme.methods.constants import (
+from kineme.methods.base import (
     COUNT,
     LENGTH,
     SOME,
@@ -18,6 +17,8 @@ from kineme.methods.constants import (
     SOME_TIME,
     TIME,
     Limits,
+    Preset,
+    Unit,
     constant,
 )
 

@@ -21,7 +21,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_features, as_indices, is_number
 from kineme._util.parallel import make_even_slices, map_threads
 from kineme.errors import ParameterError
-from kineme.methods.region_growing import _neighbor_kernels as _kernels
+from kineme.methods.region_growing import _kernels
 
 
 @dataclass(frozen=True, eq=False)

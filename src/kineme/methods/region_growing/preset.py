@@ -16,12 +16,11 @@ from typing import TYPE_CHECKING, Self
 
 from numpy.typing import ArrayLike
 
-from kineme.methods.base import Mirror
+from kineme.methods.base import Mirror, Progress
 from kineme.methods.region_growing.constants import RegionGrowingConstants, Step
-from kineme.methods.stages import Progress
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.found import RegionsFound
+    from kineme.methods.region_growing.analysis import RegionsFound
 
 BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import as_indices, check_type, is_number
 from kineme.errors import ParameterError
-from kineme.methods.region_growing import _path_kernels
+from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import NeighborGraph
 
 Step = tuple[int, int]
@@ -151,7 +151,7 @@ def warping_paths(
     moves = _as_steps(steps)
     # Number of rows and columns that a step skips.
     skipped = np.maximum(moves - 1, 0).sum(axis=1)
-    ptr, path_rows, path_columns, costs = _path_kernels.find_paths_in_box(
+    ptr, path_rows, path_columns, costs = _kernels.find_paths_in_box(
         graph.indptr,
         graph.indices,
         graph.distances,
@@ -189,7 +189,7 @@ def label_components(
     """
     indptr = graph.indptr
     # The box is the whole graph: every row begins at its pointer, and nodes are entries.
-    labels: NDArray[np.int32] = _path_kernels.find_component_roots(
+    labels: NDArray[np.int32] = _kernels.find_component_roots(
         graph.indices, indptr[:-1], indptr, _as_steps(steps), 0, graph.n_columns
     )
     return labels

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from numpy.typing import NDArray
 
 from kineme.segments.annotation import Comment, Span
-from kineme.segments.editing.rows import find_segment_at
+from kineme.segments.editing.borders import find_segment_at
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

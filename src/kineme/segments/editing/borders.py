@@ -1,22 +1,230 @@
-"""Edit borders: move, split, merge and delete."""
+"""Edit borders: move, split, merge and delete.
+
+@@rows: Operations on rows of one level in time order, for edits.
+
+An edit of a border changes only the activities around it (`Part`). The rest of the table, which may
+have thousands of rows, is not touched.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import (
-    Part,
-    Rows,
-    change_parent,
-    count_frames,
-    cut,
-    find_row_after,
-    join_rows,
-    list_cuts,
-    move_border_rows,
-    reassign_primitives,
-)
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Level
+from kineme.segments.table import COLUMNS, Level, Segment, choose_kind
+
+Rows = list[Segment]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Activities that contain some frames, and their primitives.
+
+    ``activity`` of these rows counts from the first of the activities. ``spans`` are the positions
+    of both in the table.
+    """
+
+    segmentation: Segmentation
+    activities: Rows
+    primitives: Rows
+    spans: tuple[slice, slice]
+
+    @classmethod
+    def of(cls, segmentation: Segmentation, start: int, stop: int) -> Part:
+        """Return the part of the activities that overlap ``[start, stop)``."""
+        table = segmentation.table
+        # Activities come before primitives in the table.
+        n = len(segmentation.activities)
+        # The activity that contains the first frame, up to the last that begins before `stop`.
+        first = int(np.searchsorted(table.start_frame[:n], start, "right")) - 1
+        last = int(np.searchsorted(table.start_frame[:n], stop, "left"))
+        # Primitives of these activities; their parents are sorted.
+        low, high = (n + np.searchsorted(table.activity[n:], [first, last])).tolist()
+        spans = slice(first, last), slice(low, high)
+        activities, primitives = (
+            [replace(row, activity=row.activity - first) for row in table[span]] for span in spans
+        )
+        return cls(segmentation, activities, primitives, spans)
+
+    def get_rows(self, level: Level) -> Rows:
+        """Return the rows of a level."""
+        return self.activities if level == "activity" else self.primitives
+
+    def insert(self, activities: Rows, primitives: Rows) -> Segmentation:
+        """Return the whole segmentation with these rows in place of the part."""
+        # Slices of both levels, in the order of the table.
+        (before, first), (last, after) = [(span.start, span.stop) for span in self.spans]
+        columns = {}
+        for name, column in self.segmentation.table.columns().items():
+            upper, lower = (
+                # An empty slice keeps the type of the column.
+                np.array([getattr(row, name) for row in rows]) if rows else column[:0]
+                for rows in (activities, primitives)
+            )
+            parts = column[:before], upper, column[first:last], lower, column[after:]
+            columns[name] = np.concatenate(parts)
+        return replace_columns(self.segmentation, columns)
+
+
+def find_segment_at(segmentation: Segmentation, level: Level, frame: int) -> Segment:
+    """Return the segment of a level that starts at ``frame``, or raise ParameterError."""
+    rows = segmentation.level(level)
+    index = int(np.searchsorted(rows.start_frame, frame))
+    if index == len(rows) or rows.start_frame[index] != frame:
+        raise ParameterError(f"no segment of level {level!r} starts at frame {frame}")
+    return rows[index]
+
+
+def move_border_rows(rows: Rows, frame: int, to: int) -> Rows:
+    """Move the border at ``frame`` to ``to``."""
+    return [
+        # A changed span drops the confidence, a changed start also that of the border.
+        replace(row, stop_frame=to, confidence=math.nan)
+        if row.stop_frame == frame
+        else replace(row, start_frame=to, confidence=math.nan, border_confidence=math.nan)
+        if row.start_frame == frame
+        else row
+        for row in rows
+    ]
+
+
+def cut(rows: Rows, frame: int) -> Rows:
+    """Split the row that contains ``frame``, if any, in two."""
+    parts: Rows = []
+    for row in rows:
+        if row.start_frame < frame < row.stop_frame:
+            parts.append(replace(row, stop_frame=frame, confidence=math.nan))
+            row = replace(  # noqa: PLW2901
+                row, start_frame=frame, confidence=math.nan, border_confidence=math.nan
+            )
+        parts.append(row)
+    return parts
+
+
+def join_rows(rows: Rows, first: int, last: int, like: int) -> Rows:
+    """Merge rows ``first`` to ``last`` to one, with the properties of row ``like``."""
+    if first == last:
+        return rows
+    merged = replace(
+        rows[like],
+        start_frame=rows[first].start_frame,
+        stop_frame=rows[last].stop_frame,
+        confidence=math.nan,
+        # The start is still that of the first row.
+        border_confidence=rows[first].border_confidence,
+    )
+    return [*rows[:first], merged, *rows[last + 1 :]]
+
+
+def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
+    """Move a primitive from one activity to another; see the package docstring for the rules."""
+    # The kind follows the activity only if it was the same before.
+    same = (row.kind == "transition") == (before.kind == "transition")
+    kind = choose_kind(row.level, transition=after.kind == "transition")
+    new = replace(
+        row,
+        kind=kind if same else row.kind,
+        cluster=after.cluster if row.cluster == before.cluster >= 0 else row.cluster,
+        label=after.label if row.label == before.label != "" else row.label,
+    )
+    # The confidence is that of kind and cluster.
+    unchanged = (new.kind, new.cluster) == (row.kind, row.cluster)
+    return new if unchanged else replace(new, confidence=math.nan)
+
+
+def as_transition(row: Segment) -> Segment:
+    """Convert the row to a transition without a cluster."""
+    return replace(row, kind="transition", cluster=-1, confidence=math.nan)
+
+
+def as_movement(row: Segment) -> Segment:
+    """Convert the row to the kind of its level: activity or primitive."""
+    return replace(row, kind=row.level, confidence=math.nan)
+
+
+def reassign_primitives(
+    primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]
+) -> Rows:
+    """Update the primitives after a border of activities (number, from, to) has moved."""
+    number, frame, to = move
+    low, high = min(frame, to), max(frame, to)
+    borders = list_cuts(primitives)
+    # A border of activities must be one of primitives: move the nearest one that was passed.
+    if to not in borders:
+        passed = [border for border in borders if low <= border <= high]
+        primitives = move_border_rows(
+            primitives, min(passed, key=lambda border: abs(border - to)), to
+        )
+    # Indices of the activity that lost frames, and of the one that got them.
+    gave, took = (number - 1, number) if to < frame else (number, number - 1)
+    # Primitives that lie completely in the moved span.
+    inside = [i for i, row in enumerate(primitives) if low <= row.start_frame < high]
+    inside = [i for i in inside if primitives[i].stop_frame <= high]
+    for i in inside:
+        primitives[i] = change_parent(primitives[i], before[gave], after[took])
+    # A transition has only one primitive: merge it with those that it got.
+    if inside and after[took].kind == "transition":
+        host = inside[-1] + 1 if to < frame else inside[0] - 1
+        primitives = join_rows(primitives, min(host, inside[0]), max(host, inside[-1]), host)
+    return primitives
+
+
+def list_cuts(rows: Rows) -> list[int]:
+    """Return the frames at which one row stops and the next starts."""
+    return [row.start_frame for row in rows[1:]]
+
+
+def find_row_after(segmentation: Segmentation, level: Level, frame: int) -> int:
+    """Return the index of the segment after the border, or raise ParameterError."""
+    borders: list[int] = segmentation.cuts(level).tolist()
+    if frame not in borders:
+        nearest = min(borders, key=lambda border: abs(border - frame), default=None)
+        hint = "there is none" if nearest is None else f"the nearest is at {nearest}"
+        raise ParameterError(f"no border of level {level!r} is at frame {frame}; {hint}")
+    return borders.index(frame) + 1
+
+
+def count_frames(row: Segment) -> int:
+    """Return the number of frames of a row."""
+    return row.stop_frame - row.start_frame
+
+
+def replace_rows(
+    segmentation: Segmentation, activities: Iterable[Segment], primitives: Iterable[Segment]
+) -> Segmentation:
+    """Replace all rows; seconds and parents are computed from their frames."""
+    rows = [*activities, *primitives]
+    return replace_columns(
+        segmentation, {name: [getattr(row, name) for row in rows] for name in COLUMNS}
+    )
+
+
+def replace_columns(segmentation: Segmentation, columns: Mapping[str, ArrayLike]) -> Segmentation:
+    """Replace all columns; seconds and parents are computed from frames."""
+    return Segmentation.from_columns(
+        {name: values for name, values in columns.items() if name != "activity"},
+        n_frames=segmentation.n_frames,
+        fps=segmentation.fps,
+        provenance=segmentation.provenance,
+        timings=segmentation.timings,
+        annotation=segmentation.annotation,
+    )
+
+
+def renumber_clusters(segmentation: Segmentation, numbers: Mapping[int, int]) -> Segmentation:
+    """Renumber clusters; segments of clusters without a new number are in none (-1)."""
+    table = segmentation.table
+    clusters = np.array([numbers.get(c, -1) for c in table.cluster.tolist()], np.int64)
+    # Each row's `action` is the cluster of its activity.
+    actions = clusters[table.level == "activity"][table.activity]
+    changed = table.with_columns(cluster=clusters, action=actions)
+    return replace(segmentation, table=changed, hierarchy=None)
 
 
 def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -> Segmentation:

@@ -29,8 +29,7 @@ from kineme.segments.editing.annotating import (
     set_comments,
     set_marked,
 )
-from kineme.segments.editing.clusters import cluster_names, name_cluster, set_cluster_names
-from kineme.segments.editing.rows import (
+from kineme.segments.editing.borders import (
     Rows,
     change_parent,
     count_frames,
@@ -40,6 +39,7 @@ from kineme.segments.editing.rows import (
     renumber_clusters,
     replace_rows,
 )
+from kineme.segments.editing.clusters import cluster_names, name_cluster, set_cluster_names
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 

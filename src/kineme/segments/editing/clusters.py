@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import Any, get_args
 
 from kineme.errors import ParameterError
-from kineme.segments.editing.rows import (
+from kineme.segments.editing.borders import (
     as_movement,
     as_transition,
     find_segment_at,

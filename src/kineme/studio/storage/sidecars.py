@@ -7,6 +7,11 @@
 - ``labels.json``: the labels that the recordings of the folder share, on the keys 1 to 9.
 
 A damaged file is ignored and kept, and the user is told.
+
+@@listed_recording: A recording that can be opened: a file, or one person in it.
+
+If a file has several people, each one is a recording with its own id, table, history and downloads.
+They share the file, its reading options and its video.
 """
 
 from __future__ import annotations
@@ -15,21 +20,75 @@ import json
 import os
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from hashlib import blake2b
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 from msgspec import Meta, Struct
 
 from kineme._util.checks import as_texts
-from kineme._util.files import OwnedFolder, atomic_write
+from kineme._util.files import OwnedFolder, add_person, atomic_write
 from kineme._util.json import load_json, options_from_json, options_to_json
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats import ReadOptions
-from kineme.studio.storage.listed_recording import ListedRecording
+from kineme.web.display import DrawnPicture, describe_video
 from kineme.web.messages import Video
 from kineme.web.requests import LARGEST
-from kineme.web.video import DrawnPicture, describe_video
+
+
+def make_file_id(path: Path) -> str:
+    """Return the id of a file, which depends on its path only."""
+    return _compute_digest(str(path.absolute()))
+
+
+@dataclass(frozen=True)
+class ListedRecording:
+    """A recording that can be opened.
+
+    Parameters
+    ----------
+    path : Path
+        Its file.
+    person : str
+        The person of a file with several; empty for other files.
+    is_first : bool
+        Whether this person was opened before the people became separate recordings: it keeps the
+        id and the table of the file.
+    """
+
+    path: Path
+    person: str = ""
+    is_first: bool = False
+
+    @property
+    def id(self) -> str:
+        """Id that pages use."""
+        if self.is_first or not self.person:
+            return make_file_id(self.path)
+        return _compute_digest(str(self.path.absolute()), self.person)
+
+    @property
+    def name(self) -> str:
+        """Name shown to the user."""
+        person = f"person {self.person}" if self.person.isdecimal() else self.person
+        return f"{self.path.name} · {person}" if person else self.path.name
+
+    @property
+    def person_path(self) -> Path:
+        """Path with the person's name added, after which labels and downloads are named."""
+        return add_person(self.path, self.person)
+
+    @property
+    def table_base(self) -> Path:
+        """Path after which the table is named."""
+        return self.path if self.is_first else self.person_path
+
+
+def _compute_digest(path: str, person: str = "") -> str:
+    suffix = f"\0{person}".encode(errors="backslashreplace") if person else b""
+    return blake2b(path.encode(errors="surrogateescape") + suffix, digest_size=9).hexdigest()
+
 
 FOLDER = ".kineme"
 LABELS = "labels.json"

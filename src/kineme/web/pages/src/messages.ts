@@ -132,7 +132,7 @@ export interface TableAtDetail {
   segments: Segment[];
 }
 
-/** Keypoints drawn over a video with this size in pixels; see `kineme.web.video`. */
+/** Keypoints drawn over a video with this size in pixels; see `kineme.web.display`. */
 export interface Picture {
   width: number;
   height: number;
