@@ -31,7 +31,7 @@ from kineme.plot.matrix import (
     SHADES,
     plot_matrix,
 )
-from kineme.segments.html import PALETTE, get_cluster_color
+from kineme.segments.display import PALETTE, get_cluster_color
 from kineme_reproduction.figures.matrix import draw_neighbors
 
 IMAGES = Path(__file__).parent / "images"

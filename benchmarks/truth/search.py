@@ -26,7 +26,7 @@ from _sources import PERSON, list_body_recordings
 from kineme.features.canonical import MATCHING_FPS, matching_features, mirror_features
 from kineme.library.finding import find_matches
 from kineme.recordings import Motion
-from kineme.transfer.subsequences import THRESHOLD, Matches
+from kineme.transfer.matching import THRESHOLD, Matches
 
 Features = NDArray[np.float32]
 

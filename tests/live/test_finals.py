@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from kineme.live.finals import Finals, Row
+from kineme.live.events import Finals, Row
 
 
 @pytest.mark.parametrize("seed", range(20))

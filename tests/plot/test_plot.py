@@ -18,7 +18,7 @@ import kineme
 from kineme.errors import ParameterError, WriteError
 from kineme.plot import matrix, plot_matrix, plot_segmentation, plot_strip
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.segments.html import NO_CLUSTER, PALETTE, get_cluster_color
+from kineme.segments.display import NO_CLUSTER, PALETTE, get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 

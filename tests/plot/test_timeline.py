@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 import kineme
 from kineme.errors import ParameterError
 from kineme.plot.timeline import match_clusters
+from kineme.segments.display import get_cluster_color
 from kineme.segments.editing import name_segment
-from kineme.segments.html import get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 

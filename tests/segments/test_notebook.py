@@ -7,8 +7,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from hypothesis import given, settings
 
-from kineme.segments import html
-from kineme.segments.html import FIRST_ROWS, choose_label_colors, get_cluster_color
+from kineme.segments import display
+from kineme.segments.display import FIRST_ROWS, choose_label_colors, get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from segmentations import segmentations
 
@@ -37,7 +37,7 @@ def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None
     bars = page.findall(".//rect")
     colors = {bar.get("fill") for bar in bars}
     labels = choose_label_colors(result)
-    assert colors <= {html.get_segment_color(segment, labels) for segment in result}
+    assert colors <= {display.get_segment_color(segment, labels) for segment in result}
     assert len(bars) == len(result)
     for table in (result.table, result.activities, result.table[:0]):
         parsed(table._repr_html_())
@@ -60,7 +60,7 @@ def test_a_day_of_segments_stays_small() -> None:
     result = long_result(86_400)
     page = result._repr_html_()
     bars = parsed(page).findall(".//rect")
-    assert len(bars) <= 1 + html.WIDTH
+    assert len(bars) <= 1 + display.WIDTH
     assert len(page) < 200_000
     assert f"and {86_401 - FIRST_ROWS} more" in result.table._repr_html_()
 

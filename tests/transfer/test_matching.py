@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from kineme.transfer.subsequences import Primitives, compute_label_costs, number_movements
+from kineme.transfer.matching import Primitives, compute_label_costs, number_movements
 
 DIMS = 3
 

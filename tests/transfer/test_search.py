@@ -12,7 +12,7 @@ from scipy.spatial.distance import cdist
 
 import naive
 from kineme.errors import ParameterError
-from kineme.transfer.subsequences import BLOCK, search, warp
+from kineme.transfer.matching import BLOCK, search, warp
 
 
 def directions(n: int, seed: int, dims: int = 6) -> np.ndarray:

@@ -23,7 +23,7 @@ from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.segmenter import segment
-from kineme.segments.html import PALETTE
+from kineme.segments.display import PALETTE
 from kineme_reproduction.benchmark import Scores, mean
 from kineme_reproduction.figures.style import FAINT, INK, heading, new_figure, save, tidy
 from kineme_reproduction.trials import Trial

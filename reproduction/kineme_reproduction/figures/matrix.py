@@ -28,7 +28,7 @@ from kineme.methods.region_growing.neighbors import NeighborGraph
 from kineme.methods.region_growing.preset import RegionGrowingPreset
 from kineme.methods.region_growing.warping import label_components
 from kineme.plot.matrix import MAX_PIXELS, SHADES
-from kineme.segments.html import PALETTE
+from kineme.segments.display import PALETTE
 from kineme_reproduction.figures.style import BETWEEN, heading, new_figure, save
 from kineme_reproduction.trials import Trial
 

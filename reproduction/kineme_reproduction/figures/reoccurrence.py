@@ -22,7 +22,7 @@ from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
 from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme.recordings import Motion
-from kineme.segments.html import PALETTE
+from kineme.segments.display import PALETTE
 from kineme_reproduction.figures.style import INK, heading, new_figure, save, tidy
 
 MIN_LENGTH_S = 8.0

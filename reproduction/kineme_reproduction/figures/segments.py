@@ -19,7 +19,7 @@ from matplotlib.patches import Rectangle
 
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling, make_labelling
-from kineme.segments.html import PALETTE
+from kineme.segments.display import PALETTE
 from kineme_reproduction.benchmark import Result
 from kineme_reproduction.figures.style import BETWEEN, INK, heading, new_figure, save
 from kineme_reproduction.trials import Trial

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from kineme._util.files import atomic_write
-from kineme.segments.html import PALETTE
+from kineme.segments.display import PALETTE
 
 INK = "#1B1F2A"
 FAINT = "#8A8F9B"

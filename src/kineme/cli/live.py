@@ -21,7 +21,7 @@ from kineme.cli.terminal import format_line, print_error, print_skipped
 from kineme.errors import KinemeError
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
-from kineme.live.finals import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
+from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
 from kineme.live.outputs import OUTPUTS, Send
 from kineme.methods.segmenter import SegmentOptions
 

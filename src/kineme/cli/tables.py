@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from kineme.cli.terminal import Console
-from kineme.segments.html import get_cluster_color
+from kineme.segments.display import get_cluster_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 

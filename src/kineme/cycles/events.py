@@ -24,7 +24,7 @@ from kineme.cycles.joints import OTHER_SIDE, find_feet
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
-from kineme.recordings.coordinates import COORDINATE
+from kineme.recordings.column_names import COORDINATE
 from kineme.recordings.joint_names import GYROSCOPE, SIDES, has_word, mentions
 from kineme.segments.segmentation import Segmentation
 

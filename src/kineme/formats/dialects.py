@@ -21,7 +21,7 @@ from kineme.formats.points import list_joints
 from kineme.formats.registry import recognises_safely
 from kineme.formats.sniffing import sniff
 from kineme.recordings import Motion, Signals
-from kineme.recordings.coordinates import is_body
+from kineme.recordings.column_names import is_body
 
 
 @dataclass(frozen=True)

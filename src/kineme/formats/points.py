@@ -53,7 +53,7 @@ from kineme.formats.plausibility import (
 from kineme.formats.sniffing import find_table_timing, place_points, read_column
 from kineme.formats.units import METRIC, infer_scale, infer_up_axis, to_metres, turn_upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
-from kineme.recordings.coordinates import COORDINATE, group_axes, is_body, list_beginnings
+from kineme.recordings.column_names import COORDINATE, group_axes, is_body, list_beginnings
 from kineme.recordings.joint_names import PARENTS, find_body
 from kineme.recordings.regular import LONGEST_S
 from kineme.recordings.times import is_timing

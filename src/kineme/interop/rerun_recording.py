@@ -23,7 +23,7 @@ from kineme.errors import ParameterError
 from kineme.formats.plausibility import mark_spans
 from kineme.labels.spans import format_text
 from kineme.recordings import Motion
-from kineme.segments.html import get_cluster_color
+from kineme.segments.display import get_cluster_color
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:

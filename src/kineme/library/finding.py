@@ -37,7 +37,7 @@ from kineme.library.storage.tables import Windows, open_index, read_features, re
 from kineme.library.windows import FINER, choose_length, compute_step, describe_at_speeds
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.transfer.subsequences import Matches, search
+from kineme.transfer.matching import Matches, search
 
 REFUSED = 0.5
 """Fraction of a match that a nearer match of a counter-example must cover to reject it."""

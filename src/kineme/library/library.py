@@ -32,7 +32,7 @@ from kineme.library.storage.layout import (
 )
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
-from kineme.transfer.subsequences import THRESHOLD
+from kineme.transfer.matching import THRESHOLD
 
 if TYPE_CHECKING:
     from kineme.clips.options import ClipOptions

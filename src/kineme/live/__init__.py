@@ -5,7 +5,7 @@ regular intervals (by `looking`), and `finals` holds what is older than the dela
 rows to disk, `outputs` sends events to other programs.
 """
 
-from kineme.live.finals import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
+from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
 from kineme.live.stream import Stream
 
 __all__ = ["ActivityEnded", "ActivityStarted", "Event", "Gap", "Notice", "Repetition", "Stream"]

@@ -14,7 +14,7 @@ import numpy as np
 
 from kineme._util.arrays import Floats, Ints, Masks
 from kineme.errors import KinemeWarning
-from kineme.live.finals import Finals, Look, Row
+from kineme.live.events import Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals, Skeleton

@@ -15,7 +15,7 @@ from typing import Any
 
 from kineme._util.checks import require_extra
 from kineme.errors import ParameterError
-from kineme.live.finals import Event
+from kineme.live.events import Event
 
 Send = Callable[[Sequence[Event]], None]
 

@@ -28,7 +28,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write, refuse_link, translate_read_errors
 from kineme.errors import ReadError, WriteError
-from kineme.live.finals import Finals, Look, Row
+from kineme.live.events import Finals, Look, Row
 from kineme.live.intake import Intake
 from kineme.live.looking import RecentPast
 from kineme.live.sources import Rows

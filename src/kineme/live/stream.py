@@ -14,7 +14,7 @@ from kineme._util.checks import as_floats, as_texts, check_type, is_number
 from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError
-from kineme.live.finals import (
+from kineme.live.events import (
     ActivityEnded,
     ActivityStarted,
     Event,

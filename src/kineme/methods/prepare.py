@@ -40,7 +40,7 @@ from kineme.features.filters import emg_envelope
 from kineme.features.pose import compute_joint_quaternions, compute_log_maps
 from kineme.methods.base import Mirror, Preset
 from kineme.recordings import Motion, Signals
-from kineme.recordings.coordinates import group_axes, is_body
+from kineme.recordings.column_names import group_axes, is_body
 from kineme.recordings.operations import resample, split_at_gaps
 
 

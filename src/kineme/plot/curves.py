@@ -10,7 +10,7 @@ from kineme._util.arrays import Floats
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.plot.timeline import make_axes
-from kineme.segments.html import PALETTE, get_cluster_color
+from kineme.segments.display import PALETTE, get_cluster_color
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from kineme._util.files import atomic_write
-from kineme.segments.html import get_cluster_color
+from kineme.segments.display import get_cluster_color
 from kineme.synthesis.graph import MotionGraph
 
 

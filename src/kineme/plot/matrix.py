@@ -30,7 +30,7 @@ from kineme.features.effectors import Names
 from kineme.features.similarity import compare_frames
 from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
-from kineme.segments.html import (
+from kineme.segments.display import (
     NO_CLUSTER,
     choose_label_colors,
     get_cluster_color,

@@ -24,7 +24,7 @@ from kineme.errors import ParameterError
 from kineme.plot.timeline import make_axes
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.segments.html import get_cluster_color
+from kineme.segments.display import get_cluster_color
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

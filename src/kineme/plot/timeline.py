@@ -15,7 +15,7 @@ from scipy.optimize import linear_sum_assignment
 from kineme._util.checks import as_texts, check_type, is_one_of
 from kineme._util.files import as_display_name
 from kineme.errors import ParameterError
-from kineme.segments.html import choose_label_colors, get_segment_color
+from kineme.segments.display import choose_label_colors, get_segment_color
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 

@@ -439,7 +439,7 @@ class Segmentation:
         return f"<Segmentation of {length}: {self.describe()}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.html import make_page
+        from kineme.segments.display import make_page
 
         return make_page(
             repr(self).strip("<>"), [self.activities, self.primitives], self.activities

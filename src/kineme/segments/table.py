@@ -307,7 +307,7 @@ class SegmentTable:
         return f"<SegmentTable of {count}{span}>"
 
     def _repr_html_(self) -> str:
-        from kineme.segments.html import make_page
+        from kineme.segments.display import make_page
 
         levels = [self[self.level == level] for level in get_args(Level)]
         return make_page(repr(self).strip("<>"), levels, self)

@@ -6,8 +6,8 @@ Source: Vögele, Krüger and Klein 2014, section 6.1.
 from kineme.features.canonical import matching_features as transfer_features
 from kineme.transfer.knowledge import KnowledgeBase
 from kineme.transfer.labels import name_primitives, transfer_labels
+from kineme.transfer.matching import THRESHOLD
 from kineme.transfer.sharing import share_clusters
-from kineme.transfer.subsequences import THRESHOLD
 
 __all__ = [
     "THRESHOLD",

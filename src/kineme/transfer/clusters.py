@@ -5,7 +5,7 @@ Segmentation finds clusters in each recording separately, here called local clus
 
 **Bodies** (`link_clusters`). The example of a local cluster is its typical segment. Its context is
 the activity around it, because another recording may cut the same cyclic movement at another phase.
-A search (see `kineme.transfer.subsequences`) finds the example of each local cluster in the context
+A search (see `kineme.transfer.matching`) finds the example of each local cluster in the context
 of the other. Their distance is the mean of both search distances, at most 1. Average linkage merges
 clusters up to the threshold of the search, unless the two groups are clearly separate, such as
 walking and running. Local clusters of one recording differ, so their distance is set to 2.
@@ -39,7 +39,7 @@ from kineme._util.arrays import Float32s, Floats, Ints
 from kineme._util.parallel import map_threads
 from kineme.segments.table import SegmentTable
 from kineme.transfer.embeddings import fit_units
-from kineme.transfer.subsequences import THRESHOLD, Searched
+from kineme.transfer.matching import THRESHOLD, Searched
 
 FARTHEST = 1.0
 """Distance of two movements with nothing in common."""

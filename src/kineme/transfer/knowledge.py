@@ -56,7 +56,7 @@ from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
-from kineme.transfer.subsequences import Primitives
+from kineme.transfer.matching import Primitives
 
 SCHEMA = "kineme.knowledge/2"
 KINDS = {

@@ -1,11 +1,11 @@
 """Label the primitives of a recording by a knowledge base.
 
 Every unlabelled primitive takes the label of its cheapest match (see
-`kineme.transfer.subsequences`), if that is cheap enough. Its confidence is the margin: 1 - cost / cost
+`kineme.transfer.matching`), if that is cheap enough. Its confidence is the margin: 1 - cost / cost
 of the next label, from 0 (equal costs) to 1.
 
 A recording that is too short has no activities to label. Its features are searched for each
-labelled primitive (see `kineme.transfer.subsequences.search`); of overlapping matches the nearest
+labelled primitive (see `kineme.transfer.matching.search`); of overlapping matches the nearest
 is kept. Consecutive matches with the same label become the primitives of one activity.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; threshold, margin and
@@ -29,7 +29,7 @@ from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
 from kineme.transfer.knowledge import FPS, KnowledgeBase, find_working_frames
-from kineme.transfer.subsequences import (
+from kineme.transfer.matching import (
     THRESHOLD,
     Primitives,
     compute_label_costs,

@@ -37,7 +37,7 @@ from kineme.transfer.embeddings import (
     fit_units,
     thin_samples,
 )
-from kineme.transfer.subsequences import THRESHOLD
+from kineme.transfer.matching import THRESHOLD
 
 
 def share_clusters(

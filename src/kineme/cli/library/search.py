@@ -111,7 +111,7 @@ def search(
     if not examples and cluster is None:
         raise typer.BadParameter("nothing to search for: give --like or --cluster")
     with open_library(folder) as library:
-        from kineme.transfer.subsequences import THRESHOLD
+        from kineme.transfer.matching import THRESHOLD
 
         if export is not None:
             make_parent_folder(export)

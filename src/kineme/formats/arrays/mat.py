@@ -55,7 +55,7 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
-from kineme.recordings.coordinates import is_body
+from kineme.recordings.column_names import is_body
 from kineme.recordings.times import is_timing
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"

@@ -30,7 +30,7 @@ from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.sniffing import find_table_timing
 from kineme.recordings import Signals
-from kineme.recordings.coordinates import is_channel_name
+from kineme.recordings.column_names import is_channel_name
 from kineme.recordings.regular import Timing, fill_gaps_in_channels
 from kineme.recordings.times import NO_TIMES, name_clock
 

@@ -26,7 +26,7 @@ at another phase, so a warping may cross from one primitive to the next of a run
 run.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1; the backward match is our own, and the warping
-is that of `kineme.transfer.subsequences`.
+is that of `kineme.transfer.matching`.
 """
 
 from __future__ import annotations
@@ -185,7 +185,7 @@ class Matches(NamedTuple):
     Examples
     --------
     >>> import numpy as np
-    >>> from kineme.transfer.subsequences import search
+    >>> from kineme.transfer.matching import search
     >>> angle = np.arange(100) / 4
     >>> recording = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     >>> search(recording[20:40], recording, top=1).starts.tolist()
