@@ -27,7 +27,7 @@ So a feature describes the direction in which a pose differs from the mean, but 
 distance of two features is 0 if they are equal, 1.41 if they have nothing in common, and 2 if they
 are opposite.
 
-Mean and axes are stored in ``basis.npz``. They were fitted to poses of HDM05, UTKinect, CMU's
+Mean and axes are stored in ``canonical_basis.npz``. They were fitted to poses of HDM05, UTKinect, CMU's
 subject 86 and single takes, each corpus with the same weight. The axes are the eigenvectors of the
 mean covariance, each divided by the root of its variance plus 0.3 of the largest variance.
 """
@@ -447,7 +447,7 @@ def _make_mirror_matrix() -> Floats:
 @cache
 def load_basis() -> tuple[Floats, Floats]:
     """Return the mean (85,) and the axes (85, 40), each divided by its shrunk deviation."""
-    with np.load(Path(__file__).with_name("basis.npz"), allow_pickle=False) as arrays:
+    with np.load(Path(__file__).with_name("canonical_basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 
