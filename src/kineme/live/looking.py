@@ -81,6 +81,8 @@ class RecentPast:
         Example of each cluster, in the order in which clusters were seen last.
     known : (spans, 3) array
         First frame, frame after the last, and cluster of the segments of the last look.
+    compared : dict of int to float
+        Seconds of each new cluster when it was last compared with the examples.
     """
 
     layout: Layout
@@ -90,6 +92,7 @@ class RecentPast:
     missing: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
     examples: dict[int, Floats] = field(default_factory=dict)
     known: Ints = field(default_factory=lambda: np.empty((0, 3), np.int64))
+    compared: dict[int, float] = field(default_factory=dict)
     _blocks: list[tuple[Floats, Masks]] = field(default_factory=list)
 
     def append(self, values: Floats, missing: Masks) -> None:
@@ -131,9 +134,16 @@ class RecentPast:
             {0: new},
             following=following,
         )
-        unseen = [local for local, number in given.items() if number > finals.highest]
+        lengths = np.bincount(clusters, stops - starts)
+        unseen = [
+            local
+            for local, number in given.items()
+            if number > finals.highest and lengths[local] >= 2 * self.compared.get(number, 0)
+        ]
         if unseen and self.examples:
             given |= self._recognise(found, unseen, set(given.values()))
+            self.compared |= {given[local]: float(lengths[local]) for local in unseen}
+        self.compared = {k: self.compared[k] for k in given.values() if k in self.compared}
         numbers = range(int(table.cluster.max()) + 1)
         named = np.array([given.get(local, -1) for local in numbers], np.int64)
         rows = np.column_stack(
