@@ -218,7 +218,20 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
     for column in np.argsort(-votes, kind="stable")[:N_COUNTS]:
         best = np.argsort(-falls[:, column], kind="stable")[:N_POSES]
         if votes[column] > 0:
-            yield from np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1)
+            for visits in np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1):
+                yield _drop_early_visits(visits)
+
+
+def _drop_early_visits(visits: Frames) -> Frames:
+    """Drop visits that follow the one before much sooner than usual, as after a shock."""
+    lengths = np.diff(visits)
+    if not len(lengths) or lengths.min() >= (least := MIN_PART * np.median(lengths)):
+        return visits
+    kept = [int(visits[0])]
+    for visit in visits[1:].tolist():
+        if visit - kept[-1] >= least:
+            kept.append(visit)
+    return np.array(kept, np.int64)
 
 
 def _find_dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
