@@ -47,10 +47,6 @@ REPETITION_TOLERANCE = 0.25
 def frames_right(compared: Comparison) -> Ratio:
     """Return the share of frames whose cluster is mapped to their class (MoF).
 
-    Parameters
-    ----------
-    compared : Comparison
-
     Returns
     -------
     Ratio
@@ -148,10 +144,6 @@ def edit_score(compared: Comparison) -> float:
     It is 1 - distance / length: the fewest insertions, deletions and exchanges of segments that
     turn one order of classes into the other, divided by the larger number of segments.
 
-    Parameters
-    ----------
-    compared : Comparison
-
     Returns
     -------
     float
@@ -216,10 +208,6 @@ def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
 
 def count_errors(compared: Comparison) -> tuple[float, float] | None:
     """Return the mean error of the number of repetitions, and the share of exact counts.
-
-    Parameters
-    ----------
-    compared : Comparison
 
     Returns
     -------

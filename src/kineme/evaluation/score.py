@@ -33,6 +33,11 @@ from kineme.formats.delimited import as_text
 from kineme.segments.segmentation import Segmentation
 
 Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "published protocols"]
+OUTPUTS = (".json", ".csv")
+DISAGREEMENT = 0.2
+"""Difference of border F1 and Edit above which a table has an explanation."""
+COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
+"""Run times, which are shown below the scores."""
 
 
 class Ratio(NamedTuple):
@@ -158,6 +163,11 @@ def compute_results(compared: Comparison) -> dict[str, float | Ratio]:
     return {name: result for name, result in found.items() if result is not None}
 
 
+def compute_scores(compared: Comparison) -> dict[str, float]:
+    """Compute all scores of a comparison as numbers, by name."""
+    return {name: get_value(result) for name, result in compute_results(compared).items()}
+
+
 def evaluate(
     truth: Truth,
     clusters: Labelling,
@@ -189,10 +199,6 @@ def evaluate(
     features : array_like, (frames, dims), optional
         Stacked, at the truth's frame rate.
 
-    Returns
-    -------
-    dict of str to float
-
     Raises
     ------
     ParameterError
@@ -214,7 +220,7 @@ def evaluate(
         positions=positions,
         features=features,
     )
-    return {name: get_value(result) for name, result in compute_results(compared).items()}
+    return compute_scores(compared)
 
 
 def evaluate_segmentation(
@@ -239,8 +245,7 @@ def evaluate_segmentation(
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
     1.0
     """
-    compared = compare_with_truth(truth, found, positions=positions, features=features)
-    return {name: get_value(result) for name, result in compute_results(compared).items()}
+    return compute_scores(compare_with_truth(truth, found, positions=positions, features=features))
 
 
 def compare_with_truth(
@@ -312,13 +317,6 @@ def choose_number(
         return None if numbers is None else numbers[number]
 
     return function
-
-
-OUTPUTS = (".json", ".csv")
-DISAGREEMENT = 0.2
-"""Difference of border F1 and Edit above which a table has an explanation."""
-COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
-"""Run times, which are shown below the scores."""
 
 
 def make_score_rows(
