@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 import kineme
-from _joined import Piece, join_signals, list_clusters, parse_person, read_pieces
+from _joined import Piece, join_signals, parse_person, read_pieces
 from _options import DATA
 from _recordings import Case, join_hdm05, read_rows, read_subject_86, synthesize_cases
 from _sparse_recordings import SparseCase, make_sparse_events, match_events, select_repetitions
@@ -179,7 +179,7 @@ def keep_shared_joints(motions: list[Motion]) -> list[Motion]:
 
 def score_session(found: Segmentation, parts: list[Exercise]) -> Judged:
     """Score frames in the right class, borders between exercises, and counts."""
-    clusters = list_clusters(found)
+    clusters = found.per_frame(level="activity")
     classes = {part.label: i for i, part in enumerate(parts)}
     truth = np.full(found.n_frames, -1)
     for part in parts:
@@ -280,7 +280,7 @@ def judge_people(name: str, every: int) -> Iterator[Sample]:
 
     def judge(found: Segmentation, parts: list[Piece]) -> Judged:
         ends = np.cumsum([len(part.truth) for part in parts])[:-1]
-        each = zip(parts, np.split(list_clusters(found), ends), strict=True)
+        each = zip(parts, np.split(found.per_frame(level="activity"), ends), strict=True)
         judged = [
             score_labels(Comparison(part.truth[known], clusters[known], found.fps))
             for part, clusters in each

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from _joined import list_clusters
 from kineme._util.arrays import bridge_line
 from kineme.evaluation import Comparison, one_to_one_accuracy
 from kineme.features.channels import resample_channels
@@ -113,4 +112,4 @@ def measure_agreement(here: Segmentation, there: Segmentation, variant: Variant)
 
 def _sample_clusters(found: Segmentation, times: NDArray[np.float64]) -> NDArray[np.int64]:
     frames = np.clip((times * found.fps).astype(np.int64), 0, found.n_frames - 1)
-    return list_clusters(found)[frames]
+    return found.per_frame(level="activity")[frames]

@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
-from sklearn.metrics import cohen_kappa_score
 
 import naive
 from kineme.errors import ParameterError
@@ -20,7 +19,6 @@ from kineme.evaluation import (
     Truth,
     border_ratio,
     border_score,
-    cohen_kappa,
     covering,
     cut_ratio,
     evaluate,
@@ -83,14 +81,6 @@ def test_shares_lie_between_0_and_1(pair):
     scores = evaluate(*pair)
     assert all(-1e-12 <= scores[name] <= 1 + 1e-12 for name in SHARES)
     assert -1 <= scores["rand_index"] <= 1
-
-
-@given(pairs())
-def test_kappa_is_that_of_scikit_learn(pair):
-    compared = of(*pair)
-    if len({*compared.truth.tolist(), *compared.mapped.tolist()}) > 1:
-        expected = cohen_kappa_score(compared.truth, compared.mapped)
-        assert cohen_kappa(compared) == pytest.approx(expected)
 
 
 @given(truths())

@@ -23,7 +23,7 @@ import numpy as np
 from kineme._util.json import decode_json
 from kineme.datasets.cmu import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.comparison import Comparison, find_runs
+from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import compare_with_truth, compute_scores
 from kineme.evaluation.truth import (
     UNLABELLED,
@@ -35,6 +35,7 @@ from kineme.evaluation.truth import (
 )
 from kineme.labels.registry import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
+from kineme.recordings.arrays import find_spans
 from kineme.segments.segmentation import Segmentation
 
 FPS = 30.0
@@ -115,10 +116,9 @@ def find_differences(truth: Segmentation, found: Segmentation) -> list[tuple[flo
     # Frames of a class of the truth with another class in the result.
     wrong = (compared.truth != compared.mapped) & (compared.truth != UNLABELLED)
     return [
-        (run.start / compared.fps, run.stop / compared.fps)
-        for run in find_runs(wrong)
-        # Runs of a mask: label 1 is True.
-        if run.label and run.stop - run.start > least
+        (start / compared.fps, stop / compared.fps)
+        for start, stop in find_spans(wrong).tolist()
+        if stop - start > least
     ]
 
 

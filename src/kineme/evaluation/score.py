@@ -11,7 +11,6 @@ Undefined scores are nan in Python, empty in CSV and Markdown, and null in JSON.
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import warnings
@@ -29,7 +28,7 @@ from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, WriteError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.truth import Labelling, Truth, make_labelling
-from kineme.formats.delimited import as_text
+from kineme.labels.delimited import open_new_text, write_rows
 from kineme.segments.segmentation import Segmentation
 
 Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "published protocols"]
@@ -371,22 +370,13 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     suffix = path.suffix.lower()
     if suffix not in OUTPUTS:
         raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
-    with (
-        atomic_write(path) as draft,
-        draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
-    ):
+    with open_new_text(path, newline="\n" if suffix == ".json" else "") as file:
         if suffix == ".json":
             file.write(f"{format_json(records)}\n")
         else:
-            rows = [to_plain(record) for record in records]
-            names = list(dict.fromkeys(name for record in rows for name in record))
-            table = csv.DictWriter(file, names, lineterminator="\n")
-            table.writeheader()
-            table.writerows(
-                # Texts that look like formulas are protected for spreadsheets.
-                {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
-                for record in rows
-            )
+            names = list(dict.fromkeys(name for record in records for name in record))
+            rows = map(to_plain, records)
+            write_rows(file, names, ([row.get(name) for name in names] for row in rows))
 
 
 def format_json(records: Sequence[Mapping[str, Any]]) -> str:

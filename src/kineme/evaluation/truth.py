@@ -97,7 +97,7 @@ class Labelling:
         cls, labels: Sequence[object] | NDArray[np.generic], *, fps: float
     ) -> Labelling:
         """Create a labelling from one label per frame: one interval per run of equal labels."""
-        names = np.array([str(label) for label in labels], dtype=object)
+        names = np.asarray(labels)
         if not names.size:
             raise ParameterError("no labels: give one label per frame")
         # + 1: the first frame of each new label.

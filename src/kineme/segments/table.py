@@ -250,15 +250,7 @@ class SegmentTable:
     @overload
     def __getitem__(self, rows: slice | ArrayLike) -> Self: ...
     def __getitem__(self, rows: Any) -> Segment | Self:
-        """Return the segment in a row, or the rows that a slice, mask or index array selects.
-
-        Raises
-        ------
-        IndexError
-            There is no such row.
-        ParameterError
-            The argument is not a valid selection.
-        """
+        """Return the segment in a row, or several rows; see `select`."""
         if not isinstance(rows, int | np.integer) or isinstance(rows, bool):
             return self.select(rows)
         if not -len(self) <= rows < len(self):

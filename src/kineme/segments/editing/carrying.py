@@ -143,10 +143,8 @@ def _match_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]
 
 def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
     """Return the cluster of each frame; -1 if the level is empty."""
-    rows = segmentation.level(level)
-    if not len(rows):
-        return np.full(segmentation.n_frames, -1)
-    return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)
+    clusters = segmentation.per_frame("cluster", level=level)
+    return clusters if len(clusters) else np.full(segmentation.n_frames, -1)
 
 
 def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> CarryResult:
