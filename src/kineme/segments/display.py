@@ -16,12 +16,14 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.segments.table import Segment, SegmentTable
-
+Segment = Any
+"""A row of `kineme.segments.table`, which imports this module."""
+SegmentTable = Any
 PALETTE = (
     "#332288",
     "#DDCC77",
@@ -145,7 +147,7 @@ def choose_label_colors(rows: Iterable[Segment]) -> dict[str, str]:
         if row.label:
             seconds = most.setdefault(row.label, Counter())
             if row.cluster >= 0:
-                seconds[row.cluster] += row.stop_s - row.start_s  # type: ignore[assignment]
+                seconds[row.cluster] += row.stop_s - row.start_s
     colors: dict[str, str] = {}
     for label in sorted(most, key=lambda text: text.encode("utf-16-be", "surrogatepass")):
         clusters = most[label].most_common(1)
