@@ -16,17 +16,11 @@ def damage_bytes(data: bytes, seed: int) -> bytes:
     """Return the bytes with damage that depends on the seed."""
     chance = random.Random(seed)
     for _ in range(chance.randint(1, 4)):
-        data = chance.choice(
-            (
-                _damage_slice,
-                _damage_slice,
-                _damage_line,
-                _damage_number,
-                _damage_number,
-                _damage_header,
-                _damage_structure,
-            )
-        )(data, chance)
+        damage = chance.choice(
+            (*[_damage_slice] * 2, _damage_line, *[_damage_number] * 2, _damage_header,
+             _damage_structure)
+        )  # fmt: skip
+        data = damage(data, chance)
     return data
 
 

@@ -1,4 +1,4 @@
-"""Join recordings of a set, and list the classes and clusters of their frames."""
+"""Join recordings of a set, and list the classes of their frames."""
 
 from __future__ import annotations
 
@@ -36,14 +36,6 @@ def list_classes(truth: kineme.Segmentation) -> Ints:
             number = numbers.setdefault(format_text(row), len(numbers))
             classes[row.start_frame : row.stop_frame] = number
     return classes
-
-
-def list_clusters(found: kineme.Segmentation) -> Ints:
-    """Return the cluster of each frame."""
-    clusters = np.full(found.n_frames, UNLABELLED, np.int64)
-    for row in found.activities:
-        clusters[row.start_frame : row.stop_frame] = row.cluster
-    return clusters
 
 
 def parse_person(name: str) -> str:

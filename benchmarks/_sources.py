@@ -15,14 +15,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 import kineme
-from _joined import Piece, join_signals, list_clusters, parse_person, read_pieces
+from _joined import Piece, join_signals, parse_person, read_pieces
 from _options import DATA
 from _recordings import Case, join_hdm05, read_rows, read_subject_86, synthesize_cases
 from _sparse_recordings import SparseCase, make_sparse_events, match_events, select_repetitions
-from kineme.evaluation import evaluate_segmentation
+from kineme.evaluation import evaluate_segmentation, one_to_one_accuracy
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.folder import find_recordings
 from kineme.evaluation.score import Ratio, pool_scores, scores
@@ -180,20 +179,18 @@ def keep_shared_joints(motions: list[Motion]) -> list[Motion]:
 
 def score_session(found: Segmentation, parts: list[Exercise]) -> Judged:
     """Score frames in the right class, borders between exercises, and counts."""
-    clusters = list_clusters(found)
+    clusters = found.per_frame(level="activity")
     classes = {part.label: i for i, part in enumerate(parts)}
     truth = np.full(found.n_frames, -1)
     for part in parts:
         truth[part.start : part.stop] = classes[part.label]
     seen = truth >= 0
-    _, own = np.unique(clusters[seen], return_inverse=True)
-    table = np.zeros((own.max() + 1, len(classes)))
-    np.add.at(table, (own, truth[seen]), 1)
+    compared = Comparison(truth[seen], clusters[seen], found.fps)
     true = [part.stop / found.fps + STANDING_S / 2 for part in parts[:-1]]
     starts = {row.start_s for row in found.activities if row.kind == "activity"} - {0.0}
     right = [count_repetitions(found, part.start, part.stop) == part.count for part in parts]
     return {
-        "one_to_one": float(table[linear_sum_assignment(-table)].sum() / seen.sum()),
+        "one_to_one": one_to_one_accuracy(compared),
         "border_f1": 2 * count_near(true, sorted(starts)) / (len(true) + len(starts)),
         "counts": Ratio(sum(right), len(right)),
     }
@@ -283,7 +280,7 @@ def judge_people(name: str, every: int) -> Iterator[Sample]:
 
     def judge(found: Segmentation, parts: list[Piece]) -> Judged:
         ends = np.cumsum([len(part.truth) for part in parts])[:-1]
-        each = zip(parts, np.split(list_clusters(found), ends), strict=True)
+        each = zip(parts, np.split(found.per_frame(level="activity"), ends), strict=True)
         judged = [
             score_labels(Comparison(part.truth[known], clusters[known], found.fps))
             for part, clusters in each

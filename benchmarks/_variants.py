@@ -8,10 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
-from _joined import list_clusters
 from kineme._util.arrays import bridge_line
+from kineme.evaluation import Comparison, one_to_one_accuracy
 from kineme.features.channels import resample_channels
 from kineme.features.filters import filter_low
 from kineme.formats.keypoints.poses import CUTOFF
@@ -108,13 +107,9 @@ def measure_agreement(here: Segmentation, there: Segmentation, variant: Variant)
     times = np.arange(0, length, 1 / COMPARED)
     own = _sample_clusters(here, times + variant.start_s)
     other = _sample_clusters(there, times / variant.speed)
-    _, a = np.unique(own, return_inverse=True)
-    _, b = np.unique(other, return_inverse=True)
-    together = np.zeros((a.max() + 1, b.max() + 1))
-    np.add.at(together, (a, b), 1)
-    return float(together[linear_sum_assignment(-together)].sum() / len(times))
+    return one_to_one_accuracy(Comparison(own, other, fps=COMPARED))
 
 
 def _sample_clusters(found: Segmentation, times: NDArray[np.float64]) -> NDArray[np.int64]:
     frames = np.clip((times * found.fps).astype(np.int64), 0, found.n_frames - 1)
-    return list_clusters(found)[frames]
+    return found.per_frame(level="activity")[frames]

@@ -23,12 +23,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 import kineme
 from _figures import add_option, record
 from _options import DATA, choose_size, find_data, make_parser
+from kineme.evaluation import Comparison
 from kineme.features import mirror_features
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
@@ -126,24 +125,13 @@ def _compare_clusters(found: RegionsFound, reference: dict[str, Any]) -> Agreeme
     spans = pairwise([1, *reference["all_cuts"], reference["frames"]])
     theirs = dict(zip(spans, reference["clusters"], strict=True))
     common = [span for span in theirs if span in ours]
-    a, b = (
-        _number_labels([ours[span] for span in common]),
-        _number_labels([theirs[s] for s in common]),
-    )
-    shared = np.zeros((a.max() + 1, b.max() + 1), int)
-    np.add.at(shared, (a, b), 1)
-    matched = np.zeros(shared.shape, bool)
-    matched[linear_sum_assignment(shared, maximize=True)] = True
+    compared = Comparison([theirs[span] for span in common], [ours[span] for span in common], fps=1)
     differences = [
         f"{start}..{stop} (ours {ours[start, stop]}, theirs {theirs[start, stop]})"
-        for (start, stop), same in zip(common, matched[a, b], strict=True)
+        for (start, stop), same in zip(common, compared.mapped == compared.truth, strict=True)
         if not same
     ]
     return Agreement(len(common), tuple(differences))
-
-
-def _number_labels(labels: list[int]) -> NDArray[np.intp]:
-    return np.unique(labels, return_inverse=True)[1]
 
 
 def main() -> None:

@@ -4,9 +4,8 @@
 
 The truth says whether a cluster (link), a border, a count and a cut between two repetitions is
 right. A logistic function of one statistic (``methods/kineme/confidence.py``) predicts the
-probability. Each source is predicted from all others, with equal weight for each source. The
-script compares the candidate statistics, chooses the one with the least mean squared error over
-sources, and prints the constants learnt from all sources, which the preset contains.
+probability. Each source is predicted from all others, with equal weight for each source. The last
+lines are the constants learnt from all sources, which the preset contains.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 from scipy.special import expit
-from scipy.stats import rankdata
+from sklearn.metrics import roc_auc_score
 
 import kineme
 from _figures import add_option, record
@@ -51,26 +50,12 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Numbers = tuple[float, float]
 
-PREFERRED = "seconds preferred"
-"""Logarithm of an activity's seconds times its preference for its cluster; for a border, the
-smaller value of both sides."""
-SHARPNESS = "sharpness"
-"""Logarithm of the change at a border relative to its surroundings."""
-STATISTICS = {
-    "link": (PREFERRED,),
-    "border": (SHARPNESS, PREFERRED),
-    "count": ("correlation", "evenness"),
-    "cut": ("correlation",),
-}
-"""Candidate statistics by kind."""
 PROMISED = {"count": 0.85, "border": 0.80}
 """Minimum area under the ROC curve (AUC)."""
 MOST_BRIER, SURE = 0.07, 0.9
 CUT_TOLERANCE = 0.25
 """Tolerance of a cut, as a share of the longer adjacent repetition."""
 RIDGE = 1.0
-FEW = 8
-"""Minimum number of right and of wrong rows for the AUC of a source."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +82,11 @@ class Truth:
 
 
 class Row(NamedTuple):
-    """Statistics of a found link, border, count or cut, and whether it is right."""
+    """Statistic of a found link, border, count or cut, and whether it is right."""
 
     kind: str
     source: str
-    statistics: tuple[float, ...]
+    statistic: float
     right: bool
 
 
@@ -109,11 +94,9 @@ class Table(NamedTuple):
     """All rows of one kind."""
 
     sources: NDArray[np.str_]
-    statistics: Floats
+    statistic: Floats
     right: Bools
 
-
-# --- recordings with known truth --------------------------------------------------------------
 
 Known = Iterator[tuple[Motion | Signals, Truth]]
 
@@ -228,9 +211,6 @@ KNOWN: Mapping[str, Callable[[int], Known]] = {
 """Sources of different people and devices, slowest first."""
 
 
-# --- judging a segmentation-------------------------------------------------------------------
-
-
 class Segments(NamedTuple):
     """A segmentation in seconds.
 
@@ -256,13 +236,6 @@ class Segments(NamedTuple):
     def counts(self) -> NDArray[np.int64]:
         """Return the repetitions of each segment."""
         return np.bincount(self.parents[self.repeats], minlength=len(self.labels))
-
-    @property
-    def evenness(self) -> Floats:
-        """Return the negative deviation of logarithmic repetition lengths, per segment."""
-        lengths = np.log(np.diff(self.cuts))
-        own = [lengths[(self.parents == g) & self.repeats] for g in range(len(self.labels))]
-        return np.array([-float(of.std()) if len(of) else 0.0 for of in own])
 
     def overlaps(self, truth: Truth) -> Floats:
         """Return the shared seconds of each segment (row) and each true action (column)."""
@@ -291,23 +264,19 @@ def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float)
     assert isinstance(found, KinemeFound)
     segments = convert_columns(found.columns(), found.preset.working_fps)
     shown = found.evidence
-    preferred, repeated = shown.preferred[:, None], shown.repeated[:, None]
-    lesser = np.fmin(shown.preferred, np.roll(shown.preferred, 1))
-    of_borders = np.column_stack([shown.sharpness, lesser])
-    of_counts = np.column_stack([repeated, segments.evenness])
-    of_counts[segments.counts < 2] = np.nan  # one repetition is not a count
-    of_cuts = repeated[shown.parents]
+    # One repetition is not a count.
+    of_counts = np.where(segments.counts < 2, np.nan, shown.repeated)
     judged = (
-        ("link", preferred, judge_links(truth, segments)),
-        ("border", of_borders, judge_borders(truth, segments, near_s)),
+        ("link", shown.preferred, judge_links(truth, segments)),
+        ("border", shown.sharpness, judge_borders(truth, segments, near_s)),
         ("count", of_counts, judge_counts(truth, segments)),
-        ("cut", of_cuts, judge_cuts(truth, segments)),
+        ("cut", shown.repeated[shown.parents], judge_cuts(truth, segments)),
     )
     return [
-        Row(kind, source, tuple(statistics[at].tolist()), bool(right))
-        for kind, statistics, of_kind in judged
+        Row(kind, source, float(statistic[at]), bool(right))
+        for kind, statistic, of_kind in judged
         for at, right in of_kind
-        if np.isfinite(statistics[at]).all()
+        if np.isfinite(statistic[at])
     ]
 
 
@@ -365,9 +334,6 @@ def judge_cuts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
         yield p, np.abs(truth.cuts - found.cuts[p]).min() <= near
 
 
-# --- the model --------------------------------------------------------------------------------
-
-
 def fit_logistic(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> Numbers:
     """Fit constant and weight by logistic regression, with equal weight for each source."""
     _, at, counts = np.unique(sources, return_inverse=True, return_counts=True)
@@ -386,22 +352,16 @@ def fit_logistic(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> 
     return float(weights[0] - weight * middle), weight
 
 
-def predict_left_out(table: Table, statistic: Floats) -> Floats:
+def predict_left_out(table: Table) -> Floats:
     """Predict the probabilities of each source from all others."""
-    found = np.empty(len(statistic))
+    found = np.full(len(table.right), 0.5)
     for source in np.unique(table.sources):
         own = table.sources == source
-        others = () if own.all() else (statistic[~own], table.right[~own], table.sources[~own])
-        constant, weight = fit_logistic(*others) if others else (0.0, 0.0)
-        found[own] = expit(constant + weight * statistic[own])
+        if not own.all():
+            others = table.statistic[~own], table.right[~own], table.sources[~own]
+            constant, weight = fit_logistic(*others)
+            found[own] = expit(constant + weight * table.statistic[own])
     return found
-
-
-def compute_auc(found: Floats, right: Bools) -> float:
-    """Return the area under the ROC curve; nan if all rows are right or all are wrong."""
-    yes, no = int(right.sum()), int((~right).sum())
-    ranks = rankdata(found)[right].sum()
-    return float((ranks - yes * (yes + 1) / 2) / (yes * no)) if yes and no else np.nan
 
 
 def compute_scores(found: Floats, right: Bools) -> dict[str, float]:
@@ -409,40 +369,12 @@ def compute_scores(found: Floats, right: Bools) -> dict[str, float]:
     sure = found >= SURE
     return {
         "right": float(right.mean()),
-        "auc": compute_auc(found, right),
+        "auc": float(roc_auc_score(right, found)) if 0 < right.mean() < 1 else np.nan,
         "brier": float(np.square(found - right).mean()),
         "base": float(right.mean() * (1 - right.mean())),
         "sure": float(sure.mean()),
         "sure_right": float(right[sure].mean()) if sure.any() else np.nan,
     }
-
-
-def average_scores(table: Table, found: Floats) -> tuple[float, float]:
-    """Return AUC and mean squared error, averaged over sources."""
-    areas, errors = [], []
-    for source in np.unique(table.sources):
-        own = table.sources == source
-        errors.append(np.square(found[own] - table.right[own]).mean())
-        if min(table.right[own].sum(), (~table.right[own]).sum()) >= FEW:
-            areas.append(compute_auc(found[own], table.right[own]))
-    return float(np.mean(areas)) if areas else np.nan, float(np.mean(errors))
-
-
-def choose_statistic(kind: str, table: Table) -> int:
-    """Print the scores of all statistics and return the index of the best one."""
-    print(f"\n{kind:28}{'n':>7}{'AUC':>9}{'of each':>9}{'Brier':>9}  learnt from all")
-    errors = []
-    for name, statistic in zip(STATISTICS[kind], table.statistics.T, strict=True):
-        found = predict_left_out(table, statistic)
-        area, error = average_scores(table, found)
-        constant, weight = fit_logistic(statistic, table.right, table.sources)
-        pooled = compute_auc(found, table.right)
-        cells = f"{len(found):7}{pooled:9.3f}{area:9.3f}{error:9.3f}"
-        print(f"  {name:26}{cells}  {constant:.4g}, {weight:.4g}", flush=True)
-        errors.append(error if area > 0.5 else np.inf)
-    none = average_scores(table, predict_left_out(table, np.zeros(len(table.right))))
-    print(f"  {'none':26}{'':25}{none[1]:9.3f}")
-    return int(np.argmin(errors))
 
 
 def print_report(kind: str, table: Table, found: Floats) -> None:
@@ -465,9 +397,6 @@ def print_report(kind: str, table: Table, found: Floats) -> None:
         )
 
 
-# --- main -------------------------------------------------------------------------------------
-
-
 def judge_source(source: str, every: int, near_s: float) -> list[Row]:
     warnings.simplefilter("ignore")
     return [
@@ -479,15 +408,16 @@ def judge_source(source: str, every: int, near_s: float) -> list[Row]:
 
 def make_tables(rows: Sequence[Row]) -> dict[str, Table]:
     """Collect the rows of each kind."""
-    of_kinds = {kind: [row for row in rows if row.kind == kind] for kind in STATISTICS}
+    of_kinds: dict[str, list[Row]] = {}
+    for row in rows:
+        of_kinds.setdefault(row.kind, []).append(row)
     return {
         kind: Table(
             np.array([row.source for row in of]),
-            np.array([row.statistics for row in of]),
+            np.array([row.statistic for row in of]),
             np.array([row.right for row in of]),
         )
         for kind, of in of_kinds.items()
-        if of
     }
 
 
@@ -505,11 +435,9 @@ def main() -> None:
         rows = list(chain.from_iterable(pool.map(work, sources)))
     lines = []
     for kind, table in make_tables(rows).items():
-        best = choose_statistic(kind, table)
-        statistic = table.statistics[:, best]
-        print_report(kind, table, predict_left_out(table, statistic))
-        constant, weight = fit_logistic(statistic, table.right, table.sources)
-        lines.append(f"{kind}_weights = ({constant:.4g}, {weight:.4g})  # {STATISTICS[kind][best]}")
+        print_report(kind, table, predict_left_out(table))
+        constant, weight = fit_logistic(table.statistic, table.right, table.sources)
+        lines.append(f"{kind}_weights = ({constant:.4g}, {weight:.4g})")
     print("\n" + "\n".join(lines))
 
 

@@ -22,22 +22,9 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src" / "kineme"
 PAGES = SOURCE / "web" / "pages" / "src"
 PREPOSITIONS = {
-    *("about", "above", "after", "among", "at", "before", "below", "beside", "between", "by"),
-    *(
-        "for",
-        "in",
-        "into",
-        "of",
-        "on",
-        "over",
-        "per",
-        "since",
-        "under",
-        "with",
-        "within",
-        "without",
-    ),
-}
+    "about", "above", "after", "among", "at", "before", "below", "beside", "between", "by", "for",
+    "in", "into", "of", "on", "over", "per", "since", "under", "with", "within", "without",
+}  # fmt: skip
 IRREGULAR = {"found", "told", "made", "known", "shown", "given", "kept", "held", "drawn"}
 DIRECTIVE = re.compile(r"#\s*(noqa|type:|fmt:)")
 WANTED: dict[str, str] = {

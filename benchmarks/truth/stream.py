@@ -25,7 +25,7 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _joined import Piece, join_signals, list_clusters, read_pieces
+from _joined import Piece, join_signals, read_pieces
 from _options import choose_size, find_data, make_parser
 from _recordings import read_subject_86
 from _sources import SOURCES, score_labels
@@ -110,7 +110,7 @@ def replay_hours(hours: float, **options: float) -> None:
             stream.push(part.values[start : start + 15])
         memory.append(int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6)
     stream.finish()
-    clusters = list_clusters(stream.segmentation).reshape(n_parts, -1)
+    clusters = stream.segmentation.per_frame(level="activity").reshape(n_parts, -1)
     borders = np.cumsum([len(piece.truth) for piece in parts])[:-1]
     for which, at in (("first", 0), ("last", -1)):
         each = zip(parts, np.split(clusters[at], borders), strict=True)

@@ -1,4 +1,4 @@
-"""Every exception and warning the package raises, on one page.
+"""Define all exceptions and warnings of the package.
 
     Exception
       KinemeError
@@ -25,7 +25,7 @@ from typing import Any
 
 
 class KinemeError(Exception):
-    """Base of every error raised on purpose; all of them get from one process to another.
+    """Base of every error raised on purpose; all of them can be pickled.
 
     Examples
     --------
@@ -38,7 +38,7 @@ class KinemeError(Exception):
     """
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _as_it_was, (type(self), self.args, vars(self))
+        return _restore_error, (type(self), self.args, vars(self))
 
 
 class FileError(KinemeError):
@@ -185,10 +185,10 @@ class KinemeWarning(UserWarning):
     """
 
 
-def _as_it_was(
+def _restore_error(
     kind: type[KinemeError], args: tuple[Any, ...], state: dict[str, Any]
 ) -> KinemeError:
-    """An error that was pickled: those that are made of other things than ``args`` as well."""
+    """Restore a pickled error, also if its constructor takes other arguments than ``args``."""
     error = kind.__new__(kind, *args)
     vars(error).update(state)
     return error

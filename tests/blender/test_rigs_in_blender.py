@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
-from _viewers import BPY, read_in_blender
+from blender_reader import BPY, read_in_blender
 from kineme.formats.scenes.fbx_writer import copy_takes
 
 pytestmark = [

@@ -128,15 +128,6 @@ def knees(walks) -> Cycles:
     return kineme.cycles(walks.motion, walks.truth, channels=["knee_*"])
 
 
-def test_a_session_beside_itself_has_not_changed(knees) -> None:
-    table = compare_sessions(knees, knees)
-    np.testing.assert_array_equal(np.nan_to_num(table["difference"]), 0)
-    assert table["first_n"].tolist() == table["second_n"].tolist()
-    curves = compare_curves(knees, knees)
-    np.testing.assert_allclose(curves["difference"], 0)
-    assert len(curves["percent"]) == 2 * 2 * 101
-
-
 def test_differences_and_bounds_are_those_of_welch(knees) -> None:
     duration = knees.columns["duration_s"]
     slow = duration * np.where(np.arange(len(knees)) % 2, 1.2, 1.3)

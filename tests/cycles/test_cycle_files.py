@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from scipy.io import loadmat
 
 import kineme
 from kineme.cycles import Cycles, write_cycles, write_table
 from kineme.errors import MissingDependencyError, ParameterError, WriteError
 from kineme.plot import plot_curves
+from kineme.recordings import Signals
+from kineme.recordings.operations import cut
+from segmentations import one_activity
 
 
 @pytest.fixture(scope="module")
@@ -70,10 +76,6 @@ def test_matlab_reads_equal_structs(cycles, tmp_path: Path) -> None:
 
 
 def test_names_that_matlab_cannot_have_are_made_to_fit(walks, tmp_path: Path) -> None:
-    from dataclasses import replace
-
-    from kineme.recordings import Signals
-
     long = "a" * 70
     values = np.random.default_rng(0).normal(size=(walks.motion.n_frames, 3))
     signals = Signals(values, 60.0, ["1°", f"{long}b", f"{long}c"])
@@ -96,15 +98,7 @@ def test_netcdf_reads_equal_curves(cycles, tmp_path: Path) -> None:
     assert mean.sizes == {"percent": 101}
 
 
-def test_curves_are_laid_out_as_statistics_of_curves_take_them(cycles) -> None:
-    squats = cycles.layout("knee_l", "squat", ends=True)
-    assert squats.shape == (5, 101)
-    assert cycles.layout("knee_r", "squat").shape == (3, 101)
-
-
 def test_a_package_that_is_not_there_is_named(cycles, tmp_path: Path, monkeypatch) -> None:
-    import sys
-
     for package, suffix, extra in (("openpyxl", "xlsx", "excel"), ("xarray", "nc", "xarray")):
         monkeypatch.setitem(sys.modules, package, None)
         with pytest.raises(MissingDependencyError, match=rf"kineme\[{extra}\]"):
@@ -122,20 +116,14 @@ def test_other_suffixes_and_objects_are_refused(cycles, tmp_path: Path) -> None:
 
 
 def test_nothing_measured_is_written_as_tables_without_rows(walks, tmp_path: Path) -> None:
-    from kineme.recordings.operations import cut
-    from kineme.segments.segmentation import Segmentation
-
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [60]}
-    none = Segmentation.from_columns(columns, n_frames=60, fps=60.0)
-    nothing = kineme.cycles(cut(walks.motion, 0, 60), none, channels=["knee_l"])
+    short = cut(walks.motion, 0, 60)
+    nothing = kineme.cycles(short, one_activity(60, 60.0), channels=["knee_l"])
     for suffix in ("csv", "mat"):
         write_cycles(nothing, tmp_path / f"c.{suffix}")
     assert (tmp_path / "c.csv").read_text().startswith("row,recording,")
 
 
 def test_pictures_show_a_line_for_each_group(cycles) -> None:
-    from matplotlib.figure import Figure
-
     axes = plot_curves(cycles, "knee_l", ax=Figure().add_subplot())
     assert [text.get_text() for text in axes.get_legend().get_texts()] == [
         "walk (n = 6)", "squat (n = 3)",

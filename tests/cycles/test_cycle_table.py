@@ -16,6 +16,7 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
 from kineme.segments.editing import exclude
 from kineme.segments.segmentation import Segmentation
+from segmentations import from_rows, one_activity
 
 
 @pytest.fixture(scope="module")
@@ -26,16 +27,13 @@ def cycles(walks: SyntheticRecording) -> Cycles:
 def repeated(starts: list[float], end: float, fps: float, n_frames: int) -> Segmentation:
     """One activity with these repetitions, in a recording that goes on."""
     frames = [round(at * fps) for at in [*starts, end]]
-    rows = [("activity", "activity", frames[0], frames[-1], 0)]
-    rows += [("primitive", "primitive", a, b, 0) for a, b in pairwise(frames)]
+    rows = [("activity", "activity", frames[0], frames[-1], 0, "")]
+    rows += [("primitive", "primitive", a, b, 0, "") for a, b in pairwise(frames)]
     for level in ("activity", "primitive"):
-        if frames[0]:
-            rows.append((level, "transition", 0, frames[0], -1))
+        rows += [(level, "transition", 0, frames[0], -1, "")] if frames[0] else []
         if frames[-1] < n_frames:
-            rows.append((level, "transition", frames[-1], n_frames, -1))
-    names = ("level", "kind", "start_frame", "stop_frame", "cluster")
-    columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
-    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps)
+            rows.append((level, "transition", frames[-1], n_frames, -1, ""))
+    return from_rows(rows, fps=fps)
 
 
 def rows_of(cycles: Cycles, group: str) -> np.ndarray:
@@ -213,9 +211,7 @@ def test_one_repetition_has_no_deviation_and_none_is_no_error(walks) -> None:
     assert one.columns["place"].tolist() == ["only"]
     assert np.isnan(one.summary(ends=True)["sd"]).all()
     assert one.summary()["n"].tolist() == [0] * 10
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [200]}
-    none = Segmentation.from_columns(columns, n_frames=200, fps=60.0)
-    nothing = kineme.cycles(motion, none)
+    nothing = kineme.cycles(motion, one_activity(200, 60.0))
     assert len(nothing) == 0
     assert nothing.groups == []
     assert len(nothing.summary()["n"]) == 0

@@ -24,6 +24,7 @@ from kineme.evaluation.score import (
 )
 from kineme.labels.collections import find_labels
 from kineme.segments.segmentation import Segmentation
+from segmentations import from_rows
 
 per_frame = st.lists(st.integers(0, 3), min_size=1, max_size=40)
 
@@ -138,9 +139,10 @@ def test_frames_without_a_label_count_in_nothing() -> None:
 
 
 def test_repetitions_are_those_within_labelled_frames() -> None:
-    columns = {"level": ["activity", "primitive", "primitive"], "kind": ["activity"] * 3,
-               "start_frame": [0, 0, 6], "stop_frame": [10, 6, 10], "cluster": [0] * 3}  # fmt: skip
-    found = Segmentation.from_columns(columns, n_frames=10, fps=10)
+    found = from_rows(
+        [("activity", "activity", 0, 10, 0, ""), ("primitive", "primitive", 0, 6, 0, ""),
+         ("primitive", "primitive", 6, 10, 0, "")], fps=10
+    )  # fmt: skip
     truth = segments([("activity", 0, 4, "walk", -1), ("transition", 4, 7, "", -1),
                       ("activity", 7, 10, "run", -1)])  # fmt: skip
     compared = compare(truth, found)
@@ -157,10 +159,7 @@ def test_one_mapping_for_the_folder_asks_for_clusters_that_mean_the_same() -> No
 
 
 def segments(rows: list[tuple]) -> Segmentation:
-    kinds, starts, stops, labels, clusters = zip(*rows, strict=True)
-    columns = {"level": ["activity"] * len(rows), "kind": kinds, "start_frame": starts,
-               "stop_frame": stops, "label": labels, "cluster": clusters}  # fmt: skip
-    return Segmentation.from_columns(columns, n_frames=stops[-1], fps=10)
+    return from_rows([("activity", *row[:3], row[4], row[3]) for row in rows], fps=10)
 
 
 def test_a_label_file_for_each_recording_serves_as_well(corpus, tmp_path) -> None:

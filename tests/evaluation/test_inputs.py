@@ -18,12 +18,11 @@ from kineme.evaluation.score import compute_results, get_value
 from kineme.evaluation.truth import make_truth
 from kineme.labels.collections import LabelSource
 from kineme.segments.segmentation import Segmentation
+from segmentations import from_rows, one_activity
 
 
 def result(n_frames: int = 60, fps: float = 10.0) -> Segmentation:
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0],
-               "stop_frame": [n_frames], "cluster": [0]}  # fmt: skip
-    return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps)
+    return one_activity(n_frames, fps, cluster=0)
 
 
 @pytest.mark.parametrize("separator", [",", "\t"])
@@ -164,10 +163,11 @@ def test_primitives_alone_are_repetitions_with_pauses_between_them(tmp_path, cou
 
 
 def test_an_activity_may_be_called_transition_in_a_segment_table() -> None:
-    columns = {"level": ["activity"] * 3, "kind": ["activity", "transition", "activity"],
-               "start_frame": [0, 20, 25], "stop_frame": [20, 25, 60],
-               "label": ["transition", "", "walk"]}  # fmt: skip
-    table = Segmentation.from_columns(columns, n_frames=60, fps=10)
+    table = from_rows(
+        [("activity", "activity", 0, 20, -1, "transition"),
+         ("activity", "transition", 20, 25, -1, ""), ("activity", "activity", 25, 60, -1, "walk")],
+        fps=10,
+    )  # fmt: skip
     assert make_truth(table, n_frames=60, fps=10).labels == ("transition (activity)", "walk")
     found = score_agreement(table, table)
     assert found["cluster_ratio"] == found["border_f1"] == found["mof"] == 1.0
@@ -206,9 +206,8 @@ def test_labelled_intervals_are_clusters_by_their_names(tmp_path) -> None:
     assert score_agreement(found, found)["one_to_one"] == 1.0
     assert score_agreement(found, found)["cluster_ratio"] == 1.0
     assert score_agreement(found, result(60))["cluster_ratio"] == 0.5
-    assert not score_agreement(Segmentation.from_columns(
-        {"level": ["activity"], "kind": ["transition"], "start_frame": [0], "stop_frame": [60]},
-        n_frames=60, fps=10.0), found)  # fmt: skip
+    pause = from_rows([("activity", "transition", 0, 60, -1, "")], fps=10.0)
+    assert not score_agreement(pause, found)
 
 
 def test_where_two_people_differ_is_told_but_not_what_borders_leave_open(tmp_path) -> None:

@@ -1,7 +1,8 @@
-"""Segmentations of all shapes, for hypothesis."""
+"""Segmentations of given rows, and of all shapes for hypothesis."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,22 @@ JSON = st.recursive(
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner),
     max_leaves=8,
 )
+
+
+def from_rows(
+    rows: Sequence[tuple[str, str, int, int, int, str]], *, fps: float = 30.0, **options: Any
+) -> Segmentation:
+    """Make a segmentation of rows: level, kind, first frame, stop, cluster and label."""
+    names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
+    columns: dict[str, Any] = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
+    return Segmentation.from_columns(
+        columns, n_frames=max(row[3] for row in rows), fps=fps, **options
+    )
+
+
+def one_activity(n_frames: int, fps: float = 30.0, cluster: int = -1) -> Segmentation:
+    """Make a single activity."""
+    return from_rows([("activity", "activity", 0, n_frames, cluster, "")], fps=fps)
 
 
 @st.composite

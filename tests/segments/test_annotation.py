@@ -16,7 +16,7 @@ from kineme.segments import editing
 from kineme.segments.annotation import NO_ANNOTATION, Annotation
 from kineme.segments.segmentation import Segmentation
 from kineme.web.encoding import to_json
-from segmentations import LABELS, segmentations
+from segmentations import LABELS, from_rows, segmentations
 
 LEVELS = st.sampled_from(["activity", "primitive"])
 SPANS = st.lists(st.tuples(LEVELS, st.integers(0, 60), st.integers(0, 60)), max_size=3).map(tuple)
@@ -37,14 +37,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def walk() -> Segmentation:
-    columns = {
-        "level": ["activity", "activity", "primitive", "primitive", "primitive"],
-        "kind": ["activity", "transition", "primitive", "primitive", "transition"],
-        "start_frame": [0, 60, 0, 30, 60],
-        "stop_frame": [60, 90, 30, 60, 90],
-        "cluster": [0, -1, 0, 0, -1],
-    }
-    return Segmentation.from_columns(columns, n_frames=90, fps=30, provenance={"notes": ["a"]})
+    rows = [
+        ("activity", "activity", 0, 60, 0, ""),
+        ("activity", "transition", 60, 90, -1, ""),
+        ("primitive", "primitive", 0, 30, 0, ""),
+        ("primitive", "primitive", 30, 60, 0, ""),
+        ("primitive", "transition", 60, 90, -1, ""),
+    ]
+    return from_rows(rows, provenance={"notes": ["a"]})
 
 
 @given(ANNOTATIONS)

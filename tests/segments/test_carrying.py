@@ -12,7 +12,7 @@ from kineme.errors import ParameterError
 from kineme.segments import editing
 from kineme.segments.editing.annotating import find_marked, get_span, mark_edited
 from kineme.segments.segmentation import Segmentation
-from segmentations import segmentations
+from segmentations import from_rows, segmentations
 
 
 def by_hand(segmentation: Segmentation, edit: str, *arguments: object) -> Segmentation:
@@ -31,9 +31,7 @@ def other_way() -> Segmentation:
         ("primitive", "transition", 33, 38, -1, ""),
         ("primitive", "primitive", 38, 60, 0, ""),
     ]
-    names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
-    columns = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
-    return Segmentation.from_columns(columns, n_frames=60, fps=30.0)
+    return from_rows(rows)
 
 
 def test_numbers_and_names_go_to_the_clusters_and_segments_that_match() -> None:
@@ -73,14 +71,9 @@ def test_a_cluster_given_by_hand_is_kept_though_none_matches() -> None:
 
 
 def test_what_is_left_beside_a_checked_primitive_stays_in_its_activity() -> None:
-    rows = [(0, 30), (30, 60)]
-    columns = {
-        "level": ["activity"] * 2 + ["primitive"] * 2,
-        "kind": ["activity"] * 4,
-        "start_frame": [start for start, _ in rows * 2],
-        "stop_frame": [stop for _, stop in rows * 2],
-    }
-    found = Segmentation.from_columns(columns, n_frames=60, fps=30.0)
+    rows = [(level, "activity", start, start + 30, -1, "")
+            for level in ("activity", "primitive") for start in (0, 30)]  # fmt: skip
+    found = from_rows(rows)
     before = editing.split(editing.split(found, "primitive", 12), "primitive", 29)
     checked = editing.check(before, "primitive", [12], True)
     result = editing.carry_corrections(checked, found)
@@ -143,6 +136,7 @@ def _resampled(found: Segmentation, like: Segmentation) -> Segmentation:
         replace(row, stop_frame=n if row.start_frame == last[row.level] else row.stop_frame)
         for row in rows
     ]
-    names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
-    columns = {name: [getattr(row, name) for row in rows] for name in names}
-    return Segmentation.from_columns(columns, n_frames=n, fps=like.fps)
+    return from_rows(
+        [(r.level, r.kind, r.start_frame, r.stop_frame, r.cluster, r.label) for r in rows],
+        fps=like.fps,
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, get_args
 
 import hypothesis.strategies as st
@@ -11,12 +12,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-import kineme
 from kineme.errors import ParameterError
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
-from segmentations import LABELS, segmentations
+from segmentations import LABELS, from_rows, one_activity, segmentations
 
 LEVELS = st.sampled_from(["activity", "primitive"])
 FRAMES = st.integers(-1, 61)
@@ -46,10 +46,8 @@ def walk_pause_jump() -> Segmentation:
         ("primitive", "primitive", 40, 50, 1, ""),
         ("primitive", "primitive", 50, 60, 1, ""),
     ]
-    names = ("level", "kind", "start_frame", "stop_frame", "cluster", "label")
-    columns: dict[str, Any] = dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
-    columns["confidence"] = [0.5] * len(rows)
-    return Segmentation.from_columns(columns, n_frames=60, fps=30.0, provenance={"notes": ["a"]})
+    made = from_rows(rows, provenance={"notes": ["a"]})
+    return replace(made, table=made.table.with_columns(confidence=np.full(len(rows), 0.5)))
 
 
 def spans(segmentation: Segmentation, level: str) -> str:
@@ -263,8 +261,7 @@ def test_refusals_say_what_to_do(edit, arguments, reason) -> None:
 
 
 def test_a_table_without_primitives_can_be_edited() -> None:
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
-    bare = Segmentation.from_columns(columns, n_frames=9, fps=10.0)
+    bare = one_activity(9, 10.0)
     halves = editing.move_border(editing.split(bare, "activity", 4), "activity", 4, 6)
     assert spans(halves, "activity") == "0-6 | 6-9"
     assert not len(halves.primitives)
@@ -273,18 +270,10 @@ def test_a_table_without_primitives_can_be_edited() -> None:
         editing.delete_border(bare, "primitive", 4)
 
 
-def table() -> kineme.Segmentation:
-    spans = [(0, 10), (10, 20), (20, 30), (30, 40)]
-    columns = {
-        "level": ["activity", "activity"] + ["primitive"] * 4,
-        "kind": ["activity"] * 6,
-        "start_frame": [0, 20] + [a for a, _ in spans],
-        "stop_frame": [20, 40] + [b for _, b in spans],
-        "cluster": [0] * 6,
-        "label": [""] * 6,
-    }
-    made = kineme.Segmentation.from_columns(columns, n_frames=40, fps=10)
-    return editing.name_cluster(made, 0, "walk")
+def table() -> Segmentation:
+    rows = [("activity", "activity", start, start + 20, 0, "") for start in (0, 20)]
+    rows += [("primitive", "primitive", start, start + 10, 0, "") for start in (0, 10, 20, 30)]
+    return editing.name_cluster(from_rows(rows, fps=10), 0, "walk")
 
 
 def test_a_part_of_a_cluster_is_one_of_its_own() -> None:

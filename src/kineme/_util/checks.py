@@ -21,6 +21,8 @@ from kineme.errors import KinemeWarning, MissingDependencyError, MotionError, Pa
 
 MAX_FRAMES_RATIO = 1000
 """Largest ratio of a new to an old frame rate; above it the old rate is probably wrong."""
+MANY = {"activity": "activities", "person": "people"}
+"""Irregular plurals."""
 
 
 @contextmanager
@@ -175,10 +177,6 @@ def as_features(values: ArrayLike, name: str = "features") -> NDArray[np.float64
     return array
 
 
-MANY = {"activity": "activities", "person": "people"}
-"""Irregular plurals."""
-
-
 def format_count(n: int, one: str) -> str:
     """Return a number and a noun, in the plural if needed.
 
@@ -236,24 +234,11 @@ T = TypeVar("T", bound=Named)
 class Registry(Mapping[str, T]):
     """Objects of one kind by their names.
 
-    A name cannot be registered twice unless the new object replaces the old one.
-
-    Parameters
-    ----------
-    kind : type
-        Type of the objects.
-    what : str
-        Noun for an object in messages.
-    group : str
-        Group of entry points for objects of other packages, such as ``kineme.scores``. Each entry
-        point names one object or a tuple. Those that fail to load are skipped with a
-        `KinemeWarning`.
-    home : str
-        Package that the names in ``builtins`` are relative to.
-    builtins : sequence of str
-        Built-in objects as ``module:NAME`` of one object or a tuple.
-    newest_first : bool
-        Whether objects that are added later come before the others.
+    A name cannot be registered twice unless the new object replaces the old one. ``what`` is the
+    noun for an object in messages. Built-in objects are named as ``module:NAME``, relative to the
+    package ``home``; NAME is one object or a tuple. Other packages add objects through the entry
+    point group ``group``; those that fail to load are skipped with a `KinemeWarning`. With
+    ``newest_first``, objects that are added later come before the others.
 
     Examples
     --------

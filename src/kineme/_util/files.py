@@ -52,12 +52,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     The draft is in the same folder and has the same suffix. A link at ``path`` is rejected, since
     it would redirect the write. If the block raises, the draft is removed and ``path`` stays
     unchanged. After the block the file is flushed to disk. Drafts of killed processes are removed
-    after an hour.
-
-    Raises
-    ------
-    WriteError
-        The folder is missing, or the file cannot be written or is a link.
+    after an hour. Raise WriteError if the folder is missing, or the file cannot be written.
     """
     final, draft = _find_paths(path)
     with _write_draft(draft, final, path):
@@ -72,12 +67,8 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     """Provide a draft folder to fill, which replaces ``target`` when the block ends.
 
     The draft is beside ``target``, which must be new or empty. If the block raises, the draft is
-    removed. Drafts of killed processes are removed after an hour.
-
-    Raises
-    ------
-    WriteError
-        ``target`` exists and is not empty, or the folder cannot be created or written.
+    removed. Drafts of killed processes are removed after an hour. Raise WriteError if ``target``
+    exists and is not empty, or if it cannot be created or written.
     """
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         raise WriteError(target, "exists already: name a new folder or empty this one")
@@ -130,15 +121,10 @@ def _rename_error(error: FileError, draft: Path, final: Path) -> FileError:
 
 @contextmanager
 def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Convert any exception in a block that reads a file to an error of kineme.
+    """Convert any exception in a block that reads a file to a ReadError, with it as the cause.
 
     Readers raise specific errors themselves; this handles the rest. Warnings of numpy about too
     large numbers are suppressed, since such numbers are rejected later.
-
-    Raises
-    ------
-    ReadError
-        Replaces any exception of other packages, with the original as its cause.
     """
     import numpy as np
 

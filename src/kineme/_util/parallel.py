@@ -30,11 +30,13 @@ if TYPE_CHECKING:
 
 SHORT = 50
 """Number of rows below which starting a thread takes longer than the work."""
-
+OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
+VARIABLE = "NUMBA_CACHE_DIR"
+COMPILING = "compiling, the first time only"
+"""Message during the first compilation, which takes up to half a minute."""
 _here = local()
 _ask: ContextVar[Callable[[], None] | None] = ContextVar("ask", default=None)
 _say: ContextVar[Callable[[str], None] | None] = ContextVar("say", default=None)
-
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
@@ -97,10 +99,10 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
         raise
 
 
-def make_even_slices(n: int, short: int = SHORT) -> list[slice]:
-    """Split ``range(n)`` into equal slices, a few per core, with at least ``short`` rows."""
-    # A few parts per core balance uneven work; `-(-n // short)` rounds up.
-    parts = min(2 * count_threads(), -(-n // short))
+def make_even_slices(n: int) -> list[slice]:
+    """Split ``range(n)`` into equal slices, a few per core, with at least `SHORT` rows."""
+    # A few parts per core balance uneven work; `-(-n // SHORT)` rounds up.
+    parts = min(2 * count_threads(), -(-n // SHORT))
     edges = [n * part // parts for part in range(parts + 1)] if parts else []
     return [slice(a, b) for a, b in pairwise(edges)]
 
@@ -198,12 +200,6 @@ def _prepare_worker(threads: int) -> None:
             os._exit(1)
 
         threading.Thread(target=watch, daemon=True).start()
-
-
-OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
-VARIABLE = "NUMBA_CACHE_DIR"
-COMPILING = "compiling, the first time only"
-"""Message during the first compilation, which takes up to half a minute."""
 
 
 @contextmanager

@@ -121,10 +121,6 @@ def channels_of(
         Signals recorded at the same time, such as force plates. Their channels are added, each at
         its own rate.
 
-    Returns
-    -------
-    list of Channel
-
     Raises
     ------
     ParameterError

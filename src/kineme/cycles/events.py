@@ -158,10 +158,6 @@ def foot_events(
         its gyroscope, or the vertical force under it. By default found by names such as
         ``lf_gyr_x``.
 
-    Returns
-    -------
-    Events
-
     Raises
     ------
     ParameterError

@@ -27,7 +27,7 @@ from kineme._util.checks import check_path, check_type, require_extra
 from kineme._util.files import atomic_write
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import WriteError
-from kineme.labels.delimited import write_rows
+from kineme.labels.delimited import open_new_text, write_rows
 
 NAME_OF_MATLAB = 63
 """Longest name in MATLAB, in characters."""
@@ -101,7 +101,7 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
         with atomic_write(target) as draft:
             parquet.write_table(table(columns), draft)
     elif target.suffix.lower() == ".csv":
-        with atomic_write(target) as draft, draft.open("w", encoding="utf-8", newline="") as file:
+        with open_new_text(target) as file:
             write_rows(file, [*columns], zip(*map(_format_cells, columns.values()), strict=True))
     else:
         raise WriteError(target, "must end in .csv or .parquet")

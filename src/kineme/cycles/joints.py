@@ -39,18 +39,27 @@ from kineme.recordings import Motion, Skeleton
 from kineme.recordings.joint_names import SIDES, find_joints, simplify_name
 
 OTHER_SIDE = dict(zip(SIDES, reversed(SIDES), strict=True))
+LEAST = 3
+"""Least number of markers of a rigid body."""
+MARKERS = (
+    *(("*_hip_centre",), ("*_outer_ankle",)),
+    *(("*_waist_front",), ("*_waist_back",), ("sacrum",)),
+)
+"""Parts in `joint_names` from which centres of hips and knees are computed."""
+DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
+"""Regression of a hip's offset (ahead, up, outwards) from the front middle: factor and metres."""
+PULL = 0.05
+"""Weight that pulls the common point to between both bodies, relative to the fit."""
+BENT = 0.1
+"""Least motion of a knee in the recording, about 8 degrees standard deviation."""
+MOST = 4000
+"""Largest number of frames used to find the common point."""
+MOVES = 0.1
+"""Least standard deviation of a hinge's angle, in radians, to determine its axis."""
 
 
 def landmarks(motion: Motion) -> dict[str, int]:
     """Return the indices of joints by part and side, such as ``left_knee``, if found.
-
-    Parameters
-    ----------
-    motion : Motion
-
-    Returns
-    -------
-    dict of str to int
 
     Examples
     --------
@@ -92,23 +101,6 @@ def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
         for side, heel in heels.items()
         if heel is not None
     }
-
-
-LEAST = 3
-"""Least number of markers of a rigid body."""
-MARKERS = (
-    *(("*_hip_centre",), ("*_outer_ankle",)),
-    *(("*_waist_front",), ("*_waist_back",), ("sacrum",)),
-)
-"""Parts in `joint_names` from which centres of hips and knees are computed."""
-DEPTH, WIDTH_DOWN, WIDTH_OUT = (-0.24, -0.0099), (-0.30, -0.0109), (0.33, 0.0073)
-"""Regression of a hip's offset (ahead, up, outwards) from the front middle: factor and metres."""
-PULL = 0.05
-"""Weight that pulls the common point to between both bodies, relative to the fit."""
-BENT = 0.1
-"""Least motion of a knee in the recording, about 8 degrees standard deviation."""
-MOST = 4000
-"""Largest number of frames used to find the common point."""
 
 
 def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion, dict[str, int]]:
@@ -248,10 +240,6 @@ def _find_poses(markers: Floats) -> tuple[Floats, Floats]:
     flips[:, 0, 2] = np.sign(np.linalg.det(u @ vt))
     # The index order transposes the product: V D Ut.
     return np.einsum("fij,fjk->fki", u * flips, vt), centre
-
-
-MOVES = 0.1
-"""Least standard deviation of a hinge's angle, in radians, to determine its axis."""
 
 
 def bend(before: Floats, joint: Floats, after: Floats) -> Floats:

@@ -48,41 +48,28 @@ _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.
 
 Groups = Sequence[Mapping[int | str, Hashable]]
 """Group of each movement, for each recording. Movements of a group begin at a common phase."""
+Curve = tuple[Floats, float]
+"""Values of a channel, and frames per second."""
 
 
 @dataclass(frozen=True)
 class Repetition:
-    """One repetition: its segment, and the times between which it is measured.
+    """One repetition: its segment, and the seconds between which it is measured.
 
-    Attributes
-    ----------
-    recording : int
-        Index of the recording.
-    segment : Segment
-        The primitive in the segment table.
-    place : str
-        ``inner``, or at the ends of its run ``first``, ``last`` or ``only``.
-    start, stop : float
-        Seconds.
-    start_deviation, stop_deviation : float
-        Standard deviations of start and stop, seconds; nan if unknown.
-    pause : float
-        Seconds of rest between it and the previous repetition.
-    turned : float
-        Shift of its phase relative to the segment, in cycles.
-    lacking : str
-        Why it is excluded from means: it is incomplete, or its event is missing. Else empty.
+    ``place`` is ``inner``, or at the ends of its run ``first``, ``last`` or ``only``. Standard
+    deviations are in seconds, nan if unknown. ``lacking`` says why it is excluded from means: it is
+    incomplete, or its event is missing; else it is empty.
     """
 
-    recording: int
-    segment: Segment
+    recording: int  # number of the recording
+    segment: Segment  # the primitive in the segment table
     place: str
     start: float
     stop: float
     start_deviation: float
     stop_deviation: float
-    pause: float = 0.0
-    turned: float = 0.0
+    pause: float = 0.0  # seconds of rest between the previous repetition and this one
+    turned: float = 0.0  # shift of its phase relative to the segment, in cycles
     lacking: str = ""
 
 
@@ -310,10 +297,6 @@ def anchor_repetitions(
             )
         )  # fmt: skip
     return anchored
-
-
-Curve = tuple[Floats, float]
-"""Values of a channel, and frames per second."""
 
 
 def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:

@@ -25,35 +25,12 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-PHASES = ("min_at", "max_at")
-"""Statistics of a channel that are phases."""
-
-CYCLE = 100.0
-"""A whole cycle in the unit of phases, per cent."""
-
-
-def is_phase(measure: str) -> bool:
-    """Return whether a measure, such as ``knee_l.max_at``, is a phase."""
-    return measure.rpartition(".")[2] in PHASES
-
-
-def compute_mean_phase(phases: Floats) -> float:
-    """Return the circular mean, 0 to 100, such as 1 for 98 and 4; nan if empty."""
-    if not len(phases):
-        return np.nan
-    # Unit vectors on a circle that is one cycle long.
-    directions = np.exp(2j * np.pi * phases / CYCLE)
-    return float(np.angle(directions.sum()) / (2 * np.pi) * CYCLE % CYCLE)
-
-
-def compute_phase_differences(differences: Floats) -> Floats:
-    """Wrap differences of phases to -50 to 50."""
-    # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
-    return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
-
 
 Columns = dict[str, NDArray[Any]]
-
+PHASES = ("min_at", "max_at")
+"""Statistics of a channel that are phases."""
+CYCLE = 100.0
+"""A whole cycle in the unit of phases, per cent."""
 STATISTICS = ("range", "min", "max", "min_at", "max_at", "mean", "start", "stop")
 """Statistics of each channel in each cycle; ``_at`` in per cent of the cycle, ``start`` and
 ``stop`` at its borders."""
@@ -119,10 +96,6 @@ class Cycles:
         ----------
         rows : (cycles,) array of bool
 
-        Returns
-        -------
-        Cycles
-
         Raises
         ------
         ParameterError
@@ -169,10 +142,6 @@ class Cycles:
             Numbers of rows, from 0.
         reason : str
 
-        Returns
-        -------
-        Cycles
-
         Raises
         ------
         ParameterError
@@ -209,10 +178,6 @@ class Cycles:
             Largest distance from the median: for durations in standard deviations (estimated from
             the median absolute deviation), for curves in median distances. Groups of fewer than
             five inner cycles are skipped.
-
-        Returns
-        -------
-        Cycles
         """
         _check_number(deviations, "deviations")
         far: set[int] = set()
@@ -241,20 +206,12 @@ class Cycles:
         ----------
         least : float
             From 0 to 1; cycles with unknown probability are kept.
-
-        Returns
-        -------
-        Cycles
         """
         _check_number(least, "least")
         return self.exclude(np.flatnonzero(self.columns["border_confidence"] < least), UNSURE)
 
     def count_confidence(self, group: str) -> float:
         """Return the probability that the least certain count of repetitions in a group is correct.
-
-        Parameters
-        ----------
-        group : str
 
         Returns
         -------
@@ -396,10 +353,6 @@ class Cycles:
     def to_dataframe(self) -> pd.DataFrame:
         """Return a data frame with one row per cycle.
 
-        Returns
-        -------
-        pandas.DataFrame
-
         Raises
         ------
         MissingDependencyError
@@ -441,6 +394,26 @@ class Cycles:
                 },
             },
         )
+
+
+def is_phase(measure: str) -> bool:
+    """Return whether a measure, such as ``knee_l.max_at``, is a phase."""
+    return measure.rpartition(".")[2] in PHASES
+
+
+def compute_mean_phase(phases: Floats) -> float:
+    """Return the circular mean, 0 to 100, such as 1 for 98 and 4; nan if empty."""
+    if not len(phases):
+        return np.nan
+    # Unit vectors on a circle that is one cycle long.
+    directions = np.exp(2j * np.pi * phases / CYCLE)
+    return float(np.angle(directions.sum()) / (2 * np.pi) * CYCLE % CYCLE)
+
+
+def compute_phase_differences(differences: Floats) -> Floats:
+    """Wrap differences of phases to -50 to 50."""
+    # Shifted by half a cycle, so that the modulo leaves -50 to 50 instead of 0 to 100.
+    return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
 
 
 def compute_half_width(sd: Floats | float, n: int) -> Floats:

@@ -7,9 +7,8 @@ are downloaded from their authors' repository.
 Source: mocap.cs.cmu.edu, "free for all uses", funded by NSF EIA-0196217;
 annotations by Zhou, De la Torre and Hodgins, github.com/zhfe99/aca.
 
-@@annotated_trials: Read the published annotations of CMU subject 86: the actions of each trial and their ends.
-
-The benchmark (fourteen trials, three annotators) comes as ``annotations.json`` or as the authors'
+`read_actions` reads these annotations (of three people): the actions of each trial and their ends,
+as ``annotations.json`` or as the authors'
 text (``mocap.txt``: for each trial a line with its name, then ``label earliest mean latest`` for
 each action). Marks are frames at 120 Hz, counted from 1.
 
@@ -52,6 +51,12 @@ FRAMES = {
 }
 
 
+TRIAL_FPS = 120.0
+# In the first publication, trial 86_04, row 5 ends before it begins; the authors corrected it.
+CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
+Mark = Annotated[int, Meta(ge=0, lt=10**9)]
+
+
 @dataclass(frozen=True)
 class Fetched:
     """A checked file in the cache; ``frames`` is None if it is not a motion."""
@@ -84,31 +89,14 @@ def fetch_subject(
 ) -> Iterator[Fetched]:
     """Download and yield skeleton, trials and, for subject 86, annotations.
 
-    Existing files are checked instead of downloaded; invalid ones are downloaded again.
+    Existing files are checked instead of downloaded; invalid ones are downloaded again. By default
+    the trials are those from 1 up to the first that the site does not have, and the folder is
+    ``cmuNN`` in `find_cache_folder`. ``progress`` is called with name, bytes so far, and total
+    bytes or None. A connection without data for ``timeout_s`` is retried. ``site`` and
+    ``annotations`` are addresses, for mirrors.
 
-    Parameters
-    ----------
-    subject : int
-        Its number in the database.
-    trials : sequence of int, optional
-        Numbers of the trials; by default from 1 up to the first that the site does not have.
-    folder : str or PathLike, optional
-        Folder for the files; ``cmuNN`` in `find_cache_folder` by default.
-    progress : callable, optional
-        Called during downloads with name, bytes so far, and total bytes or None.
-    site, annotations : str, optional
-        Addresses, for mirrors.
-    timeout_s : float, optional
-        Seconds without data after which a connection is retried.
-
-    Raises
-    ------
-    ParameterError
-        Numbers below 1.
-    ReadError
-        No such subject or trial, or a file that cannot be downloaded completely.
-    WriteError
-        The folder cannot be written to.
+    Raise ParameterError for numbers below 1, ReadError if a subject or trial does not exist or
+    cannot be downloaded completely, and WriteError if the folder cannot be written to.
     """
     for number in (subject, *(trials or ())):
         if number < 1:
@@ -191,15 +179,6 @@ def _count_frames(path: Path, folder: Path) -> int:
     if found != expected:
         raise ReadError(path, f"{found} frames, while trial {path.stem} has {expected}")
     return found
-
-
-TRIAL_FPS = 120.0
-
-# In the first publication, trial 86_04, row 5 ends before it begins; the authors corrected it.
-CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
-
-
-Mark = Annotated[int, Meta(ge=0, lt=10**9)]
 
 
 class _Row(Struct):

@@ -1,4 +1,4 @@
-"""A human figure posed by joint angles.
+"""Pose a human figure by joint angles, which actions define over a cycle.
 
 It has 22 joints and five end sites with names that are common in BVH files, and a T-pose at rest.
 Segment lengths follow the proportions in D. A. Winter, Biomechanics and Motor Control of Human
@@ -19,10 +19,8 @@ elbow      forearm forward
 
 The rows from ``hip`` on exist for each side: "left hip", "right hip".
 
-@@actions: Actions of the figure: one cycle of each, defined by angles over the cycle.
-
-A cycle is one repetition: a stride, a jump, a squat, a kick, a full circle of the arms, a punch, a
-wave to and fro. Angles of ``figure`` are given at a few phases (fractions of the cycle) and
+A cycle of an action is one repetition: a stride, a jump, a squat, a kick, a full circle of the
+arms, a punch, a wave to and fro. Angles are given at a few phases (fractions of the cycle) and
 interpolated by monotone cubics. An angle without a side applies to both; in gaits the right side
 lags by half a cycle. Missing angles are those of standing.
 
@@ -47,7 +45,12 @@ MIDDLE = ("tilt", "list", "yaw", "bend", "lean", "twist", "nod", "look")
 LIMBS = ("hip", "spread", "knee", "foot", "toe", "swing", "raise", "roll", "elbow")
 SIDES = ("left", "right")
 ANGLES = MIDDLE + tuple(f"{side} {limb}" for side in SIDES for limb in LIMBS)
-
+_SIDEWAYS = frozenset({"list", "yaw", "lean", "twist", "look"})
+STANDING = dict.fromkeys(ANGLES, 0.0) | {
+    f"{side} {limb}": angle
+    for side in SIDES
+    for limb, angle in (("spread", 3.0), ("raise", 9.0), ("elbow", 14.0), ("roll", 15.0))
+}
 # Joint, parent, offset in metres for a body height of 1.75 m (left side).
 _HEIGHT = 1.75
 _TOES_OUT = np.radians(7.0)
@@ -71,6 +74,7 @@ _LIMBS = (
     ("ToeBase", "Foot", (0.0, -0.06, 0.13)),
     ("ToeBase_end", "ToeBase", (0.0, 0.0, 0.07)),
 )
+_TENTHS = [i / 10 for i in range(11)]
 
 
 def make_figure(size: float = _HEIGHT) -> Skeleton:
@@ -133,42 +137,20 @@ def _from_euler(axes: str, *radians: Floats) -> Floats:
     return rot.from_euler(np.stack(radians, axis=1), axes)
 
 
-STANDING = dict.fromkeys(ANGLES, 0.0) | {
-    f"{side} {limb}": angle
-    for side in SIDES
-    for limb, angle in (("spread", 3.0), ("raise", 9.0), ("elbow", 14.0), ("roll", 15.0))
-}
-
-_SIDEWAYS = frozenset({"list", "yaw", "lean", "twist", "look"})
-
-
 @dataclass(frozen=True)
 class Cycle:
     """One repetition of an action.
 
-    Parameters
-    ----------
-    seconds : float
-        Duration at speed 1.
-    at : sequence of float
-        Phases, fractions of the cycle from 0 to 1.
-    angles : mapping of str to sequence of float
-        Degrees at these phases, by name; an angle whose first and last values differ keeps turning
-        from cycle to cycle.
-    gait : bool, optional
-        Whether the right side lags by half a cycle.
-    flights : tuple of (float, float), optional
-        (from, to) fractions of the cycle spent in the air, at amplitude 1.
-    travels : bool, optional
-        Whether the figure moves forward and may turn.
+    ``angles`` are degrees by name at the phases ``at``, fractions of the cycle from 0 to 1. An
+    angle whose first and last values differ keeps turning from cycle to cycle.
     """
 
-    seconds: float
+    seconds: float  # duration at speed 1
     at: Sequence[float]
     angles: Mapping[str, Sequence[float]]
-    gait: bool = False
-    flights: tuple[tuple[float, float], ...] = ()
-    travels: bool = False
+    gait: bool = False  # the right side lags by half a cycle
+    flights: tuple[tuple[float, float], ...] = ()  # fractions of the cycle in the air: from, to
+    travels: bool = False  # the figure moves forward and may turn
 
     @property
     def one_sided(self) -> bool:
@@ -232,8 +214,6 @@ def _make_cosine(
     tenths = np.arange(11) / 10
     return list(middle + amplitude * np.cos(2 * np.pi * times * (tenths - at)))
 
-
-_TENTHS = [i / 10 for i in range(11)]
 
 ACTIONS: dict[str, Cycle] = {
     "stand": Cycle(1.0, (0, 1), {}),

@@ -44,6 +44,8 @@ compared by name."""
 
 Labelled = Mapping[str, Mapping[str, Segmentation]]
 """Segmentations by recording and annotator, in display order."""
+Truths = Mapping[str, Mapping[str, Truth]]
+"""Truths by recording and annotator, at the rate of comparison."""
 
 
 class Pair(NamedTuple):
@@ -207,10 +209,6 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
         For each recording, the segmentations by annotator, all with the same number of frames.
         Their activities are compared.
 
-    Returns
-    -------
-    AnnotatorAgreement
-
     Raises
     ------
     ParameterError
@@ -253,10 +251,6 @@ def annotator_agreement(labelled: Labelled) -> AnnotatorAgreement:
         for name, sides in truths.items()
     )
     return AnnotatorAgreement(people, by, overall, pairs, recordings)
-
-
-Truths = Mapping[str, Mapping[str, Truth]]
-"""Truths by recording and annotator, at the rate of comparison."""
 
 
 class _ClassNumbers:

@@ -209,8 +209,9 @@ class Comparison:
         """Return both sides as intervals."""
         if self.intervals is not None:
             return self.intervals
-        found = _make_labelling(self.found_runs, self.fps)
-        truth = _make_labelling(self.true_runs, self.fps)
+        found, truth = (
+            Labelling.from_frames(each, fps=self.fps) for each in (self.found, self.truth)
+        )
         actions = Truth.from_labelling(truth, tolerance_s=LABELS_TOLERANCE_S)
         return Spans(actions, found, found)
 
@@ -404,12 +405,6 @@ def find_runs(labels: ArrayLike) -> list[Run]:
     # + 1: a difference at i is a change between frames i and i + 1.
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
-
-
-def _make_labelling(found: Sequence[Run], fps: float) -> Labelling:
-    """Convert runs to intervals; the names of labels are their numbers."""
-    borders = [*(run.start for run in found), found[-1].stop]
-    return Labelling(np.array(borders), tuple(f"{run.label}" for run in found), fps)
 
 
 def _expand_to_frames(segmentation: Segmentation, values: Sequence[int]) -> Ints:

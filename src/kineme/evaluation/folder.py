@@ -155,10 +155,6 @@ def evaluate_folder(
     progress : callable, optional
         Called with a sentence for each finished recording.
 
-    Returns
-    -------
-    FolderScores
-
     Raises
     ------
     ParameterError

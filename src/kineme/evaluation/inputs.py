@@ -23,8 +23,8 @@ import numpy as np
 from kineme._util.json import decode_json
 from kineme.datasets.cmu import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.evaluation.comparison import Comparison, find_runs
-from kineme.evaluation.score import compare_with_truth, compute_results, get_value
+from kineme.evaluation.comparison import Comparison
+from kineme.evaluation.score import compare_with_truth, compute_scores
 from kineme.evaluation.truth import (
     UNLABELLED,
     Truth,
@@ -35,6 +35,7 @@ from kineme.evaluation.truth import (
 )
 from kineme.labels.registry import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
+from kineme.recordings.arrays import find_spans
 from kineme.segments.segmentation import Segmentation
 
 FPS = 30.0
@@ -91,7 +92,7 @@ def score_agreement(truth: Segmentation, found: Segmentation) -> dict[str, float
     1.0
     """
     compared = _compare_to_truth(truth, found)
-    scores = {} if compared is None else _compute_scores(compared)
+    scores = {} if compared is None else compute_scores(compared.without_silence())
     return {name: value for name, value in scores.items() if isfinite(value)}
 
 
@@ -115,10 +116,9 @@ def find_differences(truth: Segmentation, found: Segmentation) -> list[tuple[flo
     # Frames of a class of the truth with another class in the result.
     wrong = (compared.truth != compared.mapped) & (compared.truth != UNLABELLED)
     return [
-        (run.start / compared.fps, run.stop / compared.fps)
-        for run in find_runs(wrong)
-        # Runs of a mask: label 1 is True.
-        if run.label and run.stop - run.start > least
+        (start / compared.fps, stop / compared.fps)
+        for start, stop in find_spans(wrong).tolist()
+        if stop - start > least
     ]
 
 
@@ -130,12 +130,6 @@ def _compare_to_truth(truth: Segmentation, found: Segmentation) -> Comparison | 
     return compare_with_truth(make_truth(add_repetitions(truth), n_frames=n_frames, fps=fps), found)
 
 
-def _compute_scores(compared: Comparison) -> dict[str, float]:
-    return {
-        name: get_value(one) for name, one in compute_results(compared.without_silence()).items()
-    }
-
-
 def choose_comparison_rate(found: Segmentation) -> tuple[int, float]:
     """Return the number of frames and the rate of comparison: 30 Hz, or the result's if lower."""
     rate = min(FPS, found.fps)
@@ -145,7 +139,7 @@ def choose_comparison_rate(found: Segmentation) -> tuple[int, float]:
 
 def score(truth: Truth, found: Segmentation) -> dict[str, float]:
     """Return all scores, for a truth at the rate of comparison."""
-    return _compute_scores(compare_with_truth(truth, found))
+    return compute_scores(compare_with_truth(truth, found).without_silence())
 
 
 def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:

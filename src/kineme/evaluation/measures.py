@@ -27,10 +27,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from sklearn.metrics import adjusted_rand_score, normalized_mutual_info_score
+from sklearn.metrics import adjusted_rand_score, cohen_kappa_score, normalized_mutual_info_score
 
 from kineme._util.arrays import Floats, Ints
-from kineme.evaluation.comparison import Comparison, Run, count_frames
+from kineme.evaluation.comparison import Comparison, Run
 from kineme.evaluation.score import Ratio, Score, choose_number
 from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 
@@ -46,10 +46,6 @@ REPETITION_TOLERANCE = 0.25
 
 def frames_right(compared: Comparison) -> Ratio:
     """Return the share of frames whose cluster is mapped to their class (MoF).
-
-    Parameters
-    ----------
-    compared : Comparison
 
     Returns
     -------
@@ -132,14 +128,10 @@ def cohen_kappa(compared: Comparison) -> float:
     >>> cohen_kappa(Comparison([0, 0, 1, 1], [4, 4, 4, 4], fps=1))
     0.0
     """
-    found, true, frames = count_frames(compared.mapped, compared.truth)
-    # Rows and columns of the classes that both sides have.
-    row, column = np.nonzero(found[:, None] == true)
-    shares = frames / frames.sum()
-    right = shares[row, column].sum()
-    # Expected agreement: the product of both sides' shares, for each class.
-    by_chance = (shares.sum(axis=1)[row] * shares.sum(axis=0)[column]).sum()
-    return float((right - by_chance) / (1 - by_chance)) if by_chance < 1 else 1.0
+    # A single common class is expected by chance, too: 0 / 0.
+    if np.ptp([compared.truth, compared.mapped]) == 0:
+        return 1.0
+    return float(cohen_kappa_score(compared.truth, compared.mapped))
 
 
 def edit_score(compared: Comparison) -> float:
@@ -147,10 +139,6 @@ def edit_score(compared: Comparison) -> float:
 
     It is 1 - distance / length: the fewest insertions, deletions and exchanges of segments that
     turn one order of classes into the other, divided by the larger number of segments.
-
-    Parameters
-    ----------
-    compared : Comparison
 
     Returns
     -------
@@ -216,10 +204,6 @@ def overlap_f1(compared: Comparison, *, percent: float) -> Ratio:
 
 def count_errors(compared: Comparison) -> tuple[float, float] | None:
     """Return the mean error of the number of repetitions, and the share of exact counts.
-
-    Parameters
-    ----------
-    compared : Comparison
 
     Returns
     -------

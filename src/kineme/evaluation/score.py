@@ -11,7 +11,6 @@ Undefined scores are nan in Python, empty in CSV and Markdown, and null in JSON.
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import warnings
@@ -29,10 +28,15 @@ from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, WriteError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.truth import Labelling, Truth, make_labelling
-from kineme.formats.delimited import as_text
+from kineme.labels.delimited import open_new_text, write_rows
 from kineme.segments.segmentation import Segmentation
 
 Counted = Literal["frames", "segments", "borders", "repetitions", "clusters", "published protocols"]
+OUTPUTS = (".json", ".csv")
+DISAGREEMENT = 0.2
+"""Difference of border F1 and Edit above which a table has an explanation."""
+COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
+"""Run times, which are shown below the scores."""
 
 
 class Ratio(NamedTuple):
@@ -158,6 +162,11 @@ def compute_results(compared: Comparison) -> dict[str, float | Ratio]:
     return {name: result for name, result in found.items() if result is not None}
 
 
+def compute_scores(compared: Comparison) -> dict[str, float]:
+    """Compute all scores of a comparison as numbers, by name."""
+    return {name: get_value(result) for name, result in compute_results(compared).items()}
+
+
 def evaluate(
     truth: Truth,
     clusters: Labelling,
@@ -189,10 +198,6 @@ def evaluate(
     features : array_like, (frames, dims), optional
         Stacked, at the truth's frame rate.
 
-    Returns
-    -------
-    dict of str to float
-
     Raises
     ------
     ParameterError
@@ -214,7 +219,7 @@ def evaluate(
         positions=positions,
         features=features,
     )
-    return {name: get_value(result) for name, result in compute_results(compared).items()}
+    return compute_scores(compared)
 
 
 def evaluate_segmentation(
@@ -239,8 +244,7 @@ def evaluate_segmentation(
     >>> evaluate_segmentation(truth, labels)["one_to_one"]
     1.0
     """
-    compared = compare_with_truth(truth, found, positions=positions, features=features)
-    return {name: get_value(result) for name, result in compute_results(compared).items()}
+    return compute_scores(compare_with_truth(truth, found, positions=positions, features=features))
 
 
 def compare_with_truth(
@@ -314,13 +318,6 @@ def choose_number(
     return function
 
 
-OUTPUTS = (".json", ".csv")
-DISAGREEMENT = 0.2
-"""Difference of border F1 and Edit above which a table has an explanation."""
-COST = {"seconds": "seconds", "seconds_per_hour": "seconds per hour"}
-"""Run times, which are shown below the scores."""
-
-
 def make_score_rows(
     columns: Mapping[str, Mapping[str, float]],
 ) -> list[tuple[str, list[tuple[str, list[str]]]]]:
@@ -373,22 +370,13 @@ def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     suffix = path.suffix.lower()
     if suffix not in OUTPUTS:
         raise WriteError(path, f"scores are written as {' or '.join(OUTPUTS)}")
-    with (
-        atomic_write(path) as draft,
-        draft.open("w", encoding="utf-8", newline="\n" if suffix == ".json" else "") as file,
-    ):
+    with open_new_text(path, newline="\n" if suffix == ".json" else "") as file:
         if suffix == ".json":
             file.write(f"{format_json(records)}\n")
         else:
-            rows = [to_plain(record) for record in records]
-            names = list(dict.fromkeys(name for record in rows for name in record))
-            table = csv.DictWriter(file, names, lineterminator="\n")
-            table.writeheader()
-            table.writerows(
-                # Texts that look like formulas are protected for spreadsheets.
-                {k: as_text(v) if isinstance(v, str) else v for k, v in record.items()}
-                for record in rows
-            )
+            names = list(dict.fromkeys(name for record in records for name in record))
+            rows = map(to_plain, records)
+            write_rows(file, names, ([row.get(name) for name in names] for row in rows))
 
 
 def format_json(records: Sequence[Mapping[str, Any]]) -> str:

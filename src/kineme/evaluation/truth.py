@@ -1,4 +1,4 @@
-"""Data structures for comparison: `Labelling` for results of programs, `Truth` for people.
+"""Compare results of programs (`Labelling`) with what people marked (`Truth`).
 
 A `Labelling` consists of adjacent intervals with labels. A `Truth`, by one or more people, consists
 of actions in order, and of the span of each border between two of them.
@@ -6,11 +6,10 @@ of actions in order, and of the span of each border between two of them.
 Frames count from 0, and intervals are half-open, ``[start, stop)``: a border at frame b is before
 frame b. The label `TRANSITION` marks frames outside of actions; it is a class, not a cluster.
 
-@@label_truth: Convert labels to a truth: activities, and the repetitions in them.
-
-People label repetitions either as adjacent segments with the same name, or on the level
-``primitive``. Both give the same truth (`add_repetitions`): adjacent segments with equal labels are
-one activity, and each of them is a repetition. A column ``count`` gives only their number.
+`make_labelling` and `make_truth` convert segmentations. People label repetitions either as adjacent
+segments with the same name, or on the level ``primitive``. Both give the same truth
+(`add_repetitions`): adjacent segments with equal labels are one activity, and each of them is a
+repetition. A column ``count`` gives only their number.
 """
 
 from __future__ import annotations
@@ -28,6 +27,8 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, Segment, SegmentTable, choose_kind
 
 Texts = NDArray[np.object_]
+Count = int | None
+"""Number of repetitions; None if unknown."""
 
 TRANSITION = "transition"
 UNLABELLED = -1
@@ -96,7 +97,7 @@ class Labelling:
         cls, labels: Sequence[object] | NDArray[np.generic], *, fps: float
     ) -> Labelling:
         """Create a labelling from one label per frame: one interval per run of equal labels."""
-        names = np.array([str(label) for label in labels], dtype=object)
+        names = np.asarray(labels)
         if not names.size:
             raise ParameterError("no labels: give one label per frame")
         # + 1: the first frame of each new label.
@@ -134,11 +135,7 @@ class Labelling:
     def within(self, frames: NDArray[np.bool_]) -> Labelling:
         """Remove the frames that are False; intervals without frames are dropped."""
         # New position of each border: the number of kept frames before it.
-        moved = np.concatenate([[0], np.cumsum(frames)])[self.borders]
-        rows = np.flatnonzero(np.diff(moved) > 0)
-        return Labelling(
-            np.append(moved[rows], moved[-1]), tuple(self.labels[i] for i in rows), self.fps
-        )
+        return self._move(np.concatenate([[0], np.cumsum(frames)])[self.borders], self.fps)
 
     def merged(self) -> Labelling:
         """Merge neighbours with equal labels."""
@@ -162,11 +159,13 @@ class Labelling:
         check_length(self.frames, self.fps, frames, fps)
         moved = round_half_up(self.borders * (fps / self.fps))
         # Rounding must not exceed the end; the last border is the end itself.
-        moved = np.append(np.minimum(moved[:-1], frames), frames)
-        kept = np.flatnonzero(np.diff(moved) > 0)
-        return Labelling(
-            np.append(moved[kept], frames), tuple(self.labels[i] for i in kept), float(fps)
-        )
+        return self._move(np.append(np.minimum(moved[:-1], frames), frames), float(fps))
+
+    def _move(self, borders: Ints, fps: float) -> Labelling:
+        """Move the borders, and drop intervals that are then empty."""
+        rows = np.flatnonzero(np.diff(borders) > 0)
+        labels = tuple(self.labels[i] for i in rows)
+        return Labelling(np.append(borders[rows], borders[-1]), labels, fps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -339,9 +338,6 @@ def check_rate(fps: float) -> None:
         raise ParameterError(f"the frame rate must be a positive number, not {fps}")
 
 
-Count = int | None
-
-
 def add_repetitions(labels: Segmentation) -> Segmentation:
     """Convert labels to both levels: activities, and their repetitions as primitives.
 
@@ -425,10 +421,6 @@ def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
         Segments of one level.
     fps : float
         Frames per second.
-
-    Returns
-    -------
-    Labelling
 
     Examples
     --------

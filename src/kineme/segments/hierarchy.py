@@ -77,10 +77,6 @@ class Hierarchy:
         ----------
         tables : mapping of float to SegmentTable
             With a table of detail 1, which is selected and never left out.
-
-        Returns
-        -------
-        Hierarchy
         """
         kept_details = [DEFAULT_DETAIL]
         for detail in sorted(each for each in tables if each > DEFAULT_DETAIL):
@@ -110,10 +106,6 @@ class Hierarchy:
         detail : float
             Above 0; below all details, the coarsest table is selected.
 
-        Returns
-        -------
-        Hierarchy
-
         Raises
         ------
         ParameterError
@@ -126,10 +118,6 @@ class Hierarchy:
 
     def borders(self, level: Level = "activity") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Return the borders of the finest table, and the coarsest detail that has each.
-
-        Parameters
-        ----------
-        level : {"activity", "primitive"}
 
         Returns
         -------

@@ -18,16 +18,7 @@ LONGEST = 100
 
 @dataclass(frozen=True)
 class History(Generic[State]):
-    """A state, with past and undone ones.
-
-    Parameters
-    ----------
-    present : State
-        Usually a `kineme.segments.segmentation.Segmentation`.
-    past : tuple of State
-        Earlier states, oldest first.
-    future : tuple of State
-        Undone states, the next one to redo first.
+    """A state, usually a segmentation, with past states (oldest first) and undone ones.
 
     Examples
     --------

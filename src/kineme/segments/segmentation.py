@@ -241,10 +241,6 @@ class Segmentation:
         annotation : Annotation
             Annotation of the table by people.
 
-        Returns
-        -------
-        Segmentation
-
         Raises
         ------
         ParameterError
@@ -328,11 +324,6 @@ class Segmentation:
 
     def per_frame(self, column: str = "cluster", *, level: Level = "primitive") -> NDArray[Any]:
         """Return the value of a column for each frame.
-
-        Parameters
-        ----------
-        column : str
-        level : {"activity", "primitive"}
 
         Returns
         -------

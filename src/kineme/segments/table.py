@@ -44,36 +44,16 @@ Values = TypeVar("Values")
 
 @dataclass(frozen=True)
 class Column:
-    """Declaration of a column, for files, pages and docs.
-
-    Attributes
-    ----------
-    meaning : str
-        Its meaning, in a sentence.
-    type : type
-        Type of its cells; unknown floats are nan.
-    unit : str
-        Unit of its numbers, or empty.
-    least : int, optional
-        Its smallest allowed number.
-    optional : bool
-        Whether a file may lack it.
-    derived : bool
-        Whether it follows from other columns.
-    allowed : tuple of str
-        Allowed texts; empty if any text is allowed.
-    default : str or float, optional
-        Value if unknown; None if the column is required.
-    """
+    """Declaration of a column, for files, pages and docs."""
 
     meaning: str
-    type: type[str | int | float] = str
+    type: type[str | int | float] = str  # unknown floats are nan
     unit: str = ""
-    least: int | None = None
-    optional: bool = False
-    derived: bool = False
-    allowed: tuple[str, ...] = ()
-    default: str | float | None = None
+    least: int | None = None  # smallest allowed number
+    optional: bool = False  # a file may lack it
+    derived: bool = False  # it follows from other columns
+    allowed: tuple[str, ...] = ()  # empty if any text is allowed
+    default: str | float | None = None  # value if unknown; None if the column is required
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,10 +225,6 @@ class SegmentTable:
         rows : slice or array_like
             Row numbers or a mask, as in numpy.
 
-        Returns
-        -------
-        SegmentTable
-
         Raises
         ------
         IndexError
@@ -274,15 +250,7 @@ class SegmentTable:
     @overload
     def __getitem__(self, rows: slice | ArrayLike) -> Self: ...
     def __getitem__(self, rows: Any) -> Segment | Self:
-        """Return the segment in a row, or the rows that a slice, mask or index array selects.
-
-        Raises
-        ------
-        IndexError
-            There is no such row.
-        ParameterError
-            The argument is not a valid selection.
-        """
+        """Return the segment in a row, or several rows; see `select`."""
         if not isinstance(rows, int | np.integer) or isinstance(rows, bool):
             return self.select(rows)
         if not -len(self) <= rows < len(self):

@@ -33,10 +33,6 @@ def check(
         Starts of the segments.
     checked : bool
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -67,10 +63,6 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     text : str
         Empty to remove the comment.
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -100,10 +92,6 @@ def exclude(segmentation: Segmentation, frames: Iterable[int], excluded: bool) -
     frames : iterable of int
         Starts of the primitives.
     excluded : bool
-
-    Returns
-    -------
-    Segmentation
 
     Raises
     ------

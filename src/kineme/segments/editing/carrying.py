@@ -46,24 +46,12 @@ from kineme.segments.table import Level, Segment, SegmentTable
 
 @dataclass(frozen=True)
 class CarryResult:
-    """Result of carrying corrections over.
-
-    Parameters
-    ----------
-    segmentation : Segmentation
-        The new segmentation with the corrections.
-    corrections : int
-        Number of segments made by hand or checked; all of them are carried over.
-    names : int
-        Number of names of clusters and of single segments.
-    lost : list of str
-        One sentence for each name without a match.
-    """
+    """Result of carrying corrections over: the new segmentation with the corrections."""
 
     segmentation: Segmentation
-    corrections: int
-    names: int
-    lost: list[str]
+    corrections: int  # number of segments made by hand or checked; all of them are carried over
+    names: int  # number of names of clusters and of single segments
+    lost: list[str]  # one sentence for each name without a match
 
 
 def carry_corrections(before: Segmentation, found: Segmentation) -> CarryResult:
@@ -75,10 +63,6 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> CarryResult:
         The corrected segmentation.
     found : Segmentation
         A new segmentation of the same recording.
-
-    Returns
-    -------
-    CarryResult
 
     Examples
     --------
@@ -159,10 +143,8 @@ def _match_clusters(before: Segmentation, found: Segmentation) -> dict[int, int]
 
 def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int64]:
     """Return the cluster of each frame; -1 if the level is empty."""
-    rows = segmentation.level(level)
-    if not len(rows):
-        return np.full(segmentation.n_frames, -1)
-    return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)
+    clusters = segmentation.per_frame("cluster", level=level)
+    return clusters if len(clusters) else np.full(segmentation.n_frames, -1)
 
 
 def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> CarryResult:

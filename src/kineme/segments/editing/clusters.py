@@ -16,8 +16,7 @@ from typing import Any, get_args
 
 from kineme.errors import ParameterError
 from kineme.segments.editing.borders import (
-    as_movement,
-    as_transition,
+    Rows,
     find_segment_at,
     join_rows,
     renumber_clusters,
@@ -25,7 +24,7 @@ from kineme.segments.editing.borders import (
     replace_rows,
 )
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Kind, Level, Segment
+from kineme.segments.table import Kind, Level, Segment, choose_kind
 
 
 def name_segment(segmentation: Segmentation, level: Level, frame: int, label: str) -> Segmentation:
@@ -40,10 +39,6 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     frame : int
         Start of the segment.
     label : str
-
-    Returns
-    -------
-    Segmentation
 
     Raises
     ------
@@ -75,10 +70,6 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     label : str
         Empty to remove the name.
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -107,10 +98,6 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
 
 def cluster_names(segmentation: Segmentation) -> dict[int, str]:
     """Return the names of clusters, without empty ones.
-
-    Parameters
-    ----------
-    segmentation : Segmentation
 
     Returns
     -------
@@ -188,10 +175,6 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
         Start of the segment.
     cluster : int
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -216,10 +199,9 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
         inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
         members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
     moved = _move_members(segmentation, members, cluster)
-    become = as_transition if cluster < 0 and chosen.kind == "transition" else as_movement
+    transition = cluster < 0 and chosen.kind == "transition"
     keys = {(row.level, row.start_frame) for _, row in members}
-    rows = [become(row) if (row.level, row.start_frame) in keys else row for row in moved]
-    return replace_rows(moved, rows, [])
+    return replace_rows(moved, _change_kinds(moved, keys, transition=transition), [])
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
@@ -231,10 +213,6 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
     cluster : int
         Cluster to remove.
     into : int
-
-    Returns
-    -------
-    Segmentation
 
     Raises
     ------
@@ -271,10 +249,6 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     cluster : int
     frames : iterable of int
         Starts of the primitives, or of activities in a table without primitives.
-
-    Returns
-    -------
-    Segmentation
 
     Raises
     ------
@@ -320,10 +294,6 @@ def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmenta
     order : sequence of int
         All clusters, each once.
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -360,10 +330,6 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     kind : {"activity", "primitive", "transition"}
         "activity" and "primitive" both mean the kind of its level.
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -382,20 +348,31 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     chosen = find_segment_at(segmentation, level, frame)
     if (kind == "transition") == (chosen.kind == "transition"):
         return segmentation
-    become = as_transition if kind == "transition" else as_movement
     activities, primitives = list(segmentation.activities), list(segmentation.primitives)
-    if level == "primitive":
-        primitives = [become(row) if row.start_frame == frame else row for row in primitives]
-        return replace_rows(segmentation, activities, primitives)
-    inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
-    if inside and kind == "transition":
-        # Merge its primitives to one transition.
-        primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
-        inside = inside[:1]
-    for i in inside:
-        primitives[i] = become(primitives[i])
-    activities = [become(row) if row.start_frame == frame else row for row in activities]
-    return replace_rows(segmentation, activities, primitives)
+    keys: set[tuple[Level, int]] = {(level, frame)}
+    if level == "activity":
+        inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
+        if inside and kind == "transition":
+            # Merge its primitives to one transition.
+            primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
+            inside = inside[:1]
+        keys |= {("primitive", primitives[i].start_frame) for i in inside}
+    rows = _change_kinds([*activities, *primitives], keys, transition=kind == "transition")
+    return replace_rows(segmentation, rows, [])
+
+
+def _change_kinds(
+    rows: Iterable[Segment], keys: set[tuple[Level, int]], *, transition: bool
+) -> Rows:
+    """Make the rows with these levels and starts transitions without a cluster, or movements."""
+    changed: Rows = []
+    for row in rows:
+        if (row.level, row.start_frame) in keys:
+            kind = choose_kind(row.level, transition=transition)
+            cluster = -1 if transition else row.cluster
+            row = replace(row, kind=kind, cluster=cluster, confidence=math.nan)  # noqa: PLW2901
+        changed.append(row)
+    return changed
 
 
 def _move_members(
