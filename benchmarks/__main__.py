@@ -36,6 +36,7 @@ LIMIT_S = 600.0
 """Time limit of one of several quick benchmarks."""
 RECORDS = re.compile(r"^from _figures import .*\badd_option\b", re.MULTILINE)
 """Matches scripts that accept ``--record``; asking each for its help would take a second."""
+RIVALS = "python benchmarks/rivals/run.py: other packages, in their own environment"
 
 
 class Outcome(NamedTuple):
@@ -70,6 +71,7 @@ def main(arguments: Sequence[str], folder: Path = HERE) -> int:
 def find_scripts(folder: Path, selection: str) -> list[Path]:
     """Return all benchmarks, those of a folder, or those named, in that order."""
     known = {path.stem: path for path in sorted(folder.glob("*/[!_]*.py"))}
+    known = {name: path for name, path in known.items() if path.parent.name != "rivals"}
     chosen: list[Path] = []
     for word in selection.split(","):
         within = [path for path in known.values() if word in (ALL, path.parent.name)]
@@ -94,7 +96,7 @@ def list_benchmarks(folder: Path) -> str:
         )
         summary = (ast.get_docstring(ast.parse(read_text(script))) or "").partition("\n")[0]
         lines.append(f"  {script.stem:22}{quick:>7}{whole:>8}  {summary}")
-    return "\n".join(lines)
+    return "\n".join([*lines, "", RIVALS])
 
 
 def run_visibly(script: Path, options: Sequence[str]) -> subprocess.CompletedProcess[bytes]:

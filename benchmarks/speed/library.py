@@ -1,21 +1,29 @@
-"""Measure building a library.
+"""Measure building, rebuilding and searching a library.
 
-    python -m benchmarks library [--copies 40] [--files 1000] [--record]
+    python -m benchmarks library [build] [again] [search] [--copies 40] [--files 1000] [--hours 10]
+                                 [--record]
 
 1. ``library build`` and ``segment FOLDER`` on forty copies of trial 86_10 as AMC, each with a
    comment of its own, and on forty equal copies.
 2. Rebuilding an unchanged library of short recordings.
+3. Searching a walk in noisy pieces of subject 86, in an open library and as a command.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
+from statistics import median
 from tempfile import TemporaryDirectory
+from time import perf_counter, process_time
 
 from _figures import add_option, record
+from _libraries import simulate_library
 from _measure import judge, run_kineme
 from _options import DATA, choose_size, find_data, make_parser
-from kineme import Library
+from kineme import Library, read
+
+PARTS = ("build", "again", "search")
+WALK = ("86_01.amc", 2.0, 3.2)
 
 
 def write_copies(folder: Path, n: int, *, frames: int | None = None, equal: bool = False) -> None:
@@ -62,17 +70,45 @@ def show_second_build(home: Path, files: int) -> None:
     record("library.again.processors", round(used, 2), unit="s")
 
 
+def show_search(home: Path, hours: float) -> None:
+    seconds = simulate_library(home / "hours", hours)
+    library = Library(home / "hours")
+    print(f"clusters in common of {len(library)} recordings: {seconds:.1f} s")
+    name, start_s, stop_s = WALK
+    example = read(DATA / "cmu86" / name)
+    taken = []
+    for _ in range(5):
+        start, begun = perf_counter(), process_time()
+        library.search(example, start_s, stop_s)
+        taken.append((perf_counter() - start, process_time() - begun))
+    warm, used = (median(column) for column in zip(*taken, strict=True))
+    print(
+        f"search in {library.hours:.0f} h: {warm:.2f} s, {judge(warm, 0.02 * hours)}; "
+        f"processor {used:.2f} s"
+    )
+    record("library.search.processor", round(used, 2), unit="s")
+    like = ("--like", DATA / "cmu86" / name, "--start", start_s, "--stop", stop_s)
+    command, used, _ = run_kineme("library", "search", home / "hours", *like, "--quiet")
+    print(f"as a command {command:.2f} s, {judge(command, 2.0)}; processor {used:.2f} s")
+
+
 def main() -> None:
     options = make_parser(__doc__)
+    options.add_argument("parts", nargs="*", default=PARTS, help=", ".join(PARTS))
     options.add_argument("--copies", type=int, default=choose_size(40, 2))
     options.add_argument("--files", type=int, default=choose_size(1000, 5))
+    options.add_argument("--hours", type=float, default=choose_size(10.0, 0.3))
     add_option(options)
     given = options.parse_args()
     find_data("cmu86")
     with TemporaryDirectory() as folder:
         home = Path(folder)
-        show_build(home, given.copies)
-        show_second_build(home, given.files)
+        if "build" in given.parts:
+            show_build(home, given.copies)
+        if "again" in given.parts:
+            show_second_build(home, given.files)
+        if "search" in given.parts:
+            show_search(home, given.hours)
 
 
 if __name__ == "__main__":

@@ -9,89 +9,31 @@ is saved, the computing time of the page, and the bytes that it receives.
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
-import re
-import shutil
-import signal
-import subprocess
-import sys
 import tempfile
-import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from statistics import median
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 import kineme
+from _browser import DRAWN, FLAGS, SIZE, open_chromium, wait
 from _figures import add_option, record
-from _measure import Duration, judge, take_medians
-from _options import choose_size, make_parser, need_packages, skip
+from _measure import judge, take_medians
+from _options import choose_size, make_parser
 from kineme.datasets import bundled_recording
 from kineme.segments import editing
+from studio import Studio, start_studio, time_request
 
 MINUTES, SEGMENTS, ROUNDS = choose_size((60, (5000, 20000), 7), (1, (100,), 1))
 MOST_S, MOST_BYTES = 0.1, 20_000
-FLAGS = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-SIZE = {"width": 1280, "height": 720}
-DRAWN = "window.kineme?.hasMotion && window.kineme.drawn > 0"
 EACH = 20
 """Primitives per activity."""
 KEYS = {"a border": "Alt+ArrowRight", "a split": "s", "a check": "k", "an undo": "Control+z"}
-
-
-class Studio(NamedTuple):
-    """A running studio."""
-
-    process: subprocess.Popen[str]
-    base: str
-    token: str
-
-    def ask(self, path: str, sent: Any = None) -> bytes:
-        """Send a request and return the body of the answer."""
-        data = None if sent is None else json.dumps(sent).encode()
-        request = urllib.request.Request(self.base + path, data, {"X-Kineme-Token": self.token})
-        with urllib.request.urlopen(request) as answer:
-            body: bytes = answer.read()
-        return body
-
-    def end(self) -> None:
-        """Stop the studio as Ctrl+C does."""
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait()
-
-
-def start_studio(folder: Path) -> Studio:
-    """Start ``kineme studio`` for a folder and wait for its address."""
-    command = [sys.executable, "-m", "kineme", "studio", str(folder)]
-    process = subprocess.Popen(
-        [*command, "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True
-    )
-    atexit.register(process.kill)  # stops it if the benchmark fails
-    found = re.search(r"(http://\S+)/\?token=(\S+)", process.stdout.readline())  # type: ignore[union-attr]
-    return Studio(process, found[1], found[2])  # type: ignore[index]
-
-
-def time_request(studio: Studio, path: str, sent: Any = None) -> tuple[Duration, bytes]:
-    """Return the duration of a request and its answer."""
-    clock, processor = perf_counter(), read_processor_time(studio.process.pid)
-    answer = studio.ask(path, sent)
-    spent = read_processor_time(studio.process.pid) - processor
-    return Duration(perf_counter() - clock, spent), answer
-
-
-def read_processor_time(pid: int) -> float:
-    """Return the processor seconds of a process; nan without /proc."""
-    try:
-        words = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    except OSError:
-        return float("nan")
-    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def repeat_bvh(bvh: str, n_frames: int) -> str:
@@ -109,7 +51,7 @@ def main() -> None:
     lengths = parser.parse_args().segments
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     n_frames = MINUTES * 60 * 60
-    with tempfile.TemporaryDirectory() as name, open_chromium() as browser:
+    with tempfile.TemporaryDirectory() as name, open_chromium(*FLAGS) as browser:
         path = Path(name) / "hour.bvh"
         path.write_text(repeat_bvh(bundled_recording().read_text(), n_frames))
         for n in lengths:
@@ -209,28 +151,6 @@ def time_keys(tab: Any, studio: Studio, n: int) -> None:
         )
         record(f"studio_edits.{n}.{what.split()[1]}.page", round(busy, 3), unit="s")
         record(f"studio_edits.{n}.{what.split()[1]}.saved", round(saved, 3), unit="s")
-
-
-@contextmanager
-def open_chromium() -> Iterator[Any]:
-    """Open Chromium with software rendering; skip the benchmark if it is not installed."""
-    need_packages("playwright")
-    from playwright.sync_api import sync_playwright
-
-    program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
-    if program is None:
-        skip("needs Chromium: install it, or set KINEME_CHROMIUM to its program")
-    sandbox = [] if os.geteuid() else ["--no-sandbox"]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, args=[*FLAGS, *sandbox])
-        yield browser
-        browser.close()
-
-
-def wait(tab: Any, condition: str) -> None:
-    """Wait until the condition holds; poll, because the page's policy forbids evaluated code."""
-    while not tab.evaluate(condition):
-        tab.wait_for_timeout(10)
 
 
 def read_busy_seconds(line: Any) -> float:
