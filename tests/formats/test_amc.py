@@ -42,8 +42,7 @@ def test_bones_become_joints_at_their_start(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "recording",
-    ["cmu86/86_10", "cmu_formats/49_02", "hdm05/amc/HDM_bk_squat1Reps_014_120"],
+    "recording", ["cmu86/86_10", "cmu_formats/49_02", "hdm05/amc/HDM_bk_squat1Reps_014_120"]
 )
 def test_equals_the_naive_implementation(data_dir: Path, recording: str) -> None:
     motion = read(data_dir / f"{recording}.amc")

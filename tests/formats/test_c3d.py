@@ -8,15 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import (
-    DEC,
-    INTEL,
-    MIPS,
-    PLUG_IN_GAIT,
-    c3d_bytes,
-    walking,
-    z_up_millimetres,
-)
+from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError

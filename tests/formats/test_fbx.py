@@ -177,12 +177,13 @@ def test_pivots_and_their_offsets(tmp_path: Path) -> None:
     assert place(motion, "c")[-1] == pytest.approx((whole @ [0, 0, 0.5, 1])[:3] + [0, 1, 0])
 
 
+@pytest.mark.parametrize("uneven", [False, True])
 @pytest.mark.parametrize(("kind", "length"), [(0, 3.0), (1, 3.0), (2, 1.5)])
-def test_scales_are_inherited_as_the_file_says(tmp_path: Path, kind: int, length: float) -> None:
+def test_scales_are_inherited_as_the_file_says(tmp_path, kind, length, uneven) -> None:
     """c's end is 0.5 away, times its own scale 3 and, unless b's is left out, b's 2."""
     scene = Bones({
         "a": {"LclTranslation": [0.0, 1.0, 0.0]},
-        "b": {"LclScaling": [2.0] * 3},
+        "b": {"LclScaling": [5.0 if uneven else 2.0, 2.0, 2.0]},
         "c": {"LclTranslation": [0.0, 0.5, 0.0], "LclScaling": [3.0] * 3, "InheritType": kind},
     })  # fmt: skip
     scene.models["tip"] = scene.model("tip", scene.models["c"], LclTranslation=[0.0, 0.5, 0.0])

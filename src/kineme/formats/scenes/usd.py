@@ -6,14 +6,11 @@ time codes between samples. USD interpolates between samples, also for ``fps=``.
 animation does not move are at rest. Needs ``usd-core``.
 
 The file is read in a separate process, since the library may crash, hang or print on damaged files.
-
-Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
-
-@@usd_layers: Open USD stages, with limits on the layers they may include and on their size.
-
 A layer includes others by sublayers, references and payloads. Only files in the folder of the main
 file are allowed. References to prims with references multiply, so their number is checked before a
 stage is composed.
+
+Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
 
 from __future__ import annotations
@@ -35,140 +32,30 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import make_unique, require_extra
 from kineme._util.files import translate_read_errors
-from kineme._util.rotations import from_matrices
 from kineme.errors import KinemeError, ReadError
 from kineme.formats.files import MAX_EXPANSION, FileContent, find_sibling, load
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import (
-    Transform,
-    assemble,
-    orthogonalize,
-    require_frame_memory,
-)
+from kineme.formats.scenes.assembly import Transform, assemble, count_frames, decompose
 from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
 from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
 SUFFIXES = (".usda", ".usdc", ".usd")
-
+HEADS = (b"#usda ", b"PXR-USDC")
+CENTIMETRE = 0.01
+"""Metres: the default unit of stages."""
 MAX_REFERENCES = 100_000
 """Maximum number of prims included by references; this many take a second and 200 MB."""
-
 MAX_SUBLAYERS = 1000
-
 MIN_STAGE_MEMORY = 1 << 30
 """Bytes of memory that composing any stage may use."""
-
 TIMEOUT_S = 300.0
 """Seconds that reading a file may take."""
 
-
-def open_stage(content: FileContent) -> tuple[Any, int]:
-    """Open the stage of a file; return it and the size in bytes of the other layers.
-
-    Raise ReadError if it includes a file outside its folder, or too much.
-    """
-    from pxr import Usd
-
-    layers, other_size = _load_layers(content)
-    _check_sublayers(content, layers)
-    _check_growth(content, layers[0])
-    return Usd.Stage.Open(layers[0]), other_size
-
-
-def _load_layers(content: FileContent) -> tuple[list[Any], int]:
-    """Load the layer of a file and all it includes; return them and the size of the others.
-
-    Missing layers are removed with a warning, since the library would search elsewhere for them.
-    """
-    from pxr import Sdf
-
-    layers: dict[str, Any] = {}
-    waiting, size = [os.path.abspath(content.path)], 0  # noqa: PTH100 (links are kept)
-    while waiting:
-        path = waiting.pop()
-        if path in layers:
-            continue
-        size += Path(path).stat().st_size
-        _limit_process(size)
-        layers[path] = layer = Sdf.Layer.FindOrOpen(path)
-        for name in filter(None, layer.GetCompositionAssetDependencies()):
-            plain, _ = Sdf.Layer.SplitIdentifier(name)
-            # Like the library, resolve ".." in the text, regardless of links.
-            target = os.path.normpath(Path(path).parent / plain)
-            file = find_sibling(content, target)
-            if file.is_file() and file.suffix.lower() in SUFFIXES:
-                waiting.append(target)
-            else:
-                layer.UpdateCompositionAssetDependency(name, "")
-                content.warn(f"the layer {name!r:.60} is missing or not USD, so it is left out")
-    return list(layers.values()), size - len(content.data)
-
-
-def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
-    """Raise ReadError if nested sublayers combine too many layers."""
-    from pxr import Sdf
-
-    for layer in layers:
-        stack = [layer]
-        # The list grows during the loop.
-        for sublayer in stack:
-            stack += [
-                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
-            ]
-            if len(stack) > MAX_SUBLAYERS:
-                raise content.error(f"its sublayers expand to more than {MAX_SUBLAYERS}")
-
-
-def _check_growth(content: FileContent, layer: Any) -> None:
-    """Raise ReadError if references include too much, or values are in clips (other files)."""
-    from pxr import Pcp, Sdf
-
-    cache = Pcp.Cache(Pcp.LayerStackIdentifier(layer), "usd", True)
-    waiting, n_included = [Sdf.Path.absoluteRootPath], 0
-    while waiting:
-        path = waiting.pop()
-        if path.IsPrimPath():
-            cache.RequestPayloads([path], [])
-        index, _ = cache.ComputePrimIndex(path)
-        if any(spec.HasInfo("clips") for spec in index.primStack):
-            raise content.error("has its animation in value clips: flatten the stage first")
-        nodes = list(index.rootNode.children)  # one per target of a reference
-        while nodes:
-            nodes += nodes.pop().children
-            n_included += 1
-            if n_included > MAX_REFERENCES:
-                raise content.error(
-                    f"its references expand to more than {MAX_REFERENCES} prims: export the "
-                    "character by itself"
-                )
-        waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]
-
-
-def _limit_process(size: int) -> None:
-    """Limit this process to the memory that layers of this size may use."""
-    if sys.platform == "win32":
-        return
-    import resource
-
-    memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
-    # A limit of 0 for core files: none is written if the process crashes.
-    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
-        soft, hard = resource.getrlimit(limit)
-        wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
-        with suppress(OSError, ValueError):  # some systems do not allow this limit
-            resource.setrlimit(limit, (wanted, hard))
-
-
-CENTIMETRE = 0.01
-"""Metres: the default unit of stages."""
-
-HEADS = (b"#usda ", b"PXR-USDC")
 _EVEN = 0.02  # relative deviation from their median of evenly spaced steps
 _ROUNDED = 0.1  # frames by which the last sample may miss its frame
-_MAX_FRAMES = 1e12
 
 _PROGRAM = """
 import pickle, sys
@@ -309,13 +196,8 @@ class _Skeleton:
         self.bound = UsdSkel.BindingAPI(prim).GetInheritedAnimationSource()
         rest = schema.GetRestTransformsAttr().Get()
         is_complete = rest is not None and len(rest) == len(self.joints)
-        self.rest = (
-            np.array(rest, np.float64)
-            if is_complete
-            else np.tile(np.eye(4), (len(default_names), 1, 1))
-        )
-        transforms = (_to_transform(matrix[None]) for matrix in self.rest)
-        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in transforms]
+        matrices = np.array(rest, np.float64) if is_complete else [np.eye(4)] * len(self.joints)
+        self.rest_pose = [decompose(matrix.T) for matrix in matrices]  # USD has row vectors
 
     def is_end(self, j: int) -> bool:
         if self.ends is not None:
@@ -401,9 +283,9 @@ def _find_frames(
     if not (np.isfinite(times).all() and 0 < fps < np.inf and codes_per_second > 0):
         raise content.error("states no valid frame rate: give fps= (--fps)")
     step = codes_per_second / fps
-    count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MAX_FRAMES)
-    require_frame_memory(content, joints, int(count), external_size=external_size)
-    return fps, times[0] + step * np.arange(int(count)), notes
+    count = (times[-1] - times[0]) / step + 1 + _ROUNDED
+    n_frames = count_frames(content, joints, count, external_size=external_size)
+    return fps, times[0] + step * np.arange(n_frames), notes
 
 
 def _list_joints(animation: Any) -> Sequence[Any]:
@@ -429,26 +311,104 @@ def _sample_carrier(xformable: Any, codes: Floats) -> Transform:
     """Return the world transform of a skeleton's prim."""
     matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
     is_constant = np.abs(matrices - matrices[0]).max() == 0
-    transform = _to_transform(matrices[:1] if is_constant else matrices)
-    shift, turn, scale = (part[0] if is_constant else part for part in transform[:3])
-    return Transform(shift, turn, scale)
+    return decompose(matrices[0].T if is_constant else matrices.transpose(0, 2, 1))
 
 
-def _to_transform(matrices: Floats) -> Transform:
-    """Return the transform of matrices (frames, 4, 4) for row vectors, as in USD."""
-    # Convert row vectors to column vectors.
-    axes = matrices[:, :3, :3].transpose(0, 2, 1)
-    scale = np.linalg.norm(axes, axis=1)
-    # Put a reflection into the scale, so that the axes are a rotation.
-    scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
-    turns = from_matrices(orthogonalize(axes / np.where(scale == 0, 1, scale)[:, None, :]))
-    return Transform(matrices[:, 3, :3], turns, scale)
+def open_stage(content: FileContent) -> tuple[Any, int]:
+    """Open the stage of a file; return it and the size in bytes of the other layers.
+
+    Raise ReadError if it includes a file outside its folder, or too much.
+    """
+    from pxr import Usd
+
+    layers, other_size = _load_layers(content)
+    _check_sublayers(content, layers)
+    _check_growth(content, layers[0])
+    return Usd.Stage.Open(layers[0]), other_size
 
 
-FORMAT = Format(
-    "USD",
-    SUFFIXES,
-    lambda head: head.startswith(HEADS),
-    read_usd,
-    write_usd,
-)
+def _load_layers(content: FileContent) -> tuple[list[Any], int]:
+    """Load the layer of a file and all it includes; return them and the size of the others.
+
+    Missing layers are removed with a warning, since the library would search elsewhere for them.
+    """
+    from pxr import Sdf
+
+    layers: dict[str, Any] = {}
+    waiting, size = [os.path.abspath(content.path)], 0  # noqa: PTH100 (links are kept)
+    while waiting:
+        path = waiting.pop()
+        if path in layers:
+            continue
+        size += Path(path).stat().st_size
+        _limit_process(size)
+        layers[path] = layer = Sdf.Layer.FindOrOpen(path)
+        for name in filter(None, layer.GetCompositionAssetDependencies()):
+            plain, _ = Sdf.Layer.SplitIdentifier(name)
+            # Like the library, resolve ".." in the text, regardless of links.
+            target = os.path.normpath(Path(path).parent / plain)
+            file = find_sibling(content, target)
+            if file.is_file() and file.suffix.lower() in SUFFIXES:
+                waiting.append(target)
+            else:
+                layer.UpdateCompositionAssetDependency(name, "")
+                content.warn(f"the layer {name!r:.60} is missing or not USD, so it is left out")
+    return list(layers.values()), size - len(content.data)
+
+
+def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
+    """Raise ReadError if nested sublayers combine too many layers."""
+    from pxr import Sdf
+
+    for layer in layers:
+        stack = [layer]
+        # The list grows during the loop.
+        for sublayer in stack:
+            stack += [
+                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
+            ]
+            if len(stack) > MAX_SUBLAYERS:
+                raise content.error(f"its sublayers expand to more than {MAX_SUBLAYERS}")
+
+
+def _check_growth(content: FileContent, layer: Any) -> None:
+    """Raise ReadError if references include too much, or values are in clips (other files)."""
+    from pxr import Pcp, Sdf
+
+    cache = Pcp.Cache(Pcp.LayerStackIdentifier(layer), "usd", True)
+    waiting, n_included = [Sdf.Path.absoluteRootPath], 0
+    while waiting:
+        path = waiting.pop()
+        if path.IsPrimPath():
+            cache.RequestPayloads([path], [])
+        index, _ = cache.ComputePrimIndex(path)
+        if any(spec.HasInfo("clips") for spec in index.primStack):
+            raise content.error("has its animation in value clips: flatten the stage first")
+        nodes = list(index.rootNode.children)  # one per target of a reference
+        while nodes:
+            nodes += nodes.pop().children
+            n_included += 1
+            if n_included > MAX_REFERENCES:
+                raise content.error(
+                    f"its references expand to more than {MAX_REFERENCES} prims: export the "
+                    "character by itself"
+                )
+        waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]
+
+
+def _limit_process(size: int) -> None:
+    """Limit this process to the memory that layers of this size may use."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
+    # A limit of 0 for core files: none is written if the process crashes.
+    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
+        soft, hard = resource.getrlimit(limit)
+        wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
+        with suppress(OSError, ValueError):  # some systems do not allow this limit
+            resource.setrlimit(limit, (wanted, hard))
+
+
+FORMAT = Format("USD", SUFFIXES, lambda head: head.startswith(HEADS), read_usd, write_usd)

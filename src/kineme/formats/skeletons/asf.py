@@ -29,7 +29,6 @@ from kineme.formats.units import INCH
 from kineme.recordings import Skeleton
 
 Line = tuple[int, list[str]]
-
 ROOT = "root"
 _BLANKS = str.maketrans("(),", "   ")
 
@@ -46,6 +45,23 @@ class Figure:
     skeleton: Skeleton
     scale: float
     angle_unit: float
+
+
+@dataclass
+class Bone:
+    """A bone in the file's length unit and radians."""
+
+    name: str
+    direction: Floats = field(default_factory=lambda: np.zeros(3))
+    length: float = 0.0
+    frame: Floats = field(default_factory=lambda: rot.IDENTITY)
+    dof: tuple[str, ...] = ()
+    position: Floats = field(default_factory=lambda: np.zeros(3))
+    line: int = 0
+
+    @property
+    def tip(self) -> Floats:
+        return self.direction * self.length
 
 
 def read_asf(content: FileContent, scale: float | None = None) -> Figure:
@@ -78,30 +94,6 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     )
 
 
-def _build_skeleton(
-    order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
-) -> Skeleton:
-    names: list[str] = []
-    indices: dict[str, int] = {}
-    joint_parents: list[int] = []
-    offsets: list[Floats] = []
-    ends = []
-    inner = set(parents.values())
-    for name in order:
-        parent = parents.get(name)
-        joint_parents.append(-1 if parent is None else indices[parent])
-        offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
-        indices[name] = len(names)
-        names.append(name)
-        # A leaf bone of non-zero length gets an end site.
-        if name not in inner and bones[name].tip.any():
-            joint_parents.append(len(names) - 1)
-            offsets.append(bones[name].tip)
-            ends.append(len(names))
-            names.append(f"{name}_end")
-    return Skeleton(tuple(names), tuple(joint_parents), scale * np.array(offsets), frozenset(ends))
-
-
 def _split_sections(content: FileContent) -> dict[str, list[Line]]:
     """Return the lines of each section as words, without comments and blank lines."""
     sections: dict[str, list[Line]] = {}
@@ -117,6 +109,21 @@ def _split_sections(content: FileContent) -> dict[str, list[Line]]:
         if words:
             current.append((number, words))
     return sections
+
+
+def read_root(content: FileContent, lines: list[Line], angle_unit: float) -> Bone:
+    """Return the root from the lines of its section."""
+    entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
+    root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
+    if "order" in entries:
+        root.dof = _parse_dof(content, *entries["order"])
+    if "position" in entries:
+        root.position = np.array(read_values(content, *entries["position"], 3))
+    if "orientation" in entries:
+        line, words = entries["orientation"]
+        letters = entries.get("axis", (0, ["xyz"]))[1]
+        root.frame = _parse_frame(content, line, words[:3] + letters, angle_unit)
+    return root
 
 
 def _split_blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
@@ -138,6 +145,62 @@ def _split_blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line
             block.append((number, words))
     if block is not None:
         raise content.error("the last bone has no 'end': the file is truncated", lines[-1][0])
+
+
+def read_bone(content: FileContent, block: list[Line], angle_unit: float) -> Bone:
+    """Return a bone from the lines between ``begin`` and ``end``."""
+    entries = {words[0].lower(): (n, words[1:]) for n, words in block}
+    first = block[0][0]
+    for needed in ("name", "direction", "length"):
+        if needed not in entries:
+            raise content.error(f"a bone without {needed!r}", first)
+    line, words = entries["name"]
+    if len(words) != 1:
+        raise content.error("a bone's name must be one word", line)
+    bone = Bone(words[0], line=line)
+    bone.direction = np.array(read_values(content, *entries["direction"], 3))
+    bone.length = read_values(content, *entries["length"], 1)[0]
+    if "axis" in entries:
+        bone.frame = _parse_frame(content, *entries["axis"], angle_unit)
+    if "dof" in entries:
+        bone.dof = _parse_dof(content, *entries["dof"])
+    return bone
+
+
+def _parse_frame(content: FileContent, line: int, words: list[str], angle_unit: float) -> Floats:
+    letters = (words[3] if len(words) > 3 else "xyz").lower()
+    if sorted(letters) != ["x", "y", "z"]:
+        raise content.error(f"axis order {letters!r} is not made of X, Y and Z", line)
+    angles = dict(zip("xyz", read_values(content, line, words[:3], 3), strict=True))
+    # The first letter is applied first, so it is the last factor of the product.
+    product_order = letters[::-1]
+    turns = np.array([[angle_unit * angles[letter] for letter in product_order]])
+    frame: Floats = rot.from_euler(turns, product_order)[0]
+    return frame
+
+
+def _parse_dof(content: FileContent, line: int, words: list[str]) -> tuple[str, ...]:
+    dof = tuple(word.lower() for word in words)
+    for word in dof:
+        if word not in ("tx", "ty", "tz", "rx", "ry", "rz"):
+            raise content.error(f"degree of freedom {word!r} is not one of tx ty tz rx ry rz", line)
+    if len(set(dof)) != len(dof):
+        raise content.error("a degree of freedom is listed twice", line)
+    return dof
+
+
+def read_values(
+    content: FileContent, line: int, words: list[str], count: int, *, positive: bool = False
+) -> list[float]:
+    """Return ``count`` numbers from the words of a line; raise an error that states the line."""
+    try:
+        values = parse_numbers(words)
+    except ValueError as error:
+        raise content.error(str(error), line) from None
+    if len(values) != count or (positive and min(values) <= 0):
+        kind = "positive " if positive else ""
+        raise content.error(f"{count} {kind}number(s) expected, found {' '.join(words)!r}", line)
+    return values
 
 
 def _parse_parents(
@@ -180,89 +243,25 @@ def _order_bones(
     return order
 
 
-@dataclass
-class Bone:
-    """A bone in the file's length unit and radians."""
-
-    name: str
-    direction: Floats = field(default_factory=lambda: np.zeros(3))
-    length: float = 0.0
-    frame: Floats = field(default_factory=lambda: rot.IDENTITY)
-    dof: tuple[str, ...] = ()
-    position: Floats = field(default_factory=lambda: np.zeros(3))
-    line: int = 0
-
-    @property
-    def tip(self) -> Floats:
-        return self.direction * self.length
-
-
-def read_bone(content: FileContent, block: list[Line], angle_unit: float) -> Bone:
-    """Return a bone from the lines between ``begin`` and ``end``."""
-    entries = {words[0].lower(): (n, words[1:]) for n, words in block}
-    first = block[0][0]
-    for needed in ("name", "direction", "length"):
-        if needed not in entries:
-            raise content.error(f"a bone without {needed!r}", first)
-    line, words = entries["name"]
-    if len(words) != 1:
-        raise content.error("a bone's name must be one word", line)
-    bone = Bone(words[0], line=line)
-    bone.direction = np.array(read_values(content, *entries["direction"], 3))
-    bone.length = read_values(content, *entries["length"], 1)[0]
-    if "axis" in entries:
-        bone.frame = _parse_frame(content, *entries["axis"], angle_unit)
-    if "dof" in entries:
-        bone.dof = _parse_dof(content, *entries["dof"])
-    return bone
-
-
-def read_root(content: FileContent, lines: list[Line], angle_unit: float) -> Bone:
-    """Return the root from the lines of its section."""
-    entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
-    root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
-    if "order" in entries:
-        root.dof = _parse_dof(content, *entries["order"])
-    if "position" in entries:
-        root.position = np.array(read_values(content, *entries["position"], 3))
-    if "orientation" in entries:
-        line, words = entries["orientation"]
-        letters = entries.get("axis", (0, ["xyz"]))[1]
-        root.frame = _parse_frame(content, line, words[:3] + letters, angle_unit)
-    return root
-
-
-def _parse_frame(content: FileContent, line: int, words: list[str], angle_unit: float) -> Floats:
-    letters = (words[3] if len(words) > 3 else "xyz").lower()
-    if sorted(letters) != ["x", "y", "z"]:
-        raise content.error(f"axis order {letters!r} is not made of X, Y and Z", line)
-    angles = dict(zip("xyz", read_values(content, line, words[:3], 3), strict=True))
-    # The first letter is applied first, so it is the last factor of the product.
-    product_order = letters[::-1]
-    turns = np.array([[angle_unit * angles[letter] for letter in product_order]])
-    frame: Floats = rot.from_euler(turns, product_order)[0]
-    return frame
-
-
-def _parse_dof(content: FileContent, line: int, words: list[str]) -> tuple[str, ...]:
-    dof = tuple(word.lower() for word in words)
-    for word in dof:
-        if word not in ("tx", "ty", "tz", "rx", "ry", "rz"):
-            raise content.error(f"degree of freedom {word!r} is not one of tx ty tz rx ry rz", line)
-    if len(set(dof)) != len(dof):
-        raise content.error("a degree of freedom is listed twice", line)
-    return dof
-
-
-def read_values(
-    content: FileContent, line: int, words: list[str], count: int, *, positive: bool = False
-) -> list[float]:
-    """Return ``count`` numbers from the words of a line; raise an error that states the line."""
-    try:
-        values = parse_numbers(words)
-    except ValueError as error:
-        raise content.error(str(error), line) from None
-    if len(values) != count or (positive and min(values) <= 0):
-        kind = "positive " if positive else ""
-        raise content.error(f"{count} {kind}number(s) expected, found {' '.join(words)!r}", line)
-    return values
+def _build_skeleton(
+    order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
+) -> Skeleton:
+    names: list[str] = []
+    indices: dict[str, int] = {}
+    joint_parents: list[int] = []
+    offsets: list[Floats] = []
+    ends = []
+    inner = set(parents.values())
+    for name in order:
+        parent = parents.get(name)
+        joint_parents.append(-1 if parent is None else indices[parent])
+        offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
+        indices[name] = len(names)
+        names.append(name)
+        # A leaf bone of non-zero length gets an end site.
+        if name not in inner and bones[name].tip.any():
+            joint_parents.append(len(names) - 1)
+            offsets.append(bones[name].tip)
+            ends.append(len(names))
+            names.append(f"{name}_end")
+    return Skeleton(tuple(names), tuple(joint_parents), scale * np.array(offsets), frozenset(ends))

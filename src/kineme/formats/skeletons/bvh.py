@@ -1,4 +1,4 @@
-"""Read BVH: the Biovision hierarchy in its many variants.
+"""Read and write BVH, the Biovision hierarchy, in its many variants.
 
 The file has a tree of joints with an offset and named channels each, then a line of channel values
 per frame. A joint's rotation is the product of its rotation channels in the order of the file, in
@@ -9,19 +9,16 @@ Position channels replace the joint's offset. In PyMO's ``AV_8Walk.bvh``, one of
 both, the hips have an offset 35.4 high and a first position 35.6 high (inches): replacing puts the
 feet on the floor, adding would put them at the height of the hips.
 
-A BVH has no unit and no up axis; `kineme.formats.units` infers them.
-
-Source: M. Meredith, S. Maddock, "Motion capture file formats explained", University of Sheffield
-CS-01-11, 2001, section 3.
-
-@@bvh_writer: Write BVH: rotations as Z Y X in degrees, in units and axes of the original BVH.
-
-Recordings of other formats are written in centimetres with y up and the rest pose of their rig. A
-BVH has no rotations at rest, so these become part of the rotations of each frame.
+A BVH has no unit and no up axis; `kineme.formats.units` infers them. Rotations are written as Z Y
+X, in the units and axes of the original BVH; recordings of other formats in centimetres with y up.
+A BVH has no rotations at rest, so those of a rig become part of the rotations of each frame.
 
 Joints whose offset varies get six channels, others three; roots always get six. An end site that
 moves or has children becomes a joint. A BVH has no names for end sites: reading names them
 ``PARENT_end``.
+
+Source: M. Meredith, S. Maddock, "Motion capture file formats explained", University of Sheffield
+CS-01-11, 2001, section 3.
 """
 
 from __future__ import annotations
@@ -51,7 +48,7 @@ from kineme.formats.files import (
 )
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.skeletons.placing import build_motion, require_frame_memory
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import compute_local_translations
@@ -59,6 +56,14 @@ from kineme.recordings.posing import align_to_rest
 
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
+UNIT = 0.01
+"""Metres per unit for recordings from other formats."""
+RIGID = 5e-7
+"""Metres by which a bone may differ from its offset and still count as rigid.
+
+Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
+adds up to 0.01 mm.
+"""
 
 _HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
@@ -71,12 +76,9 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a BVH file."""
     head = _parse_head(content, options)
     values = read_frames(content, head.start, head.width, head.declared)
-    n_joints = len(head.joints)
     if len(values) != head.declared:
         content.warn(f"{head.declared} frames declared, {len(values)} found and kept", head.line)
-    content.require_memory(
-        BYTES_PER_JOINT * n_joints * len(values), f"{n_joints} joints in {len(values)} frames"
-    )
+    require_frame_memory(content, len(head.joints), len(values))
     provenance = content.provenance("BVH", head.notes)
     content.release()
     local = _compute_local(head.joints, values)
@@ -127,61 +129,6 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
         fps, note = _parse_rate(content, header.group(2), content.line_at(header.start(2)))
         notes += [note] if note else []
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
-
-
-def _place_joints(
-    joints: list[Joint],
-    local: tuple[Floats, dict[int, Floats]],
-    fps: float,
-    options: ReadOptions,
-    provenance: Provenance,
-) -> Motion:
-    """Return the motion of joints from the result of `_compute_local`."""
-    parents = tuple(joint.parent for joint in joints)
-    inner = {*parents}
-    skeleton = Skeleton(
-        tuple(joint.name for joint in joints),
-        parents,
-        np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
-    )
-    return build_motion(
-        skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
-    )
-
-
-def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
-    """Return quaternions (frames, joints, 4), and translations of joints with position channels.
-
-    Translations (frames, 3) are by the number of the joint, in file units.
-    """
-    rotations = np.empty((len(values), len(joints), 4))
-    translations = {
-        # Position channels replace the offset per axis.
-        j: np.tile(joint.offset, (len(values), 1))
-        for j, joint in enumerate(joints)
-        if any(kind == "position" for _, kind in joint.channels)
-    }
-    for span in iterate_blocks(len(values)):
-        # One contiguous row per channel.
-        columns = np.ascontiguousarray(values[span].T)
-        block_rotations = np.zeros((len(joints), 4, columns.shape[1]))
-        block_rotations[:, 0] = 1.0
-        column = 0
-        # Columns are in the order of the joints' channels.
-        for j, joint in enumerate(joints):
-            rotation_columns, axes = [], ""
-            for axis, kind in joint.channels:
-                if kind == "position":
-                    translations[j][span, "xyz".index(axis)] = columns[column]
-                else:
-                    rotation_columns.append(column)
-                    axes += axis
-                column += 1
-            if rotation_columns:
-                block_rotations[j] = rot.from_euler(np.radians(columns[rotation_columns]).T, axes).T
-        rotations[span] = block_rotations.transpose(2, 0, 1)
-    return rotations, translations
 
 
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
@@ -397,14 +344,59 @@ def _parse_row(line: bytes) -> tuple[list[float], bool]:
         return parse_numbers(repaired.split()), True
 
 
-UNIT = 0.01
-"""Metres per unit for recordings from other formats."""
-RIGID = 5e-7
-"""Metres by which a bone may differ from its offset and still count as rigid.
+def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
+    """Return quaternions (frames, joints, 4), and translations of joints with position channels.
 
-Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
-adds up to 0.01 mm.
-"""
+    Translations (frames, 3) are by the number of the joint, in file units.
+    """
+    rotations = np.empty((len(values), len(joints), 4))
+    translations = {
+        # Position channels replace the offset per axis.
+        j: np.tile(joint.offset, (len(values), 1))
+        for j, joint in enumerate(joints)
+        if any(kind == "position" for _, kind in joint.channels)
+    }
+    for span in iterate_blocks(len(values)):
+        # One contiguous row per channel.
+        columns = np.ascontiguousarray(values[span].T)
+        block_rotations = np.zeros((len(joints), 4, columns.shape[1]))
+        block_rotations[:, 0] = 1.0
+        column = 0
+        # Columns are in the order of the joints' channels.
+        for j, joint in enumerate(joints):
+            rotation_columns, axes = [], ""
+            for axis, kind in joint.channels:
+                if kind == "position":
+                    translations[j][span, "xyz".index(axis)] = columns[column]
+                else:
+                    rotation_columns.append(column)
+                    axes += axis
+                column += 1
+            if rotation_columns:
+                block_rotations[j] = rot.from_euler(np.radians(columns[rotation_columns]).T, axes).T
+        rotations[span] = block_rotations.transpose(2, 0, 1)
+    return rotations, translations
+
+
+def _place_joints(
+    joints: list[Joint],
+    local: tuple[Floats, dict[int, Floats]],
+    fps: float,
+    options: ReadOptions,
+    provenance: Provenance,
+) -> Motion:
+    """Return the motion of joints from the result of `_compute_local`."""
+    parents = tuple(joint.parent for joint in joints)
+    inner = {*parents}
+    skeleton = Skeleton(
+        tuple(joint.name for joint in joints),
+        parents,
+        np.array([joint.offset for joint in joints]),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
+    )
+    return build_motion(
+        skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
+    )
 
 
 def write_bvh(motion: Motion, path: Path) -> None:
@@ -439,21 +431,11 @@ def write_bvh(motion: Motion, path: Path) -> None:
 def compute_local_pose(
     motion: Motion, path: Path, what: str
 ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
-    """Return rotations and translations for a format without rotations at rest.
+    """Return the pose of each frame for a format without rotations at rest.
 
-    Returns
-    -------
-    rotations, translations : ndarray of shape (frames, joints, 4), (frames, joints, 3)
-        Relative to the parent; metres.
-    offsets : ndarray of shape (joints, 3)
-        The translations at rest.
-    slides : ndarray of shape (joints,)
-        Whether the translation of a joint varies.
-
-    Raises
-    ------
-    WriteError
-        The motion has no rotations, which ``what`` needs.
+    These are rotations (frames, joints, 4) and translations (frames, joints, 3) relative to the
+    parent, offsets (joints, 3) at rest, and whether the translation of each joint varies. Raise
+    WriteError if the motion has no rotations, which ``what`` needs.
     """
     require_rotations(motion, path, what)
     aligned = align_to_rest(motion)
@@ -478,6 +460,16 @@ def _clean_name(name: str) -> str:
     """Return a name without braces, and without the text that starts the motion section."""
     plain = re.sub(r"[{}\s]+", " ", name).strip()
     return re.sub(r"(\bmotion frames) ?:", r"\1", plain, flags=re.IGNORECASE)
+
+
+def _order_depth_first(motion: Motion) -> Iterator[int]:
+    children = motion.skeleton.children
+    # Reversed, since the stack pops the last one first.
+    waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
+    while waiting:
+        joint = waiting.pop()
+        yield joint
+        waiting.extend(reversed(children[joint]))
 
 
 def _format_hierarchy(
@@ -506,16 +498,6 @@ def _format_hierarchy(
             yield f"{tab}\tCHANNELS {places} Zrotation Yrotation Xrotation"
     while open_joints:
         yield "\t" * depths[open_joints.pop()] + "}"
-
-
-def _order_depth_first(motion: Motion) -> Iterator[int]:
-    children = motion.skeleton.children
-    # Reversed, since the stack pops the last one first.
-    waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
-    while waiting:
-        joint = waiting.pop()
-        yield joint
-        waiting.extend(reversed(children[joint]))
 
 
 FORMAT = Format(

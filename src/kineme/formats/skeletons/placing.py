@@ -13,6 +13,7 @@ import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
+from kineme.formats.files import FileContent
 from kineme.formats.units import (
     PLAUSIBLE_HEIGHTS,
     estimate_height,
@@ -28,6 +29,18 @@ from kineme.recordings.rig import make_rig
 
 BYTES_PER_JOINT = 2 * 8 * (4 + 3)
 """Bytes of a joint in a frame: rotation and position, twice."""
+
+
+def require_frame_memory(
+    content: FileContent, joints: int, frames: int, *, allowed: int = 0
+) -> None:
+    """Raise ReadError if a file of this size cannot hold so many frames.
+
+    A motion of at most ``allowed`` bytes is accepted from any file.
+    """
+    size = BYTES_PER_JOINT * joints * frames
+    if size > allowed:
+        content.require_memory(size, f"{joints} joints in {frames} frames")
 
 
 def build_motion(
