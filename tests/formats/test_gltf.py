@@ -66,6 +66,12 @@ class File:
         self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
         return self
 
+    def turn(self, *nodes: int) -> File:
+        """Turn nodes by 90 degrees in a second."""
+        return self.animate(
+            "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in nodes)
+        )
+
     def save(self, path: Path) -> Path:
         text = json.dumps({**self.tree, "buffers": [{"byteLength": len(self.data)}]}).encode()
         text += b" " * (-len(text) % 4)
@@ -220,12 +226,10 @@ def test_whole_numbers_matrices_and_buffers_beside(tmp_path: Path) -> None:
 
 
 def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> None:
-    file = File(LEG, None).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = File(LEG, None).turn(1)
     assert read_motion(file.save(tmp_path / "a.glb"), fps=10).skeleton.names[0] == "Hips"
     nodes = [*LEG, {"name": "Other", "children": [5]}, {"name": "Hips", "children": [6]}, {}]
-    file = File(nodes, (1, 2, 3, 5, 6)).animate(
-        "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, 5))
-    )
+    file = File(nodes, (1, 2, 3, 5, 6)).turn(1, 5)
     with pytest.raises(SeveralPeopleError, match=r": Armature \(3 joints\), Other \(2 joints\)"):
         read_motion(file.save(tmp_path / "a.glb"), fps=10)
     motion = read_motion(file.save(tmp_path / "a.glb"), fps=10, person="Other")
@@ -235,9 +239,7 @@ def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> Non
 @pytest.mark.parametrize(("moved", "warned"), [((5,), False), ((5, 6), True)])
 def test_a_character_without_a_skin_beside_one_with_it_is_told(tmp_path, moved, warned) -> None:
     nodes = [*LEG, {"name": "Other", "children": [5]}, {"name": "Spine", "children": [6]}, {}]
-    file = File(nodes, (1, 2, 3)).animate(
-        "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, *moved))
-    )
+    file = File(nodes, (1, 2, 3)).turn(1, *moved)
     said = read_quietly(file.save(tmp_path / "a.glb")).provenance.warnings
     expected = "left out, since the nodes are not bones (perhaps another character): Spine"
     assert any(each.startswith(expected) for each in said) == warned
@@ -245,20 +247,20 @@ def test_a_character_without_a_skin_beside_one_with_it_is_told(tmp_path, moved, 
 
 def test_bones_of_one_name_are_told(tmp_path: Path) -> None:
     nodes = [*LEG[:2], {**LEG[2], "name": "Hips"}, LEG[3]]
-    file = File(nodes, (1, 2, 3)).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = File(nodes, (1, 2, 3)).turn(1)
     with pytest.warns(KinemeWarning, match="several bones have the same name: renamed to Hips_2"):
         motion = kineme.read(file.save(tmp_path / "a.glb"), fps=10)
     assert motion.skeleton.names == ("Hips", "Hips_2", "Toe_end")
 
 
 def beyond() -> File:
-    file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = leg().turn(2)
     file.tree["accessors"][0]["count"] = 10**9
     return file
 
 
 def changed(**more: Any) -> File:
-    file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = leg().turn(2)
     file.tree |= more
     return file
 
