@@ -119,17 +119,7 @@ def test_what_is_written_is_read_again(motion: Motion) -> None:
             :, [joints[j] for j in turned]
         ]
         assert np.abs(np.einsum("fjc,fjc->fj", ours, theirs)).min() > 1 - 1e-5
-        assert again.fps == motion.fps
-
-
-def test_the_bundled_recording_within_a_hundredth_of_a_millimetre(tmp_path: Path) -> None:
-    motion = read_motion(kineme.bundled_recording())
-    write(motion, tmp_path / "a.glb")
-    again = read_motion(tmp_path / "a.glb")
-    assert again.skeleton.names == motion.skeleton.names
-    assert again.skeleton.end_sites == motion.skeleton.end_sites
-    assert np.abs(again.positions - motion.positions).max() < 1e-5
-    assert again.provenance.format == "glTF"
+        assert (again.fps, again.provenance.format) == (motion.fps, "glTF")
 
 
 def test_several_motions_in_a_file(tmp_path: Path) -> None:

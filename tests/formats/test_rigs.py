@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -98,15 +99,10 @@ def test_nodes_of_a_rig_are_where_the_joints_are(data_dir: Path, name: str) -> N
     motion = scale(read(data_dir, name), 2.0)
     rig = get_rig(motion.skeleton)
     shifts, turns = pose_rig(motion, rig)
-    posed = Rig(
-        rig.names,
-        rig.parents,
-        np.concatenate([rig.translations[: rig.above], shifts[7]]),
-        np.concatenate([rig.rotations[: rig.above], turns[7]]),
-        rig.scales,
-        rig.axes,
-        rig.unit,
-        rig.turn,
+    posed = replace(
+        rig,
+        translations=np.concatenate([rig.translations[: rig.above], shifts[7]]),
+        rotations=np.concatenate([rig.rotations[: rig.above], turns[7]]),
     )
     np.testing.assert_allclose(posed.rest()[0], motion.positions[7], atol=1e-9)
 

@@ -368,6 +368,15 @@ def find_keys(times: Floats, frame_times: Floats, slack: float) -> tuple[NDArray
     return index, np.clip(share, 0.0, 1.0)
 
 
+def evaluate_bezier(
+    start: Floats | float, out: Floats, into: Floats, stop: Floats | float, parameter: Floats
+) -> Floats:
+    """Return values of cubic Bézier curves, whose inner points are ``out`` and ``into``."""
+    rest = 1 - parameter
+    value = rest**3 * start + 3 * rest**2 * parameter * out
+    return np.asarray(value + 3 * rest * parameter**2 * into + parameter**3 * stop, np.float64)
+
+
 def count_frames(
     content: FileContent, joints: int, frames: float, *, external_size: int = 0
 ) -> int:

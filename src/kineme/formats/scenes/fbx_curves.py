@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.assembly import find_keys
+from kineme.formats.scenes.assembly import evaluate_bezier, find_keys
 from kineme.formats.scenes.fbx_file import FBXNode
 
 TICKS = 46_186_158_000
@@ -204,15 +204,9 @@ def _evaluate_bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats
     first, last = right_weight[i], left_weight[i]
     # With weights other than a third, time is a Bézier curve as well.
     parameter = _solve_parameter(share, first, 1 - last)
-    complement = 1 - parameter
     # Inner points of the Bézier curve lie on the slopes, weight times the interval away.
     out, into = start + right[i] * first * step, stop - left[i] * last * step
-    value = (
-        complement**3 * start
-        + 3 * complement**2 * parameter * out
-        + 3 * complement * parameter**2 * into
-    )
-    return np.asarray(value + parameter**3 * stop, np.float64)
+    return evaluate_bezier(start, out, into, stop, parameter)
 
 
 def _solve_parameter(share: Floats, first: Floats, second: Floats) -> Floats:
@@ -227,8 +221,7 @@ def _solve_parameter(share: Floats, first: Floats, second: Floats) -> Floats:
     low, high = np.zeros_like(share), np.ones_like(share)
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        complement = 1 - middle
-        time = 3 * complement**2 * middle * first + 3 * complement * middle**2 * second + middle**3
+        time = evaluate_bezier(0.0, first, second, 1.0, middle)
         low, high = np.where(time < share, middle, low), np.where(time < share, high, middle)
     return (low + high) / 2
 

@@ -34,6 +34,7 @@ from kineme.formats.scenes.assembly import (
     assemble,
     count_frames,
     decompose,
+    evaluate_bezier,
     find_keys,
 )
 from kineme.formats.scenes.characters import (
@@ -275,26 +276,15 @@ def _sample_channel(keys: Keys, frame_times: Floats) -> Floats:
         if keys.interpolation == "STEP":
             sampled = np.where(share[:, None] >= 1, stop, start)
         elif cubic:
-            step = np.diff(times)[index]
+            third = np.diff(times)[index, None] / 3
             # Outgoing tangent of the key before, incoming one of the key after.
-            out, into = tangents[index, 2], tangents[index + 1, 0]
-            sampled = _evaluate_hermite(start, stop, out, into, share[:, None], step[:, None])
+            out, into = start + third * tangents[index, 2], stop - third * tangents[index + 1, 0]
+            sampled = evaluate_bezier(start, out, into, stop, share[:, None])
         elif is_rotation:
             sampled = rot.slerp(start, stop, share[:, None])
         else:
             sampled = start + share[:, None] * (stop - start)
     return rot.normalize(sampled) if is_rotation else sampled
-
-
-def _evaluate_hermite(
-    start: Floats, stop: Floats, out: Floats, into: Floats, share: Floats, step: Floats
-) -> Floats:
-    """Return cubic values between keys with slopes at both ends."""
-    square, cube = share**2, share**3
-    # Hermite basis: both values, and both slopes times the interval.
-    first, last = 2 * cube - 3 * square + 1, 3 * square - 2 * cube
-    slopes = (cube - 2 * square + share) * out + (cube - square) * into
-    return np.asarray(first * start + last * stop + step * slopes, np.float64)
 
 
 FORMAT = Format(

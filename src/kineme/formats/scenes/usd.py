@@ -1,4 +1,4 @@
-"""Read USD: skeletons and their animations (UsdSkel) in ``.usda``, ``.usdc`` and ``.usd``.
+"""Read and write USD: skeletons and their animations (UsdSkel).
 
 One skeleton and one of its animations are read, by default the one bound to it, else one that moves
 its joints. Unit, up axis and rate are the stage's; the rate is time codes per second divided by the
@@ -9,6 +9,10 @@ The file is read in a separate process, since the library may crash, hang or pri
 A layer includes others by sublayers, references and payloads. Only files in the folder of the main
 file are allowed. References to prims with references multiply, so their number is checked before a
 stage is composed.
+
+Written lengths are metres, y is up. A time code is a frame, and time codes per second are the frame
+rate. The rest pose is that of the motion's rig. ``jointNames`` hold the original names; in paths
+they are reduced to letters, digits and ``_``. The custom data of the skeleton list the end sites.
 
 Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
@@ -31,17 +35,27 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import make_unique, require_extra
-from kineme._util.files import translate_read_errors
-from kineme.errors import KinemeError, ReadError
-from kineme.formats.files import MAX_EXPANSION, FileContent, find_sibling, load
+from kineme._util.files import atomic_write, translate_read_errors
+from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.formats.files import (
+    MAX_EXPANSION,
+    FileContent,
+    clean_names,
+    find_sibling,
+    load,
+    require_rotations,
+)
 from kineme.formats.options import ReadOptions
+from kineme.formats.plausibility import warn_of_gaps
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import Transform, assemble, count_frames, decompose
+from kineme.formats.scenes.assembly import Transform, assemble, compose, count_frames, decompose
 from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
-from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
+from kineme.recordings.posing import get_rig, pose_rig
 
+END_SITES = "kineme:endSites"
+"""Key of the names of end sites in the custom data of a skeleton."""
 SUFFIXES = (".usda", ".usdc", ".usd")
 HEADS = (b"#usda ", b"PXR-USDC")
 CENTIMETRE = 0.01
@@ -56,7 +70,6 @@ TIMEOUT_S = 300.0
 
 _EVEN = 0.02  # relative deviation from their median of evenly spaced steps
 _ROUNDED = 0.1  # frames by which the last sample may miss its frame
-
 _PROGRAM = """
 import pickle, sys
 sys.path[:] = pickle.load(sys.stdin.buffer)
@@ -409,6 +422,61 @@ def _limit_process(size: int) -> None:
         wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
         with suppress(OSError, ValueError):  # some systems do not allow this limit
             resource.setrlimit(limit, (wanted, hard))
+
+
+def write_usd(motion: Motion, path: Path) -> None:
+    """Write a motion to a USD file."""
+    require_rotations(motion, path, "a USD")
+    with require_extra("usd-core", "usd"):
+        from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
+    warn_of_gaps([motion], path)
+    skeleton = motion.skeleton
+    names = clean_names(path, skeleton.names, str.strip)
+    # Paths need unique identifiers.
+    words = make_unique(Tf.MakeValidIdentifier(name) for name in names)
+    joints: list[str] = []
+    for word, parent in zip(words, skeleton.parents, strict=True):
+        joints.append(word if parent < 0 else f"{joints[parent]}/{word}")
+    stage = Usd.Stage.CreateInMemory()
+    # Programs interpret transforms above the skeleton differently, so merge them into the root.
+    rig = get_rig(skeleton).join_root().to_metres()
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    stage.SetTimeCodesPerSecond(motion.fps)
+    stage.SetFramesPerSecond(motion.fps)
+    stage.SetStartTimeCode(0)
+    stage.SetEndTimeCode(motion.n_frames - 1)
+    top = Sdf.Path(f"/{Tf.MakeValidIdentifier(path.stem)}")
+    root = UsdSkel.Root.Define(stage, top)
+    stage.SetDefaultPrim(root.GetPrim())
+    bound = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
+    bound.CreateJointsAttr(joints)
+    bound.CreateJointNamesAttr(names)
+    # USD has row vectors.
+    local, world = (
+        Vt.Matrix4dArray.FromNumpy(np.ascontiguousarray(matrices.transpose(0, 2, 1)))
+        for matrices in (compose(rig.translations, rig.rotations, rig.scales), compose(*rig.world))
+    )
+    bound.CreateRestTransformsAttr(local)
+    bound.CreateBindTransformsAttr(world)
+    ends = [names[j] for j in sorted(skeleton.end_sites)]
+    bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
+    animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))
+    animation.CreateJointsAttr(joints)
+    animation.CreateScalesAttr(Vt.Vec3hArray.FromNumpy(rig.scales.astype("f2")))
+    shifts, turns = pose_rig(motion, rig)
+    shifts, turns = shifts.astype("f4"), np.roll(turns, -1, axis=-1).astype("f4")  # w last
+    translations, rotations = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
+    for frame in range(motion.n_frames):
+        translations.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
+        rotations.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
+    binding = UsdSkel.BindingAPI.Apply(bound.GetPrim())
+    binding.CreateAnimationSourceRel().SetTargets([animation.GetPath()])
+    with atomic_write(path) as draft:
+        try:
+            stage.Export(str(draft), addSourceFileComment=False)
+        except Tf.ErrorException as error:
+            raise WriteError(path, "cannot be written as USD") from error
 
 
 FORMAT = Format("USD", SUFFIXES, lambda head: head.startswith(HEADS), read_usd, write_usd)

@@ -323,7 +323,7 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
         if len(words) == 1 and words[0].isdigit():
             if frames:
                 _check_complete(content, frames, first_line)
-            before, label = label, _frame_number(content, words[0], number)
+            before, label = label, _parse_frame_number(content, words[0], number)
             if frames and label != before + 1:
                 content.warn(f"frame {label} follows {before}", number)
             first_line = number
@@ -354,7 +354,7 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
     }
 
 
-def _frame_number(content: FileContent, word: bytes, line: int) -> int:
+def _parse_frame_number(content: FileContent, word: bytes, line: int) -> int:
     if len(word) > 18:
         raise content.error(f"{word[:18].decode()}... is not a frame number", line)
     return int(word)
@@ -379,9 +379,8 @@ def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], 
     """Raise ReadError if the last frame is empty or lacks a bone of the first one."""
     missing = [name for name in frames[0] if name not in frames[-1]]
     if missing or not frames[-1]:
-        raise content.error(
-            f"a frame has no values for {missing[0] if missing else 'any bone'}", line
-        )
+        bone = missing[0] if missing else "any bone"
+        raise content.error(f"a frame has no values for {bone}", line)
 
 
 def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001

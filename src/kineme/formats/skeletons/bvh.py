@@ -161,7 +161,6 @@ class _HierarchyParser:
         text = content.data[:stop].decode("utf-8", "replace").removeprefix("\ufeff")
         lines = enumerate(text.replace("{", " { ").replace("}", " } ").splitlines(), 1)
         self.words = [(word, number) for number, line in lines for word in line.split()]
-        self.position = 0
         self.joints: list[Joint] = []
         open_joints: list[int] = []
         if not self.words or self.words[0][0].upper() != "HIERARCHY":
@@ -173,9 +172,8 @@ class _HierarchyParser:
             if key in ("ROOT", "JOINT", "END"):
                 parent = open_joints[-1] if open_joints else -1
                 if (key == "ROOT") != (parent < 0):
-                    raise content.error(
-                        f"{word} {'outside' if parent < 0 else 'inside'} a joint", line
-                    )
+                    where = "outside" if parent < 0 else "inside"
+                    raise content.error(f"{word} {where} a joint", line)
                 open_joints.append(len(self.joints))
                 self.joints.append(Joint(self._parse_name(line), parent, line, key == "END"))
             elif not open_joints:
@@ -187,16 +185,13 @@ class _HierarchyParser:
             elif key == "CHANNELS":
                 self.joints[open_joints[-1]].channels = self._parse_channels(line)
             else:
-                raise content.error(
-                    f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}", line
-                )
+                reason = f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}"
+                raise content.error(reason, line)
         if not self.joints:
             raise content.error("the hierarchy has no ROOT")
         if open_joints:
-            name = self.joints[open_joints[-1]].name
-            raise content.error(
-                f"the '}}' of joint {name!r} is missing before MOTION", self.words[-1][1]
-            )
+            reason = f"the '}}' of joint {self.joints[open_joints[-1]].name!r} is missing"
+            raise content.error(f"{reason} before MOTION", self.words[-1][1])
         self._name_end_sites()
 
     def _take_word(self) -> tuple[str, int]:
@@ -297,9 +292,8 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if repaired:
-        content.warn(
-            f"spaces missing before minus signs added in {format_count(repaired, 'frame')}"
-        )
+        count_text = format_count(repaired, "frame")
+        content.warn(f"spaces missing before minus signs added in {count_text}")
     return np.frombuffer(values).reshape(-1, width)
 
 
@@ -416,14 +410,10 @@ def write_bvh(motion: Motion, path: Path) -> None:
     order = list(_order_depth_first(motion))
     columns: list[Floats] = []
     for j in order:
-        if j in fixed_ends:
-            continue
-        if slides[j]:
-            columns.append(translations[:, j])
-        columns.append(angles[:, j])
-    head = "\n".join(
-        _format_hierarchy(skeleton, offsets, order, slides, _name_joints(motion, fixed_ends, path))
-    )
+        if j not in fixed_ends:
+            columns += [translations[:, j], angles[:, j]] if slides[j] else [angles[:, j]]
+    names = _name_joints(motion, fixed_ends, path)
+    head = "\n".join(_format_hierarchy(skeleton, offsets, order, slides, names))
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
     save(path, [head, "\n", timing, *format_table(np.concatenate(columns, axis=1))])
 
@@ -447,13 +437,8 @@ def compute_local_pose(
 def _name_joints(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
     """Return the names of joints that a line can hold; end sites have none."""
     named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
-    return dict(
-        zip(
-            named,
-            clean_names(path, [motion.skeleton.names[j] for j in named], _clean_name),
-            strict=True,
-        )
-    )
+    names = clean_names(path, [motion.skeleton.names[j] for j in named], _clean_name)
+    return dict(zip(named, names, strict=True))
 
 
 def _clean_name(name: str) -> str:
