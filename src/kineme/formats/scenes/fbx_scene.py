@@ -24,7 +24,7 @@ Source: Autodesk, FBX SDK, "Computing transformation matrices", and `FbxAnimLaye
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import isfinite
 from typing import Any
@@ -39,6 +39,7 @@ from kineme.formats.scenes.assembly import Inheritance, Transform, compose, deco
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_file import FBXNode
+from kineme.formats.skeletons.placing import order_depth_first
 from kineme.formats.units import iterate_blocks
 
 BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})
@@ -157,20 +158,17 @@ class FBXScene:
         tops = dict.fromkeys(self._parts.get(0, []))
         # Models without parent are at the top, whether connected to the scene or not.
         tops |= dict.fromkeys(number for number in self.objects if number not in children)
-        # Reversed, since the stack pops the last one first.
-        waiting = [(number, -1) for number in reversed(tops)]
-        visited: set[int] = set()
-        while waiting:
-            number, parent = waiting.pop()
-            node = self.objects.get(number)
-            if node is None or node.name != "Model" or number in visited:
-                continue
-            visited.add(number)
-            name = _strip_class(node.text(1))
+
+        def select_models(numbers: Iterable[int]) -> list[int]:
+            return [number for number in numbers if self._is(number, "Model")]
+
+        for number, parent in order_depth_first(
+            select_models(tops), lambda number: select_models(self._parts.get(number, ()))
+        ):
+            node = self.objects[number]
+            name = _strip_class(node.text(1)) or "joint"
             properties = {**self._templates.get("Model", {}), **_read_properties(node)}
-            index = len(models)
-            models.append(Model(number, name or "joint", node.text(2), parent, properties))
-            waiting += [(part, index) for part in reversed(self._parts.get(number, []))]
+            models.append(Model(number, name, node.text(2), parent, properties))
         return models
 
     def _read_takes(self, root: FBXNode) -> list[Take]:

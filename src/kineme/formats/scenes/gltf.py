@@ -47,6 +47,7 @@ from kineme.formats.scenes.characters import (
 )
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, copy_animations, write_animations, write_gltf
+from kineme.formats.skeletons.placing import order_depth_first
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
@@ -165,23 +166,12 @@ def _make_nodes(
 
 def _order_nodes(file: GLTFFile) -> tuple[list[int], list[int]]:
     """Return the numbers of the nodes, parents first, and the index of each one's parent."""
-    nodes = file.tree.nodes
-    children = {child for node in nodes for child in node.children}
-    # Start with nodes without parent; reversed, since the stack pops the last one first.
-    waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in children]
-    order: list[int] = []
-    parents: list[int] = []
-    visited: set[int] = set()
-    while waiting:
-        number, parent = waiting.pop()
-        # Damaged files may have cycles and invalid numbers.
-        if number in visited or not 0 <= number < len(nodes):
-            continue
-        visited.add(number)
-        waiting += [(child, len(order)) for child in reversed(nodes[number].children)]
-        order.append(number)
-        parents.append(parent)
-    return order, parents
+    numbers = range(len(file.tree.nodes))
+    # Damaged files may have invalid numbers.
+    children = [[each for each in node.children if each in numbers] for node in file.tree.nodes]
+    tops = {*numbers} - {child for group in children for child in group}
+    pairs = list(order_depth_first(sorted(tops), children.__getitem__))
+    return [number for number, _ in pairs], [parent for _, parent in pairs]
 
 
 def _read_keys(

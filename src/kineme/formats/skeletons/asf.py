@@ -25,6 +25,7 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent, parse_numbers
+from kineme.formats.skeletons.placing import order_depth_first
 from kineme.formats.units import INCH
 from kineme.recordings import Skeleton
 
@@ -227,11 +228,7 @@ def _order_bones(
     children: dict[str, list[str]] = {name: [] for name in bones}
     for name, parent in parents.items():
         children[parent].append(name)
-    order, waiting = [], [ROOT]
-    while waiting:
-        order.append(waiting.pop())
-        # Reversed, since the stack pops the last one first.
-        waiting.extend(reversed(children[order[-1]]))
+    order = [name for name, _ in order_depth_first([ROOT], children.__getitem__)]
     reached = set(order)
     # Bones in a cycle are never reached from the root.
     lost = [name for name in bones if name not in reached]

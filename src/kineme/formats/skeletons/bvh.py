@@ -48,7 +48,7 @@ from kineme.formats.files import (
 )
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
-from kineme.formats.skeletons.placing import build_motion, require_frame_memory
+from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import compute_local_translations
@@ -266,7 +266,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     fault: ReadError | None = None
     repaired = 0
     last = number = content.line_at(start)
-    for number, line in enumerate(_split_lines(content.data, start), last):
+    for number, line in _split_lines(content.data, start, last):
         last = number
         if fault is not None:  # faults are tolerated only in the last line
             raise fault
@@ -277,7 +277,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
             continue
         repaired += is_repaired
         values.extend(row)
-        if row and len(row) != width:
+        if len(row) != width:
             # Other widths are valid only if all numbers together give the declared frames.
             odd_lines.append((number, len(row)))
     if odd_lines and (fault or len(values) != width * declared):
@@ -299,32 +299,24 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
 
 def sample_frames(data: bytes, start: int, width: int, every: int) -> Floats | None:
     """Return the values of every ``every``-th frame; None if lines do not match frames."""
-    lines = (line for line in _split_lines(data, start) if line.strip())
+    lines = islice(_split_lines(data, start), 0, None, every)
     try:
-        rows = [parse_numbers(line.split()) for line in islice(lines, 0, None, every)]
+        rows = [parse_numbers(line.split()) for _, line in lines]
     except ValueError:
         return None
     return np.array(rows) if rows and all(len(row) == width for row in rows) else None
 
 
-def _split_lines(data: bytes, start: int) -> Iterator[bytes]:
-    """Yield the lines from ``start`` on, in chunks, without blank ones at the end."""
-    stop = _find_end(data, start)
-    while start < stop:
+def _split_lines(data: bytes, start: int, number: int = 0) -> Iterator[tuple[int, bytes]]:
+    """Yield number and text of the lines from ``start`` on that are not blank, in chunks."""
+    while start < len(data):
         # Cut after a line break to keep lines whole.
-        cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
-        yield from data[start:cut].splitlines()
+        cut = data.find(b"\n", start + CHUNK) + 1 or len(data)
+        for line in data[start:cut].splitlines():
+            if line and not line.isspace():
+                yield number, line
+            number += 1
         start = cut
-
-
-def _find_end(data: bytes, start: int) -> int:
-    """Return the offset after which only blanks and empty lines follow."""
-    # Search backwards in chunks, since most files end with few blanks.
-    for stop in range(len(data), start, -CHUNK):
-        first = max(start, stop - CHUNK)
-        if text := data[first:stop].rstrip():
-            return first + len(text)
-    return start
 
 
 def _parse_row(line: bytes) -> tuple[list[float], bool]:
@@ -407,7 +399,8 @@ def write_bvh(motion: Motion, path: Path) -> None:
     translations, offsets = (rot.rotate(inverse, each) / unit for each in (translations, offsets))
     angles = np.degrees(rot.to_euler_zyx(turns))
     fixed_ends = {j for j in skeleton.end_sites if not slides[j]}
-    order = list(_order_depth_first(motion))
+    roots = (j for j, parent in enumerate(skeleton.parents) if parent < 0)
+    order = [j for j, _ in order_depth_first(roots, skeleton.children.__getitem__)]
     columns: list[Floats] = []
     for j in order:
         if j not in fixed_ends:
@@ -445,16 +438,6 @@ def _clean_name(name: str) -> str:
     """Return a name without braces, and without the text that starts the motion section."""
     plain = re.sub(r"[{}\s]+", " ", name).strip()
     return re.sub(r"(\bmotion frames) ?:", r"\1", plain, flags=re.IGNORECASE)
-
-
-def _order_depth_first(motion: Motion) -> Iterator[int]:
-    children = motion.skeleton.children
-    # Reversed, since the stack pops the last one first.
-    waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
-    while waiting:
-        joint = waiting.pop()
-        yield joint
-        waiting.extend(reversed(children[joint]))
 
 
 def _format_hierarchy(
