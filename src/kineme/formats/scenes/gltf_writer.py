@@ -148,21 +148,18 @@ def make_uneven_error(source: Path, path: Path) -> WriteError:
 def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
     """Write the JSON and its buffer to a GLB, or to a ``.gltf`` with an embedded buffer."""
     buffer: dict[str, Any] = {"byteLength": len(data)}
-    binary = path.suffix.lower() != ".gltf"
-    if not binary:
+    is_binary = path.suffix.lower() != ".gltf"
+    if not is_binary:
         stored = base64.b64encode(data).decode()
         buffer["uri"] = f"data:application/octet-stream;base64,{stored}"
-    text = json.dumps({**tree, "buffers": [buffer]}, ensure_ascii=False, separators=(",", ":"))
+    tree = {**tree, "buffers": [buffer]}
+    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    if is_binary:
+        text += b" " * (-len(text) % 4)  # chunks are multiples of four bytes, like the data
+        chunks = CHUNK.pack(len(text), JSON) + text + CHUNK.pack(len(data), BYTES) + data
+        text = HEADER.pack(MAGIC, 2, HEADER.size + len(chunks)) + chunks
     with atomic_write(path) as draft:
-        draft.write_bytes(_encode_glb(text.encode(), data) if binary else text.encode())
-
-
-def _encode_glb(text: bytes, data: bytes) -> bytes:
-    """Return a GLB with both chunks padded to multiples of four bytes."""
-    text += b" " * (-len(text) % 4)
-    chunks = [CHUNK.pack(len(text), JSON), text, CHUNK.pack(len(data), BYTES), data]
-    length = HEADER.size + sum(map(len, chunks))
-    return HEADER.pack(MAGIC, 2, length) + b"".join(chunks)
+        draft.write_bytes(text)
 
 
 class Animator:

@@ -200,7 +200,7 @@ class _Skeleton:
 
         self.prim = prim
         schema = UsdSkel.Skeleton(prim)
-        self.joints = list(map(str, schema.GetJointsAttr().Get() or ()))
+        self.joints = _list_joints(schema)
         joint_names = list(map(str, schema.GetJointNamesAttr().Get() or ()))
         default_names = [joint.rpartition("/")[2] for joint in self.joints]
         self.names = joint_names if len(joint_names) == len(default_names) else default_names
@@ -220,13 +220,13 @@ class _Skeleton:
     def find_animations(self, animations: Sequence[Any]) -> list[Any]:
         """Return the animations that move joints of it, the one bound to it first."""
         joints = set(self.joints)
-        matching = [each for each in animations if joints & set(map(str, _list_joints(each)))]
+        matching = [each for each in animations if joints.intersection(_list_joints(each))]
         # False sorts before True: the bound animation comes first.
         return sorted(matching, key=lambda each: each.GetPrim() != self.bound)
 
     def sample_pose(self, animation: Any, codes: Floats) -> list[Transform]:
         """Return the transform of each joint at these time codes."""
-        animated = list(map(str, _list_joints(animation)))
+        animated = _list_joints(animation)
         columns = {joint: number for number, joint in enumerate(animated)}
         shifts = _sample_values(animation.GetTranslationsAttr(), codes, len(animated), 3)
         turns = _sample_values(animation.GetRotationsAttr(), codes, len(animated), 4)
@@ -301,8 +301,8 @@ def _find_frames(
     return fps, times[0] + step * np.arange(n_frames), notes
 
 
-def _list_joints(animation: Any) -> Sequence[Any]:
-    return animation.GetJointsAttr().Get() or ()
+def _list_joints(schema: Any) -> list[str]:
+    return list(map(str, schema.GetJointsAttr().Get() or ()))
 
 
 def _sample_values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | None:
