@@ -96,8 +96,9 @@ def assemble(
     chain = [*ancestors, *joints]
     local = _apply_scale(ancestors, joints, parents, transform, n_frames, turn)
     if local is None:
-        local = _multiply_matrices([transform(node) for node in chain], parents, n_frames, turn)
-        if any(_find_uniform_scale(transform(node).scale, UNIFORM) is None for node in chain):
+        transforms = list(map(transform, chain))
+        local = _multiply_matrices(transforms, parents, n_frames, turn)
+        if any(_find_uniform_scale(each.scale, UNIFORM) is None for each in transforms):
             remark = "its bones are scaled unevenly or over time: joints slide in clips instead"
             provenance = provenance.noted(Note(remark, "warning"))
     rig = _build_rig(nodes, chain, len(joints), rest, to_metres(unit), turn, numbers)
