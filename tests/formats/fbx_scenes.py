@@ -35,6 +35,13 @@ def one_bone(**said: object) -> Bones:
                   "c": {"LclTranslation": [0.0, 0.0, 0.5]}})  # fmt: skip
 
 
+def animate_turn(scene: Scene, *models: int, stop: float = 1) -> None:
+    """Add a take in which models turn by 90 degrees about x."""
+    layer = scene.layer(scene.take("take", 0, stop))
+    for model in models:
+        scene.animate(layer, model, "R", X=Keys([0, stop], [0, 90]))
+
+
 def played(scene: Bones, folder: Path, what: str = "R", node: str = "b", **axes: Keys) -> Motion:
     layer = scene.layer(scene.take("take", 0, 1))
     rest = (1, 1, 1) if what == "S" else (0, 0, 0)

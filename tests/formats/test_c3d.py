@@ -8,15 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import (
-    DEC,
-    INTEL,
-    MIPS,
-    PLUG_IN_GAIT,
-    c3d_bytes,
-    walking,
-    z_up_millimetres,
-)
+from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
@@ -86,6 +78,27 @@ def test_wrong_and_saturated_counts(tmp_path: Path) -> None:
     assert len(parse(c3d_bytes(still, labels, more=ends)).points) == 66_000
     as_float = {("POINT", "FRAMES"): np.float32([66_000])}
     assert len(parse(c3d_bytes(still, labels, more=as_float)).points) == 66_000
+
+
+def miscounted(header: int, used: int) -> bytes:
+    """A file with eight points, of which header and parameters state another number."""
+    points = 100 * np.arange(1, 9)[:, None] + np.tile(np.arange(3.0), (40, 1, 1))
+    labels, more = [f"M{i}" for i in range(8)], {("POINT", "USED"): np.int16([used])}
+    data = bytearray(c3d_bytes(points, labels, more=more))
+    data[2:4] = header.to_bytes(2, "little")
+    return bytes(data)
+
+
+@pytest.mark.parametrize(("header", "used"), [(8, 7), (7, 8), (8, 12), (12, 8)])
+def test_the_count_that_fits_the_file_is_taken_and_said(tmp_path, header, used) -> None:
+    with pytest.warns(KinemeWarning, match=f"the header counts {header} points .* parameters"):
+        motion = read(tmp_path, miscounted(header, used))
+    np.testing.assert_array_equal(motion.positions, read(tmp_path, miscounted(8, 8)).positions)
+
+
+def test_where_no_count_fits_the_file_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="17 points .* parameters 18 .* neither fits"):
+        read(tmp_path, miscounted(17, 18))
 
 
 def test_more_than_255_labels() -> None:

@@ -1,16 +1,27 @@
-"""FBX: joints are where the file's transforms place them, in binary and text files."""
+"""FBX: joints are where the file's transforms place them; other files are refused with a reason."""
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 
 import numpy as np
 import pytest
-from fbx_scenes import Bones, motion_of, one_bone, played
+from fbx_scenes import Bones, animate_turn, motion_of, one_bone, played
 from scipy.spatial.transform import Rotation
 
 import kineme
-from _fbx import CONSTANT, CUBIC, Keys, Name, Scene, make_walker
+from _fbx import (
+    CONSTANT,
+    CUBIC,
+    Keys,
+    Name,
+    Scene,
+    encode_binary,
+    format_text,
+    make_node,
+    make_walker,
+)
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import compute_world_rotations
@@ -177,12 +188,13 @@ def test_pivots_and_their_offsets(tmp_path: Path) -> None:
     assert place(motion, "c")[-1] == pytest.approx((whole @ [0, 0, 0.5, 1])[:3] + [0, 1, 0])
 
 
+@pytest.mark.parametrize("uneven", [False, True])
 @pytest.mark.parametrize(("kind", "length"), [(0, 3.0), (1, 3.0), (2, 1.5)])
-def test_scales_are_inherited_as_the_file_says(tmp_path: Path, kind: int, length: float) -> None:
+def test_scales_are_inherited_as_the_file_says(tmp_path, kind, length, uneven) -> None:
     """c's end is 0.5 away, times its own scale 3 and, unless b's is left out, b's 2."""
     scene = Bones({
         "a": {"LclTranslation": [0.0, 1.0, 0.0]},
-        "b": {"LclScaling": [2.0] * 3},
+        "b": {"LclScaling": [5.0 if uneven else 2.0, 2.0, 2.0]},
         "c": {"LclTranslation": [0.0, 0.5, 0.0], "LclScaling": [3.0] * 3, "InheritType": kind},
     })  # fmt: skip
     scene.models["tip"] = scene.model("tip", scene.models["c"], LclTranslation=[0.0, 0.5, 0.0])
@@ -366,9 +378,7 @@ def test_nulls_between_bones_are_joints_and_things_in_hands_are_not(tmp_path: Pa
     hand = scene.model("Hand", group, LclTranslation=[0.0, 10.0, 0.0])
     sword = scene.model("Sword", hand, "Null")
     scene.model("Blade", sword, "Mesh")
-    layer = scene.layer(scene.take("take", 0, 1))
-    scene.animate(layer, hand, "R", X=Keys([0, 1], [0, 90]))
-    scene.animate(layer, sword, "R", X=Keys([0, 1], [0, 90]))
+    animate_turn(scene, hand, sword)
     motion = motion_of(scene.binary(), tmp_path)
     assert motion.skeleton.names == ("Hips", "group", "Hand")
     assert "left out as props: Sword" in motion.provenance.notes
@@ -379,8 +389,7 @@ def test_a_skeleton_of_nulls(tmp_path: Path) -> None:
     top = scene.model("Reference", 0, "Null")
     hips = scene.model("Hips", top, "Null", LclTranslation=[0.0, 90.0, 0.0])
     scene.model("Head", hips, "Null", LclTranslation=[0.0, 60.0, 0.0])
-    layer = scene.layer(scene.take("take", 0, 1))
-    scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
+    animate_turn(scene, hips)
     assert motion_of(scene.binary(), tmp_path).skeleton.names == ("Hips", "Head")
 
 
@@ -392,8 +401,7 @@ def test_meshes_that_carry_a_skin_are_bones(tmp_path: Path) -> None:
     scene.model("Hat", head, "Mesh")
     for bone in (hips, head):
         scene.link("OO", bone, scene._object("Deformer", Name("", "SubDeformer"), "Cluster", {}))
-    layer = scene.layer(scene.take("take", 0, 1))
-    scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
+    animate_turn(scene, hips)
     assert motion_of(scene.binary(), tmp_path).skeleton.names == ("Hips", "Head")
 
 
@@ -402,8 +410,7 @@ def test_names_of_namespaces_stay_and_are_unique(tmp_path: Path) -> None:
     hips = scene.model("rig:Hips")
     scene.model("Leg", hips)
     scene.model("Leg", hips)
-    layer = scene.layer(scene.take("take", 0, 1))
-    scene.animate(layer, hips, "R", X=Keys([0, 1], [0, 90]))
+    animate_turn(scene, hips)
     for data in (scene.binary(), scene.text()):
         assert motion_of(data, tmp_path).skeleton.names == ("rig:Hips", "Leg", "Leg_2")
 
@@ -411,3 +418,73 @@ def test_names_of_namespaces_stay_and_are_unique(tmp_path: Path) -> None:
 def test_keys_out_of_order_and_doubled_are_put_in_order(tmp_path: Path) -> None:
     motion = played(one_bone(), tmp_path, X=Keys([1, 0, 0], [90, 0, 0]))
     assert angles(motion)[[0, 15]] == pytest.approx([0, 45], abs=1e-5)
+
+
+def no_animation() -> bytes:
+    scene = Scene()
+    scene.model("Hips")
+    scene.take("empty", 0, 1)
+    return scene.binary()
+
+
+def no_skeleton() -> bytes:
+    scene = Scene()
+    box = scene.model("Box", 0, "Mesh")
+    animate_turn(scene, box)
+    return scene.binary()
+
+
+def old_text() -> bytes:
+    header = make_node("FBXHeaderExtension", children=[make_node("FBXVersion", 6100)])
+    return format_text([header], 6100)
+
+
+def bomb() -> bytes:
+    """A curve that says that it has a quarter of a milliard of keys."""
+    data = bytearray(one_curve())
+    struct.pack_into("<I", data, data.index(b"KeyTimel") + len(b"KeyTimel"), 250_000_000)
+    return bytes(data)
+
+
+def one_curve() -> bytes:
+    scene = one_bone()
+    animate_turn(scene, scene.models["b"])
+    return scene.binary()
+
+
+def endless() -> bytes:
+    scene = one_bone()
+    animate_turn(scene, scene.models["b"], stop=1e6)
+    return scene.binary()
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (no_animation(), "holds no animation of its skeleton: export it with"),
+        (no_skeleton(), r"has no skeleton \(bones or animated nodes\)"),
+        (old_text(), "is FBX 6.1, a format of before 2011: open it .* and export FBX 2014"),
+        (encode_binary([], 6100), "is FBX 6.1, a format of before 2011"),
+        (b"Kaydara FBX Binary  \x00\x1a\x00\x00", "the file ends in its header"),
+        (one_curve()[:-400], "truncated"),
+        (one_curve()[:300], "truncated"),
+        (format_text(Scene().nodes())[:-3], "the '}' of 'Connections' is missing"),
+        (b"; FBX 7.4.0 project file\nObjects: {\n}}\n", "there is one '}' too many"),
+        (b"; FBX 7.4.0 project file\n3, 4\n", "line 2: a name expected, found b'3'"),
+        (bomb(), "claims an array of 250000000 numbers"),
+        (endless(), "claims 3 joints in 30000001 frames"),
+    ],
+)
+def test_what_cannot_be_read_says_why(tmp_path: Path, data: bytes, reason: str) -> None:
+    with pytest.raises(ReadError, match=reason):
+        motion_of(data, tmp_path)
+
+
+def test_circles_among_models_and_links_to_nothing(tmp_path: Path) -> None:
+    scene = one_bone()
+    a, b = scene.models["a"], scene.models["b"]
+    scene.link("OO", a, b)
+    scene.link("OO", 77, b)
+    scene.link("OO", 0, 0)
+    motion = played(scene, tmp_path, X=Keys([0, 1], [0, 90]))
+    assert motion.skeleton.names == ("a", "b", "c")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fbx_scenes import Bones
+from fbx_scenes import Bones, animate_turn
 
 import kineme
 from _fbx import Keys, Name, make_node, make_walker
@@ -111,8 +111,7 @@ def test_a_source_of_text_gives_the_skeleton_and_a_warning(tmp_path: Path) -> No
 @pytest.mark.parametrize("scale", [[1.0, 2.0, 1.0], [-1.0, 1.0, 1.0]])
 def test_bones_that_no_keys_can_place_are_refused(tmp_path: Path, scale: list[float]) -> None:
     scene = Bones({"b": {"LclScaling": scale}, "c": {"LclTranslation": [0.0, 0.0, 0.5]}})
-    layer = scene.layer(scene.take("take", 0, 1))
-    scene.animate(layer, scene.models["a"], "R", X=Keys([0, 1], [0, 90]))
+    animate_turn(scene, scene.models["a"])
     source, path = tmp_path / "a.fbx", tmp_path / "b.fbx"
     source.write_bytes(scene.binary())
     with pytest.warns(KinemeWarning):

@@ -66,6 +66,12 @@ class File:
         self.tree["animations"].append({"name": name, "channels": channels, "samplers": samplers})
         return self
 
+    def turn(self, *nodes: int) -> File:
+        """Turn nodes by 90 degrees in a second."""
+        return self.animate(
+            "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in nodes)
+        )
+
     def save(self, path: Path) -> Path:
         text = json.dumps({**self.tree, "buffers": [{"byteLength": len(self.data)}]}).encode()
         text += b" " * (-len(text) % 4)
@@ -113,17 +119,7 @@ def test_what_is_written_is_read_again(motion: Motion) -> None:
             :, [joints[j] for j in turned]
         ]
         assert np.abs(np.einsum("fjc,fjc->fj", ours, theirs)).min() > 1 - 1e-5
-        assert again.fps == motion.fps
-
-
-def test_the_bundled_recording_within_a_hundredth_of_a_millimetre(tmp_path: Path) -> None:
-    motion = read_motion(kineme.bundled_recording())
-    write(motion, tmp_path / "a.glb")
-    again = read_motion(tmp_path / "a.glb")
-    assert again.skeleton.names == motion.skeleton.names
-    assert again.skeleton.end_sites == motion.skeleton.end_sites
-    assert np.abs(again.positions - motion.positions).max() < 1e-5
-    assert again.provenance.format == "glTF"
+        assert (again.fps, again.provenance.format) == (motion.fps, "glTF")
 
 
 def test_several_motions_in_a_file(tmp_path: Path) -> None:
@@ -220,12 +216,10 @@ def test_whole_numbers_matrices_and_buffers_beside(tmp_path: Path) -> None:
 
 
 def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> None:
-    file = File(LEG, None).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = File(LEG, None).turn(1)
     assert read_motion(file.save(tmp_path / "a.glb"), fps=10).skeleton.names[0] == "Hips"
     nodes = [*LEG, {"name": "Other", "children": [5]}, {"name": "Hips", "children": [6]}, {}]
-    file = File(nodes, (1, 2, 3, 5, 6)).animate(
-        "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, 5))
-    )
+    file = File(nodes, (1, 2, 3, 5, 6)).turn(1, 5)
     with pytest.raises(SeveralPeopleError, match=r": Armature \(3 joints\), Other \(2 joints\)"):
         read_motion(file.save(tmp_path / "a.glb"), fps=10)
     motion = read_motion(file.save(tmp_path / "a.glb"), fps=10, person="Other")
@@ -235,9 +229,7 @@ def test_a_skeleton_without_a_skin_and_several_characters(tmp_path: Path) -> Non
 @pytest.mark.parametrize(("moved", "warned"), [((5,), False), ((5, 6), True)])
 def test_a_character_without_a_skin_beside_one_with_it_is_told(tmp_path, moved, warned) -> None:
     nodes = [*LEG, {"name": "Other", "children": [5]}, {"name": "Spine", "children": [6]}, {}]
-    file = File(nodes, (1, 2, 3)).animate(
-        "a", *((node, "rotation", [0, 1], [NONE, TURN], "LINEAR") for node in (1, *moved))
-    )
+    file = File(nodes, (1, 2, 3)).turn(1, *moved)
     said = read_quietly(file.save(tmp_path / "a.glb")).provenance.warnings
     expected = "left out, since the nodes are not bones (perhaps another character): Spine"
     assert any(each.startswith(expected) for each in said) == warned
@@ -245,20 +237,20 @@ def test_a_character_without_a_skin_beside_one_with_it_is_told(tmp_path, moved, 
 
 def test_bones_of_one_name_are_told(tmp_path: Path) -> None:
     nodes = [*LEG[:2], {**LEG[2], "name": "Hips"}, LEG[3]]
-    file = File(nodes, (1, 2, 3)).animate("a", (1, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = File(nodes, (1, 2, 3)).turn(1)
     with pytest.warns(KinemeWarning, match="several bones have the same name: renamed to Hips_2"):
         motion = kineme.read(file.save(tmp_path / "a.glb"), fps=10)
     assert motion.skeleton.names == ("Hips", "Hips_2", "Toe_end")
 
 
 def beyond() -> File:
-    file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = leg().turn(2)
     file.tree["accessors"][0]["count"] = 10**9
     return file
 
 
 def changed(**more: Any) -> File:
-    file = leg().animate("a", (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    file = leg().turn(2)
     file.tree |= more
     return file
 

@@ -1,29 +1,23 @@
-"""Read npz and npy files with joint positions, and write motions to npz.
-
-An npz holds named arrays, see `kineme.formats.arrays.numpy_files`. `write_npz` stores all of a
-motion except its provenance.
+"""Read npz and npy files, and write motions to npz; convert named arrays to motions.
 
 An npy holds positions (frames, joints, 3) without names, or records with named fields as a table.
-Pickled objects are rejected, as are archives that claim to unpack to much more than they hold.
+An npz holds named arrays, like a MAT file. These are read:
 
-@@named_arrays: Convert named arrays, as in npz archives and MAT files, to a motion.
-
-These arrays are read:
-
-- ``poses`` and ``trans``, see `kineme.formats.arrays.numpy_files`;
+- ``poses`` and ``trans`` of AMASS and other files with SMPL poses, see below;
 - ``positions`` (frames, joints, 3) with ``names`` and ``fps``. With ``parents`` they are in metres
   with y up, and may have ``offsets``, ``end_sites``, ``rotations`` (w, x, y, z) and ``gaps``, as
   written by kineme;
 - an array (frames, 3) for each joint, named after the joint, and ``fps`` or ``time``;
 - an array for each column of a table, see `kineme.formats.points`.
 
-@@amass: Read AMASS and other npz files with SMPL poses, on a skeleton of average proportions.
+`write_npz` stores all of a motion except its provenance. Pickled objects are rejected, as are
+archives that claim to unpack to much more than they hold.
 
 ``poses`` (frames, 72, 156 or 165) are rotation vectors of the joints of SMPL, SMPL-H or SMPL-X;
 ``trans`` (frames, 3) is the position of the body. The 22 joints common to all three are used;
 hands, jaw and eyes are left out. No body model is needed: bones have average lengths for a height
-of 1.70 m instead of the person's. Positions therefore differ by build, and the pelvis by about
-0.2 m in height, which affects no feature.
+of 1.70 m instead of the person's. Positions therefore differ by build, and the pelvis by about 0.2
+m in height, which affects no feature.
 
 AMASS has z up and bodies at rest along y. Its files are turned accordingly; ``up`` overrides this.
 
@@ -61,90 +55,42 @@ from kineme.recordings import Motion, Skeleton
 Arrays = Mapping[str, Array]
 
 _RATES = ("fps", "framerate", "frame_rate", "FrameRate", "rate")
-
-
-def arrays_to_motion(
-    content: FileContent, name: str, arrays: Arrays, options: ReadOptions
-) -> Motion:
-    """Return the motion described by named arrays; ``name`` is the name of the format."""
-    if "poses" in arrays:
-        return poses_to_motion(content, arrays, options)
-    if "positions" in arrays:
-        return positions_to_motion(content, name, arrays, options)
-    columns = {key: array for key, array in arrays.items() if array.ndim == 1}
-    columns |= {key: array[None] for key, array in arrays.items() if array.ndim == 0}
-    for joint, track in _find_tracks(arrays).items():
-        columns |= {f"{joint}_{axis}": track[:, i] for i, axis in enumerate("xyz")}
-    return columns_to_motion(content, name, columns, options)
-
-
-def positions_to_motion(
-    content: FileContent, name: str, arrays: Arrays, options: ReadOptions
-) -> Motion:
-    """Return the motion described by ``positions`` and the arrays that belong to it."""
-    positions = _read_numbers(content, arrays, "positions")
-    if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
-        raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
-    fps = options.fps or find_rate(content, arrays, _RATES)
-    is_from_kineme = "parents" in arrays and "names" in arrays  # in metres, y up
-    if is_from_kineme and options.unit in (None, "m", 1) and options.up in (None, "y"):
-        return _restore_motion(content, name, arrays, positions, fps)
-    default_names = [f"joint{i}" for i in range(positions.shape[1])]
-    names = list(map(str, arrays["names"].ravel())) if "names" in arrays else default_names
-    if len(names) != len(default_names):
-        raise content.error(f"{len(names)} names for {len(default_names)} joints")
-    positions = np.where(np.isfinite(positions), positions, np.nan)
-    unit = options.unit or ("m" if is_from_kineme else None)
-    up = options.up or ("y" if is_from_kineme else None)
-    points = Points(names, positions, fps, unit, up, person=options.person)
-    return to_motion(points, content.provenance(name, []))
-
-
-def _find_tracks(arrays: Arrays) -> Arrays:
-    """Return the arrays (frames, 3) whose number of frames is the most frequent."""
-    tracks = {key: a for key, a in arrays.items() if a.ndim == 2 and a.shape[1] == 3}
-    lengths = Counter(len(track) for track in tracks.values())
-    # The most frequent length; on a tie the longest.
-    length = max(lengths, key=lambda n: (lengths[n], n), default=0)
-    return {key: track for key, track in tracks.items() if len(track) == length}
-
-
-def _restore_motion(
-    content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float
-) -> Motion:
-    """Return a motion written by kineme, unchanged."""
-    n = positions.shape[1]
-    offsets = _read_numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
-    parents = _read_integers(content, arrays, "parents")
-    ends = _read_integers(content, arrays, "end_sites") if "end_sites" in arrays else []
-    gaps = _read_integers(content, arrays, "gaps") if "gaps" in arrays else []
-    names = tuple(make_unique(map(str, arrays["names"].ravel())))
-    skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
-    rotations = _read_numbers(content, arrays, "rotations") if "rotations" in arrays else None
-    # Start and stop alternate.
-    spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
-    return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
-
-
-def _read_integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
-    values = _read_numbers(content, arrays, name).ravel()
-    if not np.isfinite(values).all() or np.abs(values).max(initial=0) > 2**53:
-        raise content.error(f"{name} are not whole numbers")
-    return list(map(int, values.tolist()))
-
-
-def _read_numbers(content: FileContent, arrays: Arrays, name: str) -> Array:
-    if arrays[name].dtype.kind not in "iufb":
-        raise content.error(f"{name} hold {arrays[name].dtype}, not numbers")
-    return np.asarray(arrays[name], np.float64)
-
-
 _MAX_DIMENSIONS = 32
 # Errors that numpy raises on damaged headers, which are Python literals.
 _HEADER_DAMAGE = (
     ValueError, TypeError, LookupError, AttributeError, SyntaxError, OverflowError, TokenError,
     RecursionError, MemoryError,
 )  # fmt: skip
+WIDTHS = {72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
+"""Body models by the number of values per frame."""
+# Name, parent, offset in metres in a T-pose: y up, facing z, the left at x.
+_JOINTS: tuple[tuple[str, str | None, tuple[float, float, float]], ...] = (
+    ("pelvis", None, (0, 0, 0)),
+    ("left_hip", "pelvis", (0.09, -0.06, 0)),
+    ("right_hip", "pelvis", (-0.09, -0.06, 0)),
+    ("spine1", "pelvis", (0, 0.11, -0.02)),
+    ("left_knee", "left_hip", (0, -0.417, 0)),
+    ("right_knee", "right_hip", (0, -0.417, 0)),
+    ("spine2", "spine1", (0, 0.13, 0)),
+    ("left_ankle", "left_knee", (0, -0.418, 0)),
+    ("right_ankle", "right_knee", (0, -0.418, 0)),
+    ("spine3", "spine2", (0, 0.06, 0)),
+    ("left_foot", "left_ankle", (0, -0.05, 0.13)),
+    ("right_foot", "right_ankle", (0, -0.05, 0.13)),
+    ("neck", "spine3", (0, 0.21, 0)),
+    ("left_collar", "spine3", (0.07, 0.11, 0)),
+    ("right_collar", "spine3", (-0.07, 0.11, 0)),
+    ("head", "neck", (0, 0.09, 0.02)),
+    ("left_shoulder", "left_collar", (0.12, 0.02, 0)),
+    ("right_shoulder", "right_collar", (-0.12, 0.02, 0)),
+    ("left_elbow", "left_shoulder", (0.316, 0, 0)),
+    ("right_elbow", "right_shoulder", (-0.316, 0, 0)),
+    ("left_wrist", "left_elbow", (0.248, 0, 0)),
+    ("right_wrist", "right_elbow", (-0.248, 0, 0)),
+    ("head_end", "head", (0, 0.18, 0)),
+)
+_AMASS_RATES = ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate")
+_N_TURNING = len(_JOINTS) - 1
 
 
 def read_npz(content: FileContent, options: ReadOptions) -> Motion:
@@ -193,7 +139,8 @@ def read_arrays(content: FileContent) -> dict[str, Array]:
             arrays = {}
             for info in infos:
                 data = archive.read(info)
-                if info.filename.endswith(".npy") and not _is_pickled(data):
+                is_pickled = b"'descr': '|O'" in data[:256]
+                if info.filename.endswith(".npy") and not is_pickled:
                     name = info.filename.removesuffix(".npy")
                     arrays[name] = _parse_array(content, data, name)
     except (zipfile.BadZipFile, zlib.error, LZMAError, OSError, EOFError, ValueError) as error:
@@ -201,10 +148,6 @@ def read_arrays(content: FileContent) -> dict[str, Array]:
     except (NotImplementedError, RuntimeError) as error:  # other compressions, passwords
         raise content.error(f"its archive cannot be read: {error}") from error
     return arrays
-
-
-def _is_pickled(data: bytes) -> bool:
-    return b"'descr': '|O'" in data[:256]
 
 
 def _parse_array(content: FileContent, data: bytes, name: str) -> Array:
@@ -233,52 +176,95 @@ def _parse_array(content: FileContent, data: bytes, name: str) -> Array:
     return flat.reshape(shape, order="F" if fortran else "C")
 
 
-NPZ = Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz)
-NPY = Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy)
-
-WIDTHS = {72: "SMPL", 156: "SMPL-H", 165: "SMPL-X"}
-"""Body models by the number of values per frame."""
-
-# Name, parent, offset in metres in a T-pose: y up, facing z, the left at x.
-_JOINTS: tuple[tuple[str, str | None, tuple[float, float, float]], ...] = (
-    ("pelvis", None, (0, 0, 0)),
-    ("left_hip", "pelvis", (0.09, -0.06, 0)),
-    ("right_hip", "pelvis", (-0.09, -0.06, 0)),
-    ("spine1", "pelvis", (0, 0.11, -0.02)),
-    ("left_knee", "left_hip", (0, -0.417, 0)),
-    ("right_knee", "right_hip", (0, -0.417, 0)),
-    ("spine2", "spine1", (0, 0.13, 0)),
-    ("left_ankle", "left_knee", (0, -0.418, 0)),
-    ("right_ankle", "right_knee", (0, -0.418, 0)),
-    ("spine3", "spine2", (0, 0.06, 0)),
-    ("left_foot", "left_ankle", (0, -0.05, 0.13)),
-    ("right_foot", "right_ankle", (0, -0.05, 0.13)),
-    ("neck", "spine3", (0, 0.21, 0)),
-    ("left_collar", "spine3", (0.07, 0.11, 0)),
-    ("right_collar", "spine3", (-0.07, 0.11, 0)),
-    ("head", "neck", (0, 0.09, 0.02)),
-    ("left_shoulder", "left_collar", (0.12, 0.02, 0)),
-    ("right_shoulder", "right_collar", (-0.12, 0.02, 0)),
-    ("left_elbow", "left_shoulder", (0.316, 0, 0)),
-    ("right_elbow", "right_shoulder", (-0.316, 0, 0)),
-    ("left_wrist", "left_elbow", (0.248, 0, 0)),
-    ("right_wrist", "right_elbow", (-0.248, 0, 0)),
-    ("head_end", "head", (0, 0.18, 0)),
-)
-_AMASS_RATES = ("mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate")
-_N_TURNING = len(_JOINTS) - 1
-
-
-def poses_to_motion(
-    content: FileContent, arrays: Mapping[str, Any], options: ReadOptions
+def arrays_to_motion(
+    content: FileContent, name: str, arrays: Arrays, options: ReadOptions
 ) -> Motion:
+    """Return the motion described by named arrays; ``name`` is the name of the format."""
+    if "poses" in arrays:
+        return poses_to_motion(content, arrays, options)
+    if "positions" in arrays:
+        return positions_to_motion(content, name, arrays, options)
+    columns = {key: array for key, array in arrays.items() if array.ndim == 1}
+    columns |= {key: array[None] for key, array in arrays.items() if array.ndim == 0}
+    for joint, track in _find_tracks(arrays).items():
+        columns |= {f"{joint}_{axis}": track[:, i] for i, axis in enumerate("xyz")}
+    return columns_to_motion(content, name, columns, options)
+
+
+def find_common_length(arrays: Arrays) -> int:
+    """Return the most frequent length of arrays; on a tie the longest."""
+    lengths = Counter(map(len, arrays.values()))
+    return max(lengths, key=lambda n: (lengths[n], n), default=0)
+
+
+def _find_tracks(arrays: Arrays) -> Arrays:
+    """Return the arrays (frames, 3) whose number of frames is the most frequent."""
+    tracks = {key: a for key, a in arrays.items() if a.ndim == 2 and a.shape[1] == 3}
+    length = find_common_length(tracks)
+    return {key: track for key, track in tracks.items() if len(track) == length}
+
+
+def positions_to_motion(
+    content: FileContent, name: str, arrays: Arrays, options: ReadOptions
+) -> Motion:
+    """Return the motion described by ``positions`` and the arrays that belong to it."""
+    positions = _read_numbers(content, arrays, "positions")
+    if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
+        raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
+    fps = options.fps or find_rate(content, arrays, _RATES)
+    is_from_kineme = "parents" in arrays and "names" in arrays  # in metres, y up
+    if is_from_kineme and options.unit in (None, "m", 1) and options.up in (None, "y"):
+        return _restore_motion(content, name, arrays, positions, fps)
+    default_names = [f"joint{i}" for i in range(positions.shape[1])]
+    names = list(map(str, arrays["names"].ravel())) if "names" in arrays else default_names
+    if len(names) != len(default_names):
+        raise content.error(f"{len(names)} names for {len(default_names)} joints")
+    positions = np.where(np.isfinite(positions), positions, np.nan)
+    unit = options.unit or ("m" if is_from_kineme else None)
+    up = options.up or ("y" if is_from_kineme else None)
+    points = Points(names, positions, fps, unit, up, person=options.person)
+    return to_motion(points, content.provenance(name, []))
+
+
+def _restore_motion(
+    content: FileContent, name: str, arrays: Arrays, positions: Array, fps: float
+) -> Motion:
+    """Return a motion written by kineme, unchanged."""
+    n = positions.shape[1]
+    offsets = _read_numbers(content, arrays, "offsets") if "offsets" in arrays else np.zeros((n, 3))
+    parents, ends, gaps = (
+        _read_integers(content, arrays, key) for key in ("parents", "end_sites", "gaps")
+    )
+    names = tuple(make_unique(map(str, arrays["names"].ravel())))
+    skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends))
+    rotations = _read_numbers(content, arrays, "rotations") if "rotations" in arrays else None
+    # Start and stop alternate.
+    spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
+    return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
+
+
+def _read_integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
+    """Return the whole numbers in an array, none if it is missing."""
+    if name not in arrays:
+        return []
+    values = _read_numbers(content, arrays, name).ravel()
+    if not np.isfinite(values).all() or np.abs(values).max(initial=0) > 2**53:
+        raise content.error(f"{name} are not whole numbers")
+    return values.astype(int).tolist()
+
+
+def _read_numbers(content: FileContent, arrays: Arrays, name: str) -> Array:
+    if arrays[name].dtype.kind not in "iufb":
+        raise content.error(f"{name} hold {arrays[name].dtype}, not numbers")
+    return np.asarray(arrays[name], np.float64)
+
+
+def poses_to_motion(content: FileContent, arrays: Arrays, options: ReadOptions) -> Motion:
     """Return the motion of the body described by ``poses`` and ``trans``."""
     poses = _check_arrays(content, arrays, "poses")
     if poses.shape[1] not in WIDTHS:
-        raise content.error(
-            f"poses have {poses.shape[1]} values per frame, not "
-            f"{', '.join(f'{n} ({name})' for n, name in WIDTHS.items())}"
-        )
+        widths = ", ".join(f"{n} ({name})" for n, name in WIDTHS.items())
+        raise content.error(f"poses have {poses.shape[1]} values per frame, not {widths}")
     path = np.zeros((len(poses), 3))
     if "trans" in arrays:
         path = _check_arrays(content, arrays, "trans")
@@ -286,8 +272,7 @@ def poses_to_motion(
         raise content.error(f"trans has shape {path.shape}, not ({len(poses)}, 3)")
     vectors = poses[:, : 3 * _N_TURNING].reshape(len(poses), _N_TURNING, 3)
     rotations = np.zeros((len(poses), len(_JOINTS), 4))
-    # The crown is an end site without rotation.
-    rotations[:, -1] = rot.IDENTITY
+    rotations[:, -1] = rot.IDENTITY  # the crown, an end site
     rotations[:, :-1] = rot.from_rotation_vectors(vectors)
     turn = make_up_rotation(options.up or "z")
     # Only the root is turned, since all others are relative to their parents.
@@ -314,7 +299,7 @@ def make_smpl_skeleton() -> Skeleton:
     return Skeleton(names, parents, offsets, frozenset({len(names) - 1}))
 
 
-def _check_arrays(content: FileContent, arrays: Mapping[str, Any], name: str) -> Floats:
+def _check_arrays(content: FileContent, arrays: Arrays, name: str) -> Floats:
     array = arrays[name]
     if array.dtype.kind not in "iuf" or array.ndim != 2 or len(array) == 0:
         raise content.error(
@@ -326,7 +311,7 @@ def _check_arrays(content: FileContent, arrays: Mapping[str, Any], name: str) ->
     return values
 
 
-def find_rate(content: FileContent, arrays: Mapping[str, Any], names: Sequence[str]) -> float:
+def find_rate(content: FileContent, arrays: Arrays, names: Sequence[str]) -> float:
     """Return the frame rate stored under the first of the names that holds one."""
     for name in names:
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
@@ -334,3 +319,9 @@ def find_rate(content: FileContent, arrays: Mapping[str, Any], names: Sequence[s
             if np.isfinite(rate) and rate > 0:
                 return rate
     raise content.error(f"no {names[0]!r} in it: give fps= (--fps)")
+
+
+NPZ = Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz)
+
+
+NPY = Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy)

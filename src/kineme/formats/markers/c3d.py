@@ -20,7 +20,6 @@ from __future__ import annotations
 import re
 
 from kineme._util.checks import make_unique
-from kineme.errors import ReadError
 from kineme.formats.channels.reading import (
     ChannelTable,
     list_needed_columns,
@@ -72,64 +71,46 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
     if not fps:
         raise content.error("the file has no frame rate: give fps= (--fps)")
     notes = []
-    markers, left_out = _find_markers(file)
+    markers, n_points = _find_markers(file), len(file.labels)
     if not markers:
-        raise ReadError(content.path, f"none of its {len(file.labels)} points is a named marker")
-    if left_out:
-        notes.append(
-            f"{left_out} of {len(file.labels)} points left out, since they are modelled or "
-            "have no name"
-        )
+        raise content.error(f"none of its {n_points} points is a named marker")
+    if left_out := n_points - len(markers):
+        reason = "since they are modelled or have no name"
+        notes.append(f"{left_out} of {n_points} points left out, {reason}")
     if file.first_frame > 1:
         notes.append(f"the first frame is frame {file.first_frame} of the capture")
     if file.analog.shape[1]:
         notes.append(f"{file.analog.shape[1]} analog channels at {file.analog_rate:g} Hz left out")
     if file.events:
         notes.append("events: " + ", ".join(f"{name} at {at:.2f} s" for at, name in file.events))
+    stated_up = "".join(file.parameters.strings("POINT", "Y_SCREEN")).lower().lstrip("+")
     points = Points(
         [file.labels[i] for i in markers],
         file.points[:, markers] if left_out else file.points,
         fps,
         unit=options.unit,
-        stated_unit=_find_unit(file),
+        stated_unit=parse_unit(next(iter(file.parameters.strings("POINT", "UNITS")), "")),
         up=options.up,
-        usual_up=_find_up_axis(file) or "z",
-        is_up_stated=_find_up_axis(file) is not None,
+        usual_up=stated_up if stated_up in AXES else "z",
+        is_up_stated=stated_up in AXES,
         person=options.person,
     )
     return to_motion(points, content.provenance("C3D", notes).marked(file.events))
 
 
-def _find_markers(file: C3D) -> tuple[list[int], int]:
-    """Return the indices of the points that are markers, and the number of other points."""
+def _find_markers(file: C3D) -> list[int]:
+    """Return the indices of the points that are markers."""
     parameters = file.parameters
     # Each group lists its labels in a parameter of the same name.
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}
     modelled = {label for group in groups for label in parameters.strings("POINT", group)}
-    markers = [
+    return [
         i for i, label in enumerate(file.labels) if label not in modelled and not is_nameless(label)
     ]
-    return markers, len(file.labels) - len(markers)
-
-
-def _find_unit(file: C3D) -> str | None:
-    return parse_unit(next(iter(file.parameters.strings("POINT", "UNITS")), ""))
-
-
-def _find_up_axis(file: C3D) -> str | None:
-    axis = "".join(file.parameters.strings("POINT", "Y_SCREEN")).lower().lstrip("+")
-    return axis if axis in AXES else None
-
-
-def read_analog(content: FileContent, options: ReadOptions) -> Signals:
-    """Return the analog channels of a C3D: ``options.columns``, or muscles with ``emg``, or all.
-
-    Raise ReadError if it has none, or not the requested ones.
-    """
-    return _read_channels(content, parse_c3d(content), options)
 
 
 def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Signals:
+    """Return the channels ``options.columns``, or muscles with ``options.emg``, or all."""
     columns, notes = options.columns or None, []
     if options.emg and columns is None:
         columns, note = find_muscles(content, file)
@@ -147,16 +128,14 @@ def find_muscles(content: FileContent, file: C3D) -> tuple[list[str], str]:
     """Return the names of the muscles' channels, and a note."""
     names = make_unique(file.analog_labels)
     plates = {int(number) for number in file.parameters.numbers("FORCE_PLATFORM", "CHANNEL")}
-    descriptions = file.parameters.strings("ANALOG", "DESCRIPTIONS")
     # Descriptions may be missing or fewer than the channels.
-    descriptions = [*descriptions, *[""] * len(names)]
+    descriptions = [*file.parameters.strings("ANALOG", "DESCRIPTIONS"), *[""] * len(names)]
+    channels = zip(names, file.analog_labels, descriptions, file.analog_units, strict=False)
     # Force plates refer to channels by numbers from 1.
     muscles = [
         name
-        for number, (name, label, description, unit) in enumerate(
-            zip(names, file.analog_labels, descriptions, file.analog_units, strict=False), 1
-        )
-        if number not in plates and is_muscle(label, description, unit)
+        for number, (name, *evidence) in enumerate(channels, 1)
+        if number not in plates and is_muscle(*evidence)
     ]
     if not muscles:
         raise content.error(
@@ -189,9 +168,8 @@ def is_muscle(label: str, description: str = "", unit: str = "") -> bool:
 def _split_words(text: str) -> list[str]:
     """Return the words of a name: ``RTibialisAnt.EMG1`` has four."""
     # Split at changes of case (`RTib` -> `R Tib`) and at other characters.
-    return re.findall(
-        r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)
-    )
+    spaced = re.sub(r"([A-Z])(?=[A-Z][a-z])", r"\1 ", text)
+    return re.findall(r"[A-Z]?[a-z]+|[A-Z]+\d*(?![a-z])", spaced)
 
 
 FORMAT = Format(

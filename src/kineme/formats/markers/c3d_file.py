@@ -66,12 +66,10 @@ def parse_c3d(content: FileContent) -> C3D:
     # One row per frame: points first, then analog samples.
     raw = file.frames()
     n = file.n_points
-    points, visible = _scale_points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale)
-    points[~visible] = np.nan
     analog = _scale_analog(file, raw[:, 4 * n :])
     return C3D(
         labels=_read_labels(parameters, "POINT", n, "point"),
-        points=points,
+        points=_scale_points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale),
         rate=file.rate,
         first_frame=file.first_frame,
         analog=analog,
@@ -97,11 +95,9 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
         values = values.view(values.dtype.str.replace("i", "u"))
     scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
-    # Physical value = (stored - offset) * scale * general scale.
     # The offsets are stored like the samples.
     offset = _repeat_per_channel(file.parameters, "OFFSET", channels, 0.0, signed=not is_unsigned)
-    scaled = (values - offset) * scale
-    return np.asarray(scaled, np.float64)
+    return np.asarray((values - offset) * scale, np.float64)
 
 
 def _repeat_per_channel(
@@ -118,19 +114,14 @@ def _read_events(file: Layout) -> tuple[tuple[float, str], ...]:
         return ()
     # Stored times count from frame 1 of the capture, which may precede the file's first frame.
     start = (file.first_frame - 1) / file.rate
-    events = _read_group_events(file.parameters) or read_header_events(file)
+    used = int(file.parameters.number("EVENT", "USED", 0))
+    times = file.parameters.numbers("EVENT", "TIMES")  # minutes and seconds in turn
+    labels = file.parameters.strings("EVENT", "LABELS")
+    sides = _pad(file.parameters.strings("EVENT", "CONTEXTS"), len(labels))
+    rows = zip(times[::2], times[1::2], sides, labels, strict=False)
+    events = [(60 * m + s, f"{side} {label}".strip()) for m, s, side, label in rows][:used]
+    events = events or read_header_events(file)
     return tuple(sorted((round(t - start, 6), label) for t, label in events if np.isfinite(t)))
-
-
-def _read_group_events(parameters: Parameters) -> list[tuple[float, str]]:
-    used = int(parameters.number("EVENT", "USED", 0))
-    times = parameters.numbers("EVENT", "TIMES")
-    labels = parameters.strings("EVENT", "LABELS")
-    contexts = _pad(parameters.strings("EVENT", "CONTEXTS"), len(labels))
-    names = [f"{side} {label}".strip() for side, label in zip(contexts, labels, strict=False)]
-    # Times are pairs of minutes and seconds.
-    minutes = zip(times[::2], times[1::2], strict=False)
-    return [(60 * m + s, name) for (m, s), name in zip(minutes, names, strict=False)][:used]
 
 
 def read_header_events(file: Layout) -> list[tuple[float, str]]:
@@ -147,14 +138,15 @@ def read_header_events(file: Layout) -> list[tuple[float, str]]:
     return list(zip(times, labels, strict=True))[: max(n, 0)]
 
 
-def _scale_points(stored: Stored, scale: float) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return positions (frames, points, 3), and a mask of those that were seen."""
+def _scale_points(stored: Stored, scale: float) -> Floats:
+    """Return positions (frames, points, 3), NaN where a point was not seen."""
     positions = stored[:, :, :3].astype(np.float64)
     if stored.dtype.kind == "i":
         positions *= scale
     # A negative residual marks a point that was not seen.
-    visible = (stored[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
-    return positions, visible & positions.any(axis=2)
+    is_visible = (stored[:, :, 3] >= 0) & np.isfinite(positions).all(axis=2)
+    positions[~(is_visible & positions.any(axis=2))] = np.nan
+    return positions
 
 
 def _read_labels(parameters: Parameters, group: str, n: int, default: str) -> list[str]:
@@ -357,9 +349,8 @@ class Parameters:
             return list(map(float, as_float32(reals, self.processor)))
         if kind not in (1, 2):
             return []
-        integers = np.frombuffer(
-            data, "i1" if kind == 1 else get_number_type(self.processor, real=False)
-        )
+        code = np.dtype("i1") if kind == 1 else get_number_type(self.processor, real=False)
+        integers = np.frombuffer(data, code)
         if not signed:
             # Reinterpret the bytes as unsigned.
             integers = integers.view(integers.dtype.str.replace("i", "u"))
@@ -385,8 +376,8 @@ class Parameters:
             return 0, [], b""
         kind = int.from_bytes(data[offset : offset + 1], signed=True)
         # The number of dimensions, then one byte for each.
-        shape = list(data[offset + 2 : offset + 2 + data[offset + 1]])
         start = offset + 2 + data[offset + 1]
+        shape = list(data[offset + 2 : start])
         # The type is the size of a value in bytes; -1 is text.
         size = abs(kind) * prod(shape)
         if start + size > len(data):
@@ -399,9 +390,8 @@ def read_parameters(content: FileContent) -> Parameters:
     data = content.data
     start = (max(data[0], 1) - 1) * BLOCK if data else 0
     if len(data) < max(start + 4, BLOCK):
-        raise content.error(
-            "the file ends before its parameters: it is truncated or not a C3D file"
-        )
+        reason = "the file ends before its parameters: it is truncated or not a C3D file"
+        raise content.error(reason)
     processor = data[start + 3]
     if processor not in (INTEL, DEC, MIPS):
         raise content.error(

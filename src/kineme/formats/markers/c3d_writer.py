@@ -46,6 +46,8 @@ EVENT = "EVENT"
 PER_EVENT = ("USED", "CONTEXTS", "LABELS", "DESCRIPTIONS", "TIMES", "SUBJECTS", "ICON_IDS",
              "GENERIC_FLAGS")  # fmt: skip
 """Parameters with one value per event, which are rewritten."""
+TEXTS = ("CONTEXTS", "LABELS", "DESCRIPTIONS", "SUBJECTS")
+"""Those of `PER_EVENT` that are texts."""
 MAX_EVENTS = 255
 """Maximum number of events: a dimension is one byte."""
 ICONS = {
@@ -114,22 +116,17 @@ def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, lis
     times = parameters.numbers(EVENT, "TIMES")
     pairs = list(zip(times[::2], times[1::2], strict=False))[:used]
     table: dict[str, list[Any]] = {"TIMES": pairs}
-    for name, default in (("CONTEXTS", b""), ("LABELS", b""), ("DESCRIPTIONS", b""),
-                        ("SUBJECTS", b""), ("ICON_IDS", 0), ("GENERIC_FLAGS", 0)):  # fmt: skip
-        stored = (
-            parameters.texts(EVENT, name)
-            if default == b""
-            else [int(value) for value in parameters.numbers(EVENT, name, signed=True)]
-        )[: len(pairs)]
-        table[name] = [*stored, *([default] * (len(pairs) - len(stored)))]
+    stored: dict[str, list[Any]] = {name: parameters.texts(EVENT, name) for name in TEXTS}
+    for name in ("ICON_IDS", "GENERIC_FLAGS"):
+        stored[name] = list(map(int, parameters.numbers(EVENT, name, signed=True)))
+    for name, values in stored.items():
+        missing = [b"" if name in TEXTS else 0] * (len(pairs) - len(values))
+        table[name] = values[: len(pairs)] + missing
     subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
-    header_events = (
-        [] if pairs else [C3DEvent(at - first, "", name) for at, name in read_header_events(layout)]
-    )
-    for event in [*header_events, *events]:
-        minutes, seconds = divmod(event.seconds + first, 60)
+    in_header = [] if pairs else read_header_events(layout)
+    for event in (*(C3DEvent(at - first, "", name) for at, name in in_header), *events):
         icon, description = ICONS.get(event.label, (0, ""))
-        table["TIMES"].append((minutes, seconds))
+        table["TIMES"].append(divmod(event.seconds + first, 60))
         table["CONTEXTS"].append(event.side.encode())
         table["LABELS"].append(event.label.encode())
         table["DESCRIPTIONS"].append(description.encode())
@@ -141,7 +138,7 @@ def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, lis
 
 def _replace_event_records(layout: Layout, table: dict[str, list[Any]]) -> list[RawRecord]:
     """Return all records, with rewritten records of events at the end."""
-    parameters = layout.parameters
+    parameters, processor = layout.parameters, layout.parameters.processor
     records = _read_records(parameters)
     groups = {-number: name for number, name, _ in records if number < 0}
     number = next((each for each, name in groups.items() if name == EVENT), 0)
@@ -150,27 +147,25 @@ def _replace_event_records(layout: Layout, table: dict[str, list[Any]]) -> list[
     if not number:
         number = next((n for n in range(1, 128) if n not in groups), 0)
         if not number:
-            raise layout.content.error(
-                "has 127 groups of parameters already, the maximum, so events cannot be added"
-            )
-        result.append((-number, EVENT, _encode_record(-number, EVENT, b"\0", parameters.processor)))
+            reason = "has 127 groups of parameters already, the maximum, so events cannot be added"
+            raise layout.content.error(reason)
+        result.append((-number, EVENT, _encode_record(-number, EVENT, b"\0", processor)))
     n = len(table["LABELS"])
     times = np.array(table["TIMES"], np.float32)
     new_records: list[tuple[str, int, list[int], bytes]] = [
-        ("USED", 2, [], _encode_integers([n], parameters.processor)),
-        ("TIMES", 4, [2, n], _encode_reals(times, parameters.processor)),
-        ("ICON_IDS", 2, [n], _encode_integers(table["ICON_IDS"], parameters.processor)),
+        ("USED", 2, [], _encode_integers([n], processor)),
+        ("TIMES", 4, [2, n], _encode_reals(times, processor)),
+        ("ICON_IDS", 2, [n], _encode_integers(table["ICON_IDS"], processor)),
         ("GENERIC_FLAGS", 1, [n], bytes(each & 255 for each in table["GENERIC_FLAGS"])),
     ]
-    for name in ("CONTEXTS", "LABELS", "DESCRIPTIONS", "SUBJECTS"):
+    for name in TEXTS:
         # All texts of a parameter have the same width, padded with blanks.
         width = max(1, *map(len, table[name]))
-        new_records.append(
-            (name, -1, [width, n], b"".join(each.ljust(width) for each in table[name]))
-        )
+        padded = b"".join(each.ljust(width) for each in table[name])
+        new_records.append((name, -1, [width, n], padded))
     for name, kind, shape, values in sorted(new_records, key=lambda each: PER_EVENT.index(each[0])):
         body = bytes([kind & 255, len(shape), *shape]) + values + b"\0"  # without a description
-        result.append((number, name, _encode_record(number, name, body, parameters.processor)))
+        result.append((number, name, _encode_record(number, name, body, processor)))
     return result
 
 

@@ -14,8 +14,6 @@ scale (S, s) of parent and child are applied: "RSrs" multiplies the matrices, "R
 the child's axes, "Rrs" ignores the parent's own scale.
 
 Source: Autodesk, FBX SDK, sample "Transformations".
-
-@@sampling: Find the keys around given times.
 """
 
 from __future__ import annotations
@@ -33,35 +31,25 @@ from kineme._util.checks import join_names, make_unique
 from kineme._util.rotations import from_matrices, to_matrices
 from kineme.formats.files import MAX_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, list_ancestors
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.skeletons.placing import build_motion, require_frame_memory
 from kineme.formats.units import iterate_blocks, to_metres
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.rig import UNIFORM, Rig
 
-
-def find_keys(times: Floats, frame_times: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
-    """Return the key before each frame, and the fraction of the interval to the next key.
-
-    Before the first key the fraction is 0, after the last one 1. ``slack`` is the time by which a
-    key may miss its frame.
-    """
-    # The slack includes a key just after its frame.
-    previous = np.searchsorted(times, frame_times + slack, "right") - 1
-    # Use the last interval for times after the last key.
-    index = np.clip(previous, 0, len(times) - 2)
-    passed = frame_times - times[index]
-    share = passed / np.diff(times)[index]
-    # Near a key use exactly its value.
-    share[np.abs(passed) <= slack] = 0.0
-    share[np.abs(frame_times - times[index + 1]) <= slack] = 1.0
-    return index, np.clip(share, 0.0, 1.0)
-
-
 Inheritance = Literal["RrSs", "RSrs", "Rrs"]
+World = tuple[Floats, Floats, Floats]
+"""A node's axes (frames, 3, 3), full matrix (frames, 3, 3) and world position (frames, 3)."""
 
+Local = tuple[Floats, Floats, dict[int, Floats]]
+"""Rotations, offsets and slides of joints relative to their parents, for `build_motion`."""
+
+DEFAULT_RATE = 30.0
+"""Frames per second of files that state no rate and whose keys are not evenly spaced."""
+MIN_RATE, MAX_RATE = 0.01, 100_000.0
+"""Frames per second that are accepted as a rate."""
+MAX_FRAMES = 1e12
 TOLERANCE = 2e-6
 """Fraction by which a length or scale may vary and still count as constant."""
-
 MIN_FRAME_MEMORY = 1 << 28
 """Bytes that any motion may use, however small its file is: a few keys define many frames."""
 
@@ -77,26 +65,6 @@ class Transform(NamedTuple):
     rotation: Floats
     scale: Floats
     inheritance: Inheritance = "RSrs"
-
-
-class LocalTransforms(NamedTuple):
-    """Rotations and positions of joints relative to their parents, as `build_motion` takes them."""
-
-    rotations: Floats
-    offsets: Floats
-    slides: dict[int, Floats]
-
-
-def require_frame_memory(
-    content: FileContent, joints: int, frames: int, *, external_size: int = 0
-) -> None:
-    """Raise ReadError if a file of this size cannot plausibly hold so many frames.
-
-    ``external_size`` is the size in bytes of other files that belong to it.
-    """
-    size = BYTES_PER_JOINT * joints * frames
-    if size > max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size):
-        content.require_memory(size, f"{joints} joints in {frames} frames")
 
 
 def assemble(
@@ -121,27 +89,24 @@ def assemble(
     are the file's numbers of the nodes, ``binds`` the matrices of nodes whose bind pose is not
     the rest pose. The bytes of the content are released once all transforms are known.
     """
-    # Convert numbers of nodes to numbers of joints; a parent that is no joint is -1.
+    # Convert numbers of nodes to numbers of joints; the parent of the root is -1.
     joint_numbers = {node: j for j, node in enumerate(joints)}
     parents = [joint_numbers.get(nodes[node].parent, -1) for node in joints]
     ancestors = list_ancestors(nodes, joints[0])[::-1]  # topmost first
+    chain = [*ancestors, *joints]
     local = _apply_scale(ancestors, joints, parents, transform, n_frames, turn)
     if local is None:
-        local = _multiply_matrices(ancestors, joints, parents, transform, n_frames, turn)
-        if any(
-            _find_uniform_scale(transform(node).scale, UNIFORM) is None
-            for node in (*ancestors, *joints)
-        ):
+        transforms = list(map(transform, chain))
+        local = _multiply_matrices(transforms, parents, n_frames, turn)
+        if any(_find_uniform_scale(each.scale, UNIFORM) is None for each in transforms):
             remark = "its bones are scaled unevenly or over time: joints slide in clips instead"
             provenance = provenance.noted(Note(remark, "warning"))
-    rig = _build_rig(
-        nodes, [*ancestors, *joints], len(joints), rest, to_metres(unit), turn, numbers
-    )
+    rig = _build_rig(nodes, chain, len(joints), rest, to_metres(unit), turn, numbers)
     if rig is None:
         remark = "its bones are mirrored or scaled unevenly at rest: clips have another rest pose"
         provenance = provenance.noted(Note(remark, "warning"))
     elif binds:
-        rig = replace(rig, binds=_compute_binds(rig, [*ancestors, *joints], binds))
+        rig = replace(rig, binds=_compute_binds(rig, chain, binds))
     content.release()
     rotations, offsets, slides = local
     # Leaves with constant rotation and offset become end sites, which have no rotation.
@@ -162,6 +127,134 @@ def assemble(
         provenance = provenance.noted(Note(remark, "warning"))
     skeleton = Skeleton(names, tuple(parents), offsets, frozenset(ends), rig)
     return build_motion(skeleton, rotations, slides, fps, unit=unit, up="y", provenance=provenance)
+
+
+def _apply_scale(
+    ancestors: Sequence[int],
+    joints: Sequence[int],
+    parents: Sequence[int],
+    transform: Callable[[int], Transform],
+    n_frames: int,
+    turn: Floats,
+) -> Local | None:
+    """Return unchanged rotations and scaled offsets; None if a scale is not uniform."""
+    # The transforms of the nodes above the root become part of the root.
+    position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
+    for node in (*ancestors, joints[0]):
+        current = transform(node)
+        factor = _find_uniform_scale(current.scale)
+        if factor is None:
+            return None
+        position = position + world * rot.rotate(rotation, current.translation)
+        rotation = rot.multiply(rotation, current.rotation)
+        world, node_scale = _multiply_scale(world, node_scale, factor, current.inheritance), factor
+    rotations = np.empty((n_frames, len(joints), 4))
+    rotations[:, 0] = rotation
+    offsets = np.zeros((len(joints), 3))
+    slides = {0: np.array(np.broadcast_to(position, (n_frames, 3)))}
+    scales = [(world, node_scale)]
+    for j in range(1, len(joints)):
+        current = transform(joints[j])
+        factor = _find_uniform_scale(current.scale)
+        if factor is None:
+            return None
+        # The parent's scale in the world scales the bone.
+        world, parent_scale = scales[parents[j]]
+        rotations[:, j] = current.rotation
+        scales.append((_multiply_scale(world, parent_scale, factor, current.inheritance), factor))
+        _store_shift(j, world * current.translation, offsets, slides)
+    return rotations, offsets, slides
+
+
+def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
+    """Return the world scale of a node from that of its parent and its own factor."""
+    # Divide out the parent's own factor, which is part of the world scale.
+    return world / parent * factor if inheritance == "Rrs" else world * factor
+
+
+def _find_uniform_scale(scale: Floats, tolerance: float = TOLERANCE) -> float | None:
+    """Return the single value of a scale in all axes and frames, or None.
+
+    ``tolerance`` is the fraction by which it may vary.
+    """
+    least, most = float(scale.min()), float(scale.max())
+    if not (least > 0 and most - least <= tolerance * most):
+        return None
+    return (least + most) / 2
+
+
+def _multiply_matrices(
+    chain: Sequence[Transform], parents: Sequence[int], n_frames: int, turn: Floats
+) -> Local:
+    """Return rotations and translations from the products of matrices.
+
+    ``chain`` holds the transforms of the ancestors, topmost first, then those of the joints.
+    """
+    # Number 0 is the ground, followed by the chain: each ancestor is the parent of the next node.
+    transforms = [Transform(np.zeros(3), turn, np.ones(3)), *chain]
+    root = len(transforms) - len(parents)
+    links = [*range(root), *(root + parent for parent in parents[1:])]
+    rotations = np.empty((n_frames, len(parents), 4))
+    shifts = np.empty((len(parents), n_frames, 3))
+    # Process blocks, since matrices of all frames need much memory.
+    for span in iterate_blocks(n_frames):
+        n = span.stop - span.start
+        ground = np.broadcast_to(to_matrices(turn), (n, 3, 3))
+        worlds = [(ground, ground, np.zeros((n, 3)))]
+        for node, parent in zip(chain, links, strict=True):
+            worlds.append(_multiply_transform(worlds[parent], node, transforms[parent].scale, span))
+        world_rotations = [from_matrices(axes) for axes, _, _ in worlds[root:]]
+        rotations[span, 0], shifts[0, span] = world_rotations[0], worlds[root][2]
+        for j, parent in enumerate(parents[1:], 1):
+            # Express the joint relative to the parent's axes.
+            inverse = rot.conjugate(world_rotations[parent])
+            rotations[span, j] = rot.multiply(inverse, world_rotations[j])
+            shifts[j, span] = rot.rotate(inverse, worlds[root + j][2] - worlds[root + parent][2])
+    offsets = np.zeros((len(parents), 3))
+    slides = {0: shifts[0]}
+    for j in range(1, len(parents)):
+        _store_shift(j, shifts[j], offsets, slides)
+    return rotations, offsets, slides
+
+
+def _multiply_transform(
+    parent: World, transform: Transform, parent_scale: Floats, span: slice
+) -> World:
+    """Return a node's world transform; ``parent_scale`` is the scale of its parent alone."""
+    axes, matrix, position = parent
+    turn = to_matrices(_select_frames(transform.rotation, span))
+    # The parent's scale and shear in its own axes.
+    inherited = axes.transpose(0, 2, 1) @ matrix
+    if transform.inheritance == "RSrs":
+        product = matrix @ turn
+    else:
+        if transform.inheritance == "Rrs":
+            # Divide out the parent's own scale.
+            divisor = _select_frames(parent_scale, span)
+            inherited = inherited / np.where(divisor == 0, 1, divisor)[:, None, :]
+        product = axes @ turn @ inherited
+    # Scale the columns, which are the axes.
+    product = product * _select_frames(transform.scale, span)[:, None, :]
+    shift = _select_frames(transform.translation, span)
+    return orthogonalize(product), product, position + np.einsum("fij,fj->fi", matrix, shift)
+
+
+def _select_frames(values: Floats, span: slice) -> Floats:
+    """Return the values of these frames (frames, ...)."""
+    if values.ndim > 1:
+        return values[span]
+    return np.broadcast_to(values, (span.stop - span.start, len(values)))
+
+
+def _store_shift(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) -> None:
+    """Store the translation of a joint relative to its parent: constant, or one per frame."""
+    if shift.ndim == 1:
+        offsets[j] = shift
+        return
+    # The median is the offset; a joint that leaves it has varying translations.
+    offsets[j] = np.median(shift, axis=0)
+    if np.abs(shift - offsets[j]).max() > TOLERANCE * np.abs(offsets[j]).max():
+        slides[j] = shift
 
 
 def _build_rig(
@@ -190,18 +283,6 @@ def _build_rig(
     )
 
 
-def _compute_binds(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats]) -> Floats | None:
-    """Return the bind matrices of the joints (joints, 4, 4), None if they equal the rest pose."""
-    rest = compose(rig.translations, rig.rotations, rig.scales)
-    local, bound = np.array(rest), np.tile(np.eye(4), (len(rest), 1, 1))
-    for node in range(rig.above, len(rest)):
-        parent = rig.parents[node]
-        if parent >= 0 and {chosen[node], chosen[parent]} <= binds.keys():
-            local[node] = np.linalg.solve(binds[chosen[parent]], binds[chosen[node]])
-        bound[node] = bound[parent] @ local[node] if parent >= 0 else local[node]
-    return None if np.allclose(local, rest, rtol=1e-3, atol=1e-4) else bound[rig.above :]
-
-
 def stack_transforms(
     transforms: Sequence[Transform], parents: Sequence[int]
 ) -> tuple[Floats, Floats, Floats] | None:
@@ -217,162 +298,37 @@ def stack_transforms(
     return translations, np.array([transform.rotation for transform in transforms]), scales
 
 
-def _apply_scale(
-    ancestors: Sequence[int],
-    joints: Sequence[int],
-    parents: Sequence[int],
-    transform: Callable[[int], Transform],
-    n_frames: int,
-    turn: Floats,
-) -> LocalTransforms | None:
-    """Return unchanged rotations and scaled offsets; None if a scale is not uniform."""
-    # The transforms of the nodes above the root become part of the root.
-    position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
-    for node in ancestors:
-        current = transform(node)
-        factor = _find_uniform_scale(current.scale)
-        if factor is None:
-            return None
-        position = position + world * rot.rotate(rotation, current.translation)
-        rotation = rot.multiply(rotation, current.rotation)
-        world, node_scale = _multiply_scale(world, node_scale, factor, current.inheritance), factor
-    rotations = np.empty((n_frames, len(joints), 4))
-    offsets = np.zeros((len(joints), 3))
-    slides: dict[int, Floats] = {}
-    scales: list[tuple[float, float]] = []
-    for j, (node, parent) in enumerate(zip(joints, parents, strict=True)):
-        current = transform(node)
-        factor = _find_uniform_scale(current.scale)
-        if factor is None:
-            return None
-        if parent < 0:
-            # The root's position in the world, in every frame.
-            root_positions = position + world * rot.rotate(rotation, current.translation)
-            slides[j] = np.array(np.broadcast_to(root_positions, (n_frames, 3)))
-            rotations[:, j] = rot.multiply(rotation, current.rotation)
-            scales.append((_multiply_scale(world, node_scale, factor, current.inheritance), factor))
-            continue
-        # The parent's scale in the world scales the bone.
-        scale, parent_factor = scales[parent]
-        rotations[:, j] = current.rotation
-        scales.append((_multiply_scale(scale, parent_factor, factor, current.inheritance), factor))
-        _store_shift(j, scale * current.translation, offsets, slides)
-    return LocalTransforms(rotations, offsets, slides)
+def _compute_binds(rig: Rig, chosen: Sequence[int], binds: Mapping[int, Floats]) -> Floats | None:
+    """Return the bind matrices of the joints (joints, 4, 4), None if they equal the rest pose."""
+    rest = compose(rig.translations, rig.rotations, rig.scales)
+    local, bound = np.array(rest), np.tile(np.eye(4), (len(rest), 1, 1))
+    for node in range(rig.above, len(rest)):
+        parent = rig.parents[node]
+        if parent >= 0 and {chosen[node], chosen[parent]} <= binds.keys():
+            local[node] = np.linalg.solve(binds[chosen[parent]], binds[chosen[node]])
+        bound[node] = bound[parent] @ local[node] if parent >= 0 else local[node]
+    return None if np.allclose(local, rest, rtol=1e-3, atol=1e-4) else bound[rig.above :]
 
 
-def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
-    """Return the world scale of a node from that of its parent and its own factor."""
-    # Divide out the parent's own factor, which is part of the world scale.
-    return world / parent * factor if inheritance == "Rrs" else world * factor
+def compose(translations: Floats, rotations: Floats, scales: Floats) -> Floats:
+    """Return matrices (nodes, 4, 4) for column vectors; scales are (nodes, 3) or (nodes,)."""
+    result = np.tile(np.eye(4), (len(translations), 1, 1))
+    scales = scales.reshape(len(translations), 1, -1)
+    result[:, :3, :3] = to_matrices(rotations) * scales
+    result[:, :3, 3] = translations
+    return result
 
 
-def _find_uniform_scale(scale: Floats, tolerance: float = TOLERANCE) -> float | None:
-    """Return the single value of a scale in all axes and frames, or None.
-
-    ``tolerance`` is the fraction by which it may vary.
-    """
-    least, most = float(scale.min()), float(scale.max())
-    if not (least > 0 and most - least <= tolerance * most):
-        return None
-    return (least + most) / 2
-
-
-def _store_shift(j: int, shift: Floats, offsets: Floats, slides: dict[int, Floats]) -> None:
-    """Store the translation of a joint relative to its parent: constant, or one per frame."""
-    if shift.ndim == 1:
-        offsets[j] = shift
-        return
-    # The median is the offset; a joint that leaves it has varying translations.
-    offsets[j] = np.median(shift, axis=0)
-    if np.abs(shift - offsets[j]).max() > TOLERANCE * np.abs(offsets[j]).max():
-        slides[j] = shift
-
-
-def _multiply_matrices(
-    ancestors: Sequence[int],
-    joints: Sequence[int],
-    parents: Sequence[int],
-    transform: Callable[[int], Transform],
-    n_frames: int,
-    turn: Floats,
-) -> LocalTransforms:
-    """Return rotations and translations from the products of matrices."""
-    # Ancestors get negative numbers, joints those from 0; the ground has the lowest number.
-    carriers = range(-len(ancestors), 0)
-    links = [*zip(carriers, [-len(ancestors) - 1, *carriers], ancestors, strict=False)]
-    links += [
-        (j, parent if parent >= 0 else -1 if ancestors else -len(ancestors) - 1, node)
-        for j, (node, parent) in enumerate(zip(joints, parents, strict=True))
-    ]
-    transforms = {number: transform(node) for number, _, node in links}
-    rotations = np.empty((n_frames, len(joints), 4))
-    shifts = np.empty((len(joints), n_frames, 3))
-    # Process blocks, since matrices of all frames need much memory.
-    for span in iterate_blocks(n_frames):
-        n = span.stop - span.start
-        ground = np.broadcast_to(to_matrices(turn), (n, 3, 3))
-        worlds = {-len(ancestors) - 1: (ground, ground, np.zeros((n, 3)))}
-        world_rotations: dict[int, Floats] = {}
-        for number, parent, _ in links:
-            current = transforms[number]
-            parent_transform = transforms.get(parent)
-            worlds[number] = _multiply_transform(worlds[parent], current, parent_transform, span)
-            if number < 0:
-                continue
-            axes, _, position = worlds[number]
-            world_rotations[number] = from_matrices(axes)
-            if parents[number] < 0:
-                rotations[span, number] = world_rotations[number]
-                shifts[number, span] = position
-                continue
-            # Express the joint relative to the parent's axes.
-            inverse = rot.conjugate(world_rotations[parent])
-            rotations[span, number] = rot.multiply(inverse, world_rotations[number])
-            shifts[number, span] = rot.rotate(inverse, position - worlds[parent][2])
-    offsets = np.zeros((len(joints), 3))
-    slides: dict[int, Floats] = {}
-    for j, parent in enumerate(parents):
-        if parent < 0:
-            slides[j] = shifts[j]
-        else:
-            _store_shift(j, shifts[j], offsets, slides)
-    return LocalTransforms(rotations, offsets, slides)
-
-
-World = tuple[Floats, Floats, Floats]
-"""A node's axes (frames, 3, 3), full matrix (frames, 3, 3) and world position (frames, 3)."""
-
-
-def _multiply_transform(
-    parent: World, transform: Transform, parent_transform: Transform | None, span: slice
-) -> World:
-    """Return a node's world transform from its parent's and the local transforms of both."""
-    axes, matrix, position = parent
-    turn = to_matrices(_select_frames(transform.rotation, span))
-    scale = _select_frames(transform.scale, span)
-    # The parent's scale and shear in its own axes.
-    inherited = axes.transpose(0, 2, 1) @ matrix
-    if transform.inheritance == "RSrs":
-        product = matrix @ turn
-    else:
-        if transform.inheritance == "Rrs" and parent_transform is not None:
-            # Divide out the parent's own scale.
-            scale = _select_frames(parent_transform.scale, span)
-            inherited = inherited / np.where(scale == 0, 1, scale)[:, None, :]
-        product = axes @ turn @ inherited
-    # Scale the columns, which are the axes.
-    product = product * scale[:, None, :]
-    new_position = position + np.einsum(
-        "fij,fj->fi", matrix, _select_frames(transform.translation, span)
-    )
-    return orthogonalize(product), product, new_position
-
-
-def _select_frames(values: Floats, span: slice) -> Floats:
-    """Return the values of these frames (frames, ...)."""
-    if values.ndim > 1:
-        return values[span]
-    return np.broadcast_to(values, (span.stop - span.start, len(values)))
+def decompose(matrices: Floats) -> Transform:
+    """Return the transform without shear of a matrix for column vectors, or of one per frame."""
+    stack = matrices.reshape(-1, 4, 4)
+    axes = stack[:, :3, :3]
+    scales = np.linalg.norm(axes, axis=1)
+    # Put a reflection into the scale, so that the axes are a rotation.
+    scales = np.where(np.linalg.det(axes)[:, None] < 0, -scales, scales)
+    turns = from_matrices(orthogonalize(axes / np.where(scales == 0, 1, scales)[:, None]))
+    parts = stack[:, :3, 3], turns, scales
+    return Transform(*(parts if matrices.ndim == 3 else (part[0] for part in parts)))
 
 
 def orthogonalize(matrices: Floats) -> Floats:
@@ -395,21 +351,41 @@ def _normalize(vectors: Floats, fallback: Floats) -> Floats:
     return np.where(is_zero, unit_fallback, vectors / np.where(is_zero, 1, length))
 
 
-def compose(translations: Floats, rotations: Floats, scales: Floats) -> Floats:
-    """Return matrices (nodes, 4, 4) for column vectors; scales are (nodes, 3) or (nodes,)."""
-    result = np.tile(np.eye(4), (len(translations), 1, 1))
-    scales = scales.reshape(len(translations), 1, -1)
-    result[:, :3, :3] = to_matrices(rotations) * scales
-    result[:, :3, 3] = translations
-    return result
+def find_keys(times: Floats, frame_times: Floats, slack: float) -> tuple[NDArray[np.intp], Floats]:
+    """Return the key before each frame, and the fraction of the interval to the next key.
+
+    Before the first key the fraction is 0, after the last one 1. ``slack`` is the time by which a
+    key may miss its frame.
+    """
+    # The slack includes a key just after its frame.
+    previous = np.searchsorted(times, frame_times + slack, "right") - 1
+    # Use the last interval for times after the last key.
+    index = np.clip(previous, 0, len(times) - 2)
+    passed = frame_times - times[index]
+    share = passed / np.diff(times)[index]
+    # Near a key use exactly its value.
+    share[np.abs(passed) <= slack] = 0.0
+    share[np.abs(frame_times - times[index + 1]) <= slack] = 1.0
+    return index, np.clip(share, 0.0, 1.0)
 
 
-def decompose(matrix: Floats) -> Transform:
-    """Return the transform of a matrix (4, 4) for column vectors, without shear."""
-    axes = matrix[:3, :3]
-    scale = np.linalg.norm(axes, axis=0)
-    # Put a reflection into the scale, so that the axes are a rotation.
-    if np.linalg.det(axes) < 0:
-        scale = -scale
-    turn = from_matrices(orthogonalize((axes / np.where(scale == 0, 1, scale))[None]))[0]
-    return Transform(matrix[:3, 3], turn, scale)
+def evaluate_bezier(
+    start: Floats | float, out: Floats, into: Floats, stop: Floats | float, parameter: Floats
+) -> Floats:
+    """Return values of cubic Bézier curves, whose inner points are ``out`` and ``into``."""
+    rest = 1 - parameter
+    value = rest**3 * start + 3 * rest**2 * parameter * out
+    return np.asarray(value + 3 * rest * parameter**2 * into + parameter**3 * stop, np.float64)
+
+
+def count_frames(
+    content: FileContent, joints: int, frames: float, *, external_size: int = 0
+) -> int:
+    """Return the whole frames; raise ReadError if a file of this size cannot hold so many.
+
+    ``external_size`` is the size in bytes of other files that belong to it.
+    """
+    n_frames = int(min(frames, MAX_FRAMES))
+    allowed = max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size)
+    require_frame_memory(content, joints, n_frames, allowed=allowed)
+    return n_frames

@@ -31,29 +31,14 @@ _END = re.compile(
 
 @dataclass(frozen=True)
 class SceneNode:
-    """One node of a scene.
-
-    Parameters
-    ----------
-    name : str
-    parent : int
-        -1 for none; parents come before their children.
-    bone : bool
-        Whether the file marks it as a bone.
-    geometry : bool
-        Whether it carries a mesh, a camera or a light.
-    animated : bool
-        Whether the chosen animation moves it.
-    end : bool
-        Whether it ends a limb, provided that it is a leaf without rotations.
-    """
+    """One node of a scene."""
 
     name: str
-    parent: int
-    bone: bool
-    geometry: bool
-    animated: bool
-    end: bool = False
+    parent: int  # -1 for none; parents come before their children
+    bone: bool  # whether the file marks it as a bone
+    geometry: bool  # whether it carries a mesh, a camera or a light
+    animated: bool  # whether the chosen animation moves it
+    end: bool = False  # whether it ends a limb if it is a leaf without rotations
 
 
 @dataclass(frozen=True)
@@ -115,12 +100,9 @@ def list_ancestors(nodes: Sequence[SceneNode], node: int) -> list[int]:
 
 
 def find_moving_takes(moved_nodes: Sequence[set[int]], bones: set[int]) -> list[int]:
-    """Return the animations that move a bone, or anything if there are no bones.
-
-    ``moved_nodes`` are the nodes moved by each animation.
-    """
+    """Return the animations that move a bone, or anything if there are no bones."""
     return [
-        number for number, nodes in enumerate(moved_nodes) if (nodes & bones if bones else nodes)
+        number for number, moved in enumerate(moved_nodes) if (moved & bones if bones else moved)
     ]
 
 

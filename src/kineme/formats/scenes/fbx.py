@@ -6,8 +6,7 @@ file's (``UnitScaleFactor``, ``UpAxis``). Meshes, cameras, lights and constraint
 that they move must be baked to keys on export.
 
 `kineme.formats.scenes.characters` defines characters, `kineme.formats.scenes.fbx_scene` transforms
-of joints, `kineme.formats.scenes.fbx_writer` what is written, and `kineme.formats.scenes.fbx_writer`
-copies with other takes.
+of joints, `kineme.formats.scenes.fbx_writer` what is written.
 """
 
 from __future__ import annotations
@@ -20,27 +19,25 @@ from kineme._util.rotations import from_matrices
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import MIN_FRAME_MEMORY, assemble, require_frame_memory
+from kineme.formats.scenes.assembly import (
+    DEFAULT_RATE,
+    MAX_RATE,
+    MIN_FRAME_MEMORY,
+    MIN_RATE,
+    assemble,
+    count_frames,
+)
 from kineme.formats.scenes.characters import choose_take, find_character, find_moving_takes
 from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, TEXT, parse_fbx
 from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
-from kineme.formats.scenes.fbx_writer import copy_takes, write_fbx, write_takes
+from kineme.formats.scenes.fbx_writer import CENTIMETRE, copy_takes, write_fbx, write_takes
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
-DEFAULT_RATE = 30.0
-"""Frames per second of files that state no rate and whose keys are not evenly spaced."""
-
-CENTIMETRE = 0.01
-
-MIN_RATE, MAX_RATE = 0.01, 100_000.0
-"""Frames per second that are accepted as a rate."""
-
 _EVEN_KEYS = 8  # minimum number of steps between keys to infer a rate
 _ROUNDED = 1e-3  # frames by which the end of a take may miss its last frame
-_MAX_FRAMES = 1e12
 
 
 def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
@@ -57,6 +54,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     fps, rate_notes = _find_rate(scene, take, joints, options)
     frame_times = _compute_frame_times(scene, take, joints, fps)
     turn, turn_notes = _find_turn(scene, options)
+    factor = scene.get_setting("UnitScaleFactor", 1.0)  # centimetres per unit
     pose = Pose(scene, take, Sampler(frame_times))
     notes = [f"FBX {version // 1000}.{version % 1000 // 100}", *notes, *character.notes]
     return assemble(
@@ -67,7 +65,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         pose.compute_rest,
         len(frame_times),
         fps,
-        unit=options.unit or _find_unit(scene),
+        unit=options.unit or CENTIMETRE * (factor if factor > 0 else 1.0),
         turn=turn,
         provenance=content.provenance("FBX", [*notes, *rate_notes, *turn_notes])
         .of_take(names[number], (names[moving] for moving in animated))
@@ -87,16 +85,14 @@ def _find_rate(
     keys = _infer_rate(scene, take, joints)
     if not MIN_RATE <= fps <= MAX_RATE:
         if keys:
-            return keys, [
-                f"frame rate {keys:g} Hz: the file states none, so that of its keys is used"
-            ]
+            note = f"frame rate {keys:g} Hz: the file states none, so that of its keys is used"
+            return keys, [note]
         remark = f"the file states no frame rate: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
         return DEFAULT_RATE, [Note(remark, "warning")]
     # Sampling at the file's rate drops some of the keys.
     if keys > 1.5 * fps:
-        return fps, [
-            f"{keys:g} keys a second are sampled at the file's {fps:g} Hz; fps= raises this"
-        ]
+        note = f"{keys:g} keys a second are sampled at the file's {fps:g} Hz; fps= raises this"
+        return fps, [note]
     return fps, []
 
 
@@ -128,15 +124,8 @@ def _compute_frame_times(scene: FBXScene, take: Take, joints: list[int], fps: fl
         stop = max((last for _, last in ends), default=0.0)
         count = (stop - start) / TICKS * fps + 1
     # The end of the take may miss its last frame by rounding.
-    n_frames = int(min(count + _ROUNDED, _MAX_FRAMES))
-    require_frame_memory(scene.content, len(joints), n_frames)
+    n_frames = count_frames(scene.content, len(joints), count + _ROUNDED)
     return np.asarray(start + np.arange(n_frames) * (TICKS / fps), np.float64)
-
-
-def _find_unit(scene: FBXScene) -> float:
-    """Return the metres in one unit of the file; its scale factor counts centimetres."""
-    factor = scene.get_setting("UnitScaleFactor", 1.0)
-    return CENTIMETRE * (factor if factor > 0 else 1.0)
 
 
 def _find_turn(scene: FBXScene, options: ReadOptions) -> tuple[Floats, list[str]]:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent
-from kineme.formats.scenes.assembly import find_keys
+from kineme.formats.scenes.assembly import evaluate_bezier, find_keys
 from kineme.formats.scenes.fbx_file import FBXNode
 
 TICKS = 46_186_158_000
@@ -55,26 +55,14 @@ _BISECTIONS = 40
 
 @dataclass(frozen=True)
 class Curve:
-    """Keys in order of time.
+    """Keys in order of time."""
 
-    Parameters
-    ----------
-    times : ndarray of shape (keys,)
-        Ticks.
-    values : ndarray of shape (keys,)
-    flags : ndarray of shape (keys,)
-        Interpolation after each key.
-    details : ndarray of shape (keys, 4)
-        Slope after the key and before the next one, per second; weights of both, packed.
-    kinds : int
-        Union of all flags.
-    """
-
-    times: Floats
-    values: Floats
-    flags: NDArray[np.int64]
-    details: NDArray[np.float32]
-    kinds: int
+    times: Floats  # (keys,), ticks
+    values: Floats  # (keys,)
+    flags: NDArray[np.int64]  # (keys,): interpolation after each key
+    details: NDArray[np.float32]  # (keys, 4): slopes per second after a key and before the next
+    #                               one, and the weights of both, packed
+    kinds: int  # union of all flags
 
 
 class CurveReader:
@@ -174,7 +162,6 @@ class Sampler:
         if is_constant and not curve.kinds & CUBIC:
             return values[:1].reshape(())
         if self._are_frames(times):
-            # There is a key in every frame.
             return values[:1].reshape(()) if is_constant else values
         if len(times) == 1:
             return values.reshape(())
@@ -217,15 +204,9 @@ def _evaluate_bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats
     first, last = right_weight[i], left_weight[i]
     # With weights other than a third, time is a Bézier curve as well.
     parameter = _solve_parameter(share, first, 1 - last)
-    complement = 1 - parameter
     # Inner points of the Bézier curve lie on the slopes, weight times the interval away.
     out, into = start + right[i] * first * step, stop - left[i] * last * step
-    value = (
-        complement**3 * start
-        + 3 * complement**2 * parameter * out
-        + 3 * complement * parameter**2 * into
-    )
-    return np.asarray(value + parameter**3 * stop, np.float64)
+    return evaluate_bezier(start, out, into, stop, parameter)
 
 
 def _solve_parameter(share: Floats, first: Floats, second: Floats) -> Floats:
@@ -240,8 +221,7 @@ def _solve_parameter(share: Floats, first: Floats, second: Floats) -> Floats:
     low, high = np.zeros_like(share), np.ones_like(share)
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        complement = 1 - middle
-        time = 3 * complement**2 * middle * first + 3 * complement * middle**2 * second + middle**3
+        time = evaluate_bezier(0.0, first, second, 1.0, middle)
         low, high = np.where(time < share, middle, low), np.where(time < share, high, middle)
     return (low + high) / 2
 
@@ -257,11 +237,10 @@ def _compute_tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
     # A float holds two weights of 16 bits.
     packed = np.ascontiguousarray(curve.details[:, 2]).view(np.uint32)
     flags = curve.flags
-    weighted = (flags & RIGHT_WEIGHT) > 0
-    right_weight = np.where(weighted, (packed & 0xFFFF) * _WEIGHT_UNIT, THIRD)[:-1]
-    weighted = (flags & LEFT_WEIGHT) > 0
-    left_weight = np.where(weighted, (packed >> 16) * _WEIGHT_UNIT, THIRD)[:-1]
-    right_weight, left_weight = np.clip(right_weight, 0, 1), np.clip(left_weight, 0, 1)
+    right_weight, left_weight = (
+        np.where(flags & flag, np.clip(stored * _WEIGHT_UNIT, 0, 1), THIRD)[:-1]
+        for flag, stored in ((RIGHT_WEIGHT, packed & 0xFFFF), (LEFT_WEIGHT, packed >> 16))
+    )
     # Slopes after a key and before the next one are stored with the first of the two.
     right, left = slopes[:-1, 0], slopes[:-1, 1]
     cubic = (flags & (CONSTANT | CUBIC)) == CUBIC
@@ -270,11 +249,9 @@ def _compute_tangents(curve: Curve) -> tuple[Floats, Floats, Floats, Floats]:
     left = np.where(is_tcb[:-1], 0.0, left)  # TCB keys store other parameters than slopes
     if is_automatic.any():
         # Automatic keys have the same slope on both sides.
-        slopes_of_automatic = _compute_automatic_slopes(
-            times, values, flags, right_weight, left_weight
-        )
-        right = np.where(is_automatic[:-1], slopes_of_automatic[:-1], right)
-        left = np.where(is_automatic[1:], slopes_of_automatic[1:], left)
+        automatic = _compute_automatic_slopes(times, values, flags, right_weight, left_weight)
+        right = np.where(is_automatic[:-1], automatic[:-1], right)
+        left = np.where(is_automatic[1:], automatic[1:], left)
     if is_tcb.any():
         after, before = _compute_tcb_slopes(curve, secant)
         right = np.where(is_tcb[:-1], after[:-1], right)
@@ -313,10 +290,7 @@ def _compute_automatic_slopes(
     # Limit the slope so that no inner Bézier point exceeds the neighbour's value.
     sign = np.where(inner_slopes < 0, -1.0, 1.0)
     limit = np.full(len(inner_slopes), np.inf)
-    for weight, side in (
-        (left_weight[:-1], slice(None, -1)),
-        (right_weight[1:], slice(1, None)),
-    ):
+    for weight, side in ((left_weight[:-1], slice(None, -1)), (right_weight[1:], slice(1, None))):
         reach = weight * step[side]
         most = sign * rise[side] / np.where(reach > 0, reach, np.inf)  # 0: no tangent to limit
         limit = np.minimum(limit, np.maximum(most, 0.0))
@@ -336,10 +310,6 @@ def _compute_tcb_slopes(curve: Curve, secant: Floats) -> tuple[Floats, Floats]:
     before, after = np.r_[0.0, secant], np.r_[secant, 0.0]
     tight = (1 - tension) / 2
     tight[[0, -1]] *= 2  # the ends have one neighbour only
-    forward = tight * (
-        (1 + continuity) * (1 + bias) * before + (1 - continuity) * (1 - bias) * after
-    )
-    backward = tight * (
-        (1 - continuity) * (1 + bias) * before + (1 + continuity) * (1 - bias) * after
-    )
-    return forward, backward
+    arriving, leaving = (1 + bias) * before, (1 - bias) * after
+    forward = tight * ((1 + continuity) * arriving + (1 - continuity) * leaving)
+    return forward, tight * ((1 - continuity) * arriving + (1 + continuity) * leaving)

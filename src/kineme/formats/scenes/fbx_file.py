@@ -1,4 +1,4 @@
-"""Parse the nodes of an FBX file of version 7, binary or text.
+"""Parse the nodes of an FBX file of version 7, binary or text: a tree of names and values.
 
 In a binary file a node is::
 
@@ -7,17 +7,12 @@ In a binary file a node is::
     values                                           a letter for the type, then the value
     nodes                                            up to an empty one
 
-Arrays store their length, whether zlib compressed them, and their bytes. They are parsed on demand,
-since most belong to meshes.
+Arrays store their length, whether zlib compressed them, and their bytes. In a text file a node is
+``Name: value, value { nodes }``, an array ``*3 { a: 1,2,3 }``, and a semicolon starts a comment.
+Arrays are parsed on demand, since most belong to meshes.
 
 Source: the format is not published; A. Gessler and C. Barton, "FBX binary file format
 specification", Blender's developer blog, 2013, and files of various programs.
-
-@@fbx_nodes: Represent the nodes of an FBX file, binary or text: a tree of names and values.
-
-@@fbx_text: Parse FBX text (7.x): ``Name: value, value { nodes }``, arrays as ``*3 { a: 1,2,3 }``.
-
-A semicolon starts a comment. Arrays are parsed on demand.
 """
 
 from __future__ import annotations
@@ -37,14 +32,35 @@ from kineme.formats.files import FileContent
 
 BYTES_PER_NODE = 600
 """Bytes of memory of a node with a few values."""
+MAGIC = b"Kaydara FBX Binary  \x00"
+TEXT = re.compile(rb"^(\xef\xbb\xbf)?\s*;\s*FBX\s+\d|^FBXHeaderExtension\s*:", re.MULTILINE)
+OLDEST = 7000
+"""Oldest supported version, in thousandths."""
+START = 27
+"""Offset of the first node of a binary file."""
+WIDE = 7500
+"""First version with 64 bits in the head of nodes."""
+
+_TOKEN = re.compile(
+    rb"""\s*+ (?: ; [^\n]*+ \s*+ )*+ (?:
+    (?P<text> "[^"]*" ) | (?P<name> [^\s,{}":;*]++ ) [ \t]*+ : | (?P<mark> [{},] ) |
+    \* (?P<count> \d+ ) | (?P<word> [^\s,{}":;*]+ ) )""",
+    re.VERBOSE,
+)
+_ARRAY = re.compile(rb"\s*\{\s*a\s*:")
+_ESCAPES = ((b"&quot;", b'"'), (b"&lf;", b"\n"), (b"&cr;", b"\r"))
+_BOM = b"\xef\xbb\xbf"
+_MAX_DIGITS = 40  # of a number
+_SCALARS = {
+    kind: struct.Struct(f"<{code}") for kind, code in zip(b"YCBIFDL", "hbbifdq", strict=True)
+}
+_ARRAYS = dict(zip(b"fdlibc", ("<f4", "<f8", "<i8", "<i4", "<i1", "<i1"), strict=True))
 
 
 class StoredArray(Protocol):
     """An array that is parsed on demand."""
 
-    def raw(self, content: FileContent) -> bytes:
-        """Return its bytes in the file."""
-        ...
+    def raw(self, content: FileContent) -> bytes: ...
 
     def read(self, content: FileContent) -> NDArray[Any]: ...
 
@@ -93,29 +109,143 @@ class FBXNode:
         return None if stored is None else stored.read(content)
 
 
+def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
+    """Return the version of an FBX file, in thousandths, and its nodes, below a nameless root."""
+    if content.data.startswith(MAGIC):
+        if len(content.data) < START:
+            raise content.error("the file ends in its header: it is truncated")
+        # The four bytes before the first node are the version.
+        version = int.from_bytes(content.data[START - 4 : START], "little")
+        _refuse_old(content, version)
+        return version, _parse_binary(content, get_head_struct(version))
+    root = _TextParser(content).root
+    header = root.child("FBXHeaderExtension")
+    version_node = header.child("FBXVersion") if header else None
+    number = version_node.values[0] if version_node and version_node.values else 0
+    version = number if isinstance(number, int) else 0
+    _refuse_old(content, version)
+    return version, root
+
+
+def _refuse_old(content: FileContent, version: int) -> None:
+    if version < OLDEST:
+        name = f"FBX {version // 1000}.{version % 1000 // 100}" if version else "an FBX too old"
+        raise content.error(
+            f"is {name}, a format of before 2011: open it in the program that made it, or in "
+            "Autodesk's FBX Converter, and export FBX 2014 (7.4) or later"
+        )
+
+
 def require_node_memory(content: FileContent, count: int) -> None:
     """Raise ReadError if so many nodes need more memory than the file can plausibly need."""
     if count % 1000 == 0:  # checking each node would be slow
         content.require_memory(BYTES_PER_NODE * count, f"{count} nodes")
 
 
-TEXT = re.compile(rb"^(\xef\xbb\xbf)?\s*;\s*FBX\s+\d|^FBXHeaderExtension\s*:", re.MULTILINE)
-
-_TOKEN = re.compile(
-    rb"""\s*+ (?: ; [^\n]*+ \s*+ )*+ (?:
-    (?P<text> "[^"]*" ) | (?P<name> [^\s,{}":;*]++ ) [ \t]*+ : | (?P<mark> [{},] ) |
-    \* (?P<count> \d+ ) | (?P<word> [^\s,{}":;*]+ ) )""",
-    re.VERBOSE,
-)
-_ARRAY = re.compile(rb"\s*\{\s*a\s*:")
-_ESCAPES = ((b"&quot;", b'"'), (b"&lf;", b"\n"), (b"&cr;", b"\r"))
-_BOM = b"\xef\xbb\xbf"
-_MAX_DIGITS = 40  # of a number
+def get_head_struct(version: int) -> struct.Struct:
+    """Return the struct of the fields before a node's name in a binary file."""
+    return struct.Struct("<QQQB" if version >= WIDE else "<IIIB")
 
 
-def parse_text(content: FileContent) -> FBXNode:
-    """Return the nodes of a text, below one without a name."""
-    return _TextParser(content).root
+def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
+    data = content.data
+    root = FBXNode("")
+    # Use a stack instead of recursion, since nodes may be nested deeply.
+    open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
+    offset, nodes = START, 0
+    while open_nodes:
+        node, stop = open_nodes[-1]
+        if offset == stop and node is not root:
+            open_nodes.pop()
+            continue
+        if offset + head.size > stop:
+            raise content.error("ends between two nodes: the file is truncated or damaged")
+        end, count, size, length = head.unpack_from(data, offset)
+        first, offset = offset, offset + head.size
+        # An empty node ends the list of children.
+        if end == 0:
+            if node is not root and offset != stop:
+                raise content.error(
+                    f"node {node.name!r:.40} does not have the length it states: damaged"
+                )
+            open_nodes.pop()
+            continue
+        start = offset + length
+        if not start + size <= end <= stop:
+            raise content.error("a node is longer than its parent: truncated or damaged")
+        nodes += 1
+        require_node_memory(content, nodes)
+        name = data[offset:start].decode("utf-8", "replace")
+        child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
+        node.children.append(child)
+        offset = start + size
+        # The rest of the node holds its children.
+        if offset < end:
+            open_nodes.append((child, end))
+    return root
+
+
+def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> list[Any]:
+    values: list[Any] = []
+    for _ in range(count):
+        if offset >= stop:
+            raise content.error("a node has fewer values than it states: truncated or damaged")
+        try:
+            value, offset = _parse_value(content.data, offset)
+        except struct.error:
+            raise content.error("ends within a value: the file is truncated") from None
+        except KeyError as error:
+            kind = chr(error.args[0])
+            raise content.error(f"a value is of the unknown type {kind!r}: damaged") from None
+        if offset > stop:
+            raise content.error("a value is longer than its node: truncated or damaged")
+        values.append(value)
+    return values
+
+
+def _parse_value(data: bytes, offset: int) -> tuple[Any, int]:
+    """Return a value and the offset of the next one."""
+    kind = data[offset]
+    offset += 1
+    if scalar := _SCALARS.get(kind):
+        return scalar.unpack_from(data, offset)[0], offset + scalar.size
+    if kind in b"SR":
+        size = int.from_bytes(data[offset : offset + 4], "little")
+        raw = data[offset + 4 : offset + 4 + size]
+        return raw.decode("utf-8", "replace") if kind == ord("S") else raw, offset + 4 + size
+    code = _ARRAYS[kind]
+    count, packed, size = struct.unpack_from("<III", data, offset)
+    return _BinaryArray(code, count, packed, offset + 12, size), offset + 12 + size
+
+
+@dataclass(slots=True)
+class _BinaryArray:
+    """An array in a binary file, parsed on demand."""
+
+    code: str
+    count: int
+    packed: int
+    start: int
+    size: int
+
+    def raw(self, content: FileContent) -> bytes:
+        return content.data[self.start : self.start + self.size]
+
+    def read(self, content: FileContent) -> NDArray[Any]:
+        raw = self.raw(content)
+        size = self.count * np.dtype(self.code).itemsize
+        if self.packed:
+            content.require_memory(size, f"an array of {self.count} numbers")
+            try:
+                # One more byte reveals an array longer than declared.
+                raw = zlib.decompressobj().decompress(raw, size + 1)
+            except zlib.error as error:
+                raise content.error(f"an array cannot be unpacked: {error}") from None
+        if len(raw) != size:
+            raise content.error(
+                f"an array does not have the {self.count} numbers it states: damaged"
+            )
+        return np.frombuffer(raw, self.code)
 
 
 class _TextParser:
@@ -219,157 +349,3 @@ class _TextArray:
         if len(values) != self.count:
             raise content.error(f"{len(values)} numbers in an array of {self.count}", line)
         return values
-
-
-MAGIC = b"Kaydara FBX Binary  \x00"
-
-OLDEST = 7000
-"""Oldest supported version, in thousandths."""
-
-START = 27
-"""Offset of the first node of a binary file."""
-
-WIDE = 7500
-"""First version with 64 bits in the head of nodes."""
-
-_SCALARS = {
-    ord(letter): struct.Struct(f"<{code}")
-    for letter, code in zip("YCBIFDL", "hbbifdq", strict=True)
-}
-_ARRAYS = {
-    ord(letter): f"<{code}"
-    for letter, code in zip("fdlibc", ("f4", "f8", "i8", "i4", "i1", "i1"), strict=True)
-}
-
-
-def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
-    """Return the version of an FBX file, in thousandths, and its nodes, below a nameless root."""
-    if content.data.startswith(MAGIC):
-        if len(content.data) < START:
-            raise content.error("the file ends in its header: it is truncated")
-        # The four bytes before the first node are the version.
-        version = int.from_bytes(content.data[START - 4 : START], "little")
-        _refuse_old(content, version)
-        return version, _parse_binary(content, get_head_struct(version))
-    root = parse_text(content)
-    header = root.child("FBXHeaderExtension")
-    version_node = header.child("FBXVersion") if header else None
-    number = version_node.values[0] if version_node and version_node.values else 0
-    version = number if isinstance(number, int) else 0
-    _refuse_old(content, version)
-    return version, root
-
-
-def _refuse_old(content: FileContent, version: int) -> None:
-    if version < OLDEST:
-        name = f"FBX {version // 1000}.{version % 1000 // 100}" if version else "an FBX too old"
-        raise content.error(
-            f"is {name}, a format of before 2011: open it in the program that made it, or in "
-            "Autodesk's FBX Converter, and export FBX 2014 (7.4) or later"
-        )
-
-
-def get_head_struct(version: int) -> struct.Struct:
-    """Return the struct of the fields before a node's name in a binary file."""
-    return struct.Struct("<QQQB" if version >= WIDE else "<IIIB")
-
-
-def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
-    data = content.data
-    root = FBXNode("")
-    # Use a stack instead of recursion, since nodes may be nested deeply.
-    open_nodes: list[tuple[FBXNode, int]] = [(root, len(data))]
-    offset, nodes = START, 0
-    while open_nodes:
-        node, stop = open_nodes[-1]
-        if offset == stop and node is not root:
-            open_nodes.pop()
-            continue
-        if offset + head.size > stop:
-            raise content.error("ends between two nodes: the file is truncated or damaged")
-        end, count, size, length = head.unpack_from(data, offset)
-        first, offset = offset, offset + head.size
-        # An empty node ends the list of children.
-        if end == 0:
-            if node is not root and offset != stop:
-                raise content.error(
-                    f"node {node.name!r:.40} does not have the length it states: damaged"
-                )
-            open_nodes.pop()
-            continue
-        start = offset + length
-        if not start + size <= end <= stop:
-            raise content.error("a node is longer than its parent: truncated or damaged")
-        nodes += 1
-        require_node_memory(content, nodes)
-        name = data[offset:start].decode("utf-8", "replace")
-        child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
-        node.children.append(child)
-        offset = start + size
-        # The rest of the node holds its children.
-        if offset < end:
-            open_nodes.append((child, end))
-    return root
-
-
-def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> list[Any]:
-    values: list[Any] = []
-    for _ in range(count):
-        if offset >= stop:
-            raise content.error("a node has fewer values than it states: truncated or damaged")
-        try:
-            value, offset = _parse_value(content.data, offset)
-        except struct.error:
-            raise content.error("ends within a value: the file is truncated") from None
-        except KeyError:
-            kind = chr(content.data[offset])
-            raise content.error(f"a value is of the unknown type {kind!r}: damaged") from None
-        if offset > stop:
-            raise content.error("a value is longer than its node: truncated or damaged")
-        values.append(value)
-    return values
-
-
-def _parse_value(data: bytes, offset: int) -> tuple[Any, int]:
-    """Return a value and the offset of the next one."""
-    kind = data[offset]
-    offset += 1
-    if scalar := _SCALARS.get(kind):
-        return scalar.unpack_from(data, offset)[0], offset + scalar.size
-    if kind in b"SR":
-        size = int.from_bytes(data[offset : offset + 4], "little")
-        raw = data[offset + 4 : offset + 4 + size]
-        return raw.decode("utf-8", "replace") if kind == ord("S") else raw, offset + 4 + size
-    code = _ARRAYS[kind]
-    count, packed, size = struct.unpack_from("<III", data, offset)
-    return _BinaryArray(code, count, packed, offset + 12, size), offset + 12 + size
-
-
-@dataclass(slots=True)
-class _BinaryArray:
-    """An array in a binary file, parsed on demand."""
-
-    code: str
-    count: int
-    packed: int
-    start: int
-    size: int
-
-    def raw(self, content: FileContent) -> bytes:
-        return content.data[self.start : self.start + self.size]
-
-    def read(self, content: FileContent) -> NDArray[Any]:
-        raw = self.raw(content)
-        size = self.count * np.dtype(self.code).itemsize
-        if self.packed:
-            content.require_memory(size, f"an array of {self.count} numbers")
-            try:
-                # One more byte reveals an array longer than declared.
-                raw = zlib.decompressobj().decompress(raw, size + 1)
-            except zlib.error as error:
-                raise content.error(f"an array cannot be unpacked: {error}") from None
-        if len(raw) != size:
-            raise content.error(
-                f"an array does not have the {self.count} numbers it states: damaged"
-            )
-        return np.frombuffer(raw, self.code)

@@ -24,11 +24,13 @@ Source: Autodesk, FBX SDK, "Computing transformation matrices", and `FbxAnimLaye
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import isfinite
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
@@ -37,6 +39,7 @@ from kineme.formats.scenes.assembly import Inheritance, Transform, compose, deco
 from kineme.formats.scenes.characters import SceneNode, is_end
 from kineme.formats.scenes.fbx_curves import Curve, CurveReader, Sampler
 from kineme.formats.scenes.fbx_file import FBXNode
+from kineme.formats.skeletons.placing import order_depth_first
 from kineme.formats.units import iterate_blocks
 
 BONES = frozenset({"LimbNode", "Limb", "Root", "Effector", "IKEffector", "FKEffector"})
@@ -133,24 +136,20 @@ class FBXScene:
         """
         matrices: dict[int, Floats] = {}
         for number, node in self.objects.items():
+            found: list[tuple[float, NDArray[Any] | None]] = []
             if node.name == "Pose":
                 for entry in node.all("PoseNode"):
-                    reference = entry.child("Node")
-                    self._store_bind(
-                        matrices, reference.number(0, -1) if reference else -1, entry, "Matrix"
-                    )
+                    if reference := entry.child("Node"):
+                        matrix = entry.array(self.content, "Matrix")
+                        found.append((reference.number(0, -1), matrix))
             elif node.name == "Deformer" and node.text(2) == "Cluster":
-                for part in self._parts.get(number, ()):
-                    self._store_bind(matrices, part, node, "TransformLink")
+                matrix = node.array(self.content, "TransformLink")
+                found += [(part, matrix) for part in self._parts.get(number, ())]
+            for model, matrix in found:
+                if matrix is not None and len(matrix) == 16 and np.isfinite(matrix).all():
+                    # The file stores columns first.
+                    matrices[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
         return matrices
-
-    def _store_bind(
-        self, matrices: dict[int, Floats], model: float, node: FBXNode, name: str
-    ) -> None:
-        matrix = node.array(self.content, name)
-        if matrix is not None and len(matrix) == 16 and np.isfinite(matrix).all():
-            # The file stores columns first.
-            matrices[int(model)] = matrix.reshape(4, 4).T.astype(np.float64)
 
     def _order_models(self) -> list[Model]:
         """Return all models, parents before their children, without cycles."""
@@ -159,20 +158,17 @@ class FBXScene:
         tops = dict.fromkeys(self._parts.get(0, []))
         # Models without parent are at the top, whether connected to the scene or not.
         tops |= dict.fromkeys(number for number in self.objects if number not in children)
-        # Reversed, since the stack pops the last one first.
-        waiting = [(number, -1) for number in reversed(tops)]
-        visited: set[int] = set()
-        while waiting:
-            number, parent = waiting.pop()
-            node = self.objects.get(number)
-            if node is None or node.name != "Model" or number in visited:
-                continue
-            visited.add(number)
-            name = _strip_class(node.text(1))
+
+        def select_models(numbers: Iterable[int]) -> list[int]:
+            return [number for number in numbers if self._is(number, "Model")]
+
+        for number, parent in order_depth_first(
+            select_models(tops), lambda number: select_models(self._parts.get(number, ()))
+        ):
+            node = self.objects[number]
+            name = _strip_class(node.text(1)) or "joint"
             properties = {**self._templates.get("Model", {}), **_read_properties(node)}
-            index = len(models)
-            models.append(Model(number, name or "joint", node.text(2), parent, properties))
-            waiting += [(part, index) for part in reversed(self._parts.get(number, []))]
+            models.append(Model(number, name, node.text(2), parent, properties))
         return models
 
     def _read_takes(self, root: FBXNode) -> list[Take]:
@@ -184,15 +180,13 @@ class FBXScene:
             name = _strip_class(node.text(1)) or "take"
             layers = [p for p in self._parts.get(number, ()) if self._is(p, "AnimationLayer")]
             properties = _read_properties(node)
-            span = None
-            # Use the reference span if there is no local span.
-            for kind in ("Local", "Reference"):
-                start, stop = (
-                    _get_number(properties, f"{kind}{end}", 0) for end in ("Start", "Stop")
-                )
-                if span is None and stop > start:
-                    span = start, stop
-            takes.append(Take(name, layers, *(span or spans.get(name, (0.0, 0.0)))))
+            span = spans.get(name, (0.0, 0.0))
+            # The local span has priority over the reference span.
+            for kind in ("Reference", "Local"):
+                start = _get_number(properties, f"{kind}Start", 0)
+                stop = _get_number(properties, f"{kind}Stop", 0)
+                span = (start, stop) if stop > start else span
+            takes.append(Take(name, layers, *span))
         return takes
 
     def _is(self, number: int, name: str) -> bool:
@@ -203,29 +197,25 @@ class FBXScene:
         """Return the models as nodes of a scene; ``moved`` are the numbers of animated ones."""
         return [
             SceneNode(
-                model.name,
-                model.parent,
-                model.number in self.bones,
-                model.kind in GEOMETRY,
-                model.number in moved,
-                is_end(model.name),
+                each.name, each.parent, each.number in self.bones, each.kind in GEOMETRY,
+                each.number in moved, is_end(each.name),
             )
-            for model in self.models
-        ]
+            for each in self.models
+        ]  # fmt: skip
 
     def find_moved(self, take: Take) -> set[int]:
         """Return the numbers of the models that a take drives."""
+        curved = {
+            number
+            for number, parts in self._driving.items()
+            if any(self._is(curve, "AnimationCurve") for curve, _ in parts)
+        }
         return {
             model
-            for layer in take.layers
-            for part in self._parts.get(layer, ())
-            if self._has_curve(part)
-            for model, property_name in self._driven.get(part, ())
+            for (model, property_name), tracks in self.find_tracks(take).items()
             if property_name in (TRANSLATION, ROTATION, SCALING)
+            and any(part in curved for _, part in tracks)
         }
-
-    def _has_curve(self, number: int) -> bool:
-        return any(self._is(curve, "AnimationCurve") for curve, _ in self._driving.get(number, ()))
 
     def find_tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
         """Return layers and curve nodes of each model and property, the base layer first."""
@@ -241,11 +231,10 @@ class FBXScene:
         """Return the curves of a curve node by axis, ``d|X`` and so on."""
         curves = {}
         for part, axis in self._driving.get(number, ()):
-            node = self.objects.get(part)
-            if node is not None and node.name == "AnimationCurve":
-                curve = self._reader.read(node)
-                if curve is not None:
-                    curves[axis] = curve
+            if self._is(part, "AnimationCurve") and (
+                curve := self._reader.read(self.objects[part])
+            ):
+                curves[axis] = curve
         return curves
 
     def iterate_key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
@@ -304,17 +293,14 @@ class Pose:
         order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
         turn = self._compute_rotation(model, order)
         pre_rotation, post_rotation = (
-            _get_vector(properties, "PreRotation"),
-            _get_vector(properties, "PostRotation"),
+            _get_vector(properties, f"{kind}Rotation") for kind in ("Pre", "Post")
         )
         if pre_rotation.any():
             turn = rot.multiply(_to_rotation(pre_rotation, "zyx"), turn)
         if post_rotation.any():
             turn = rot.multiply(turn, rot.conjugate(_to_rotation(post_rotation, "zyx")))
-        scale, shift = (
-            self._combine_layers(model, SCALING, 1.0),
-            self._combine_layers(model, TRANSLATION, 0.0),
-        )
+        scale = self._combine_layers(model, SCALING, 1.0)
+        shift = self._combine_layers(model, TRANSLATION, 0.0)
         shift = _add_pivots(properties, shift, turn, scale)
         inheritance = INHERITANCE[_get_choice(properties, "InheritType", len(INHERITANCE))]
         return Transform(shift, turn, scale, inheritance)
@@ -373,11 +359,8 @@ class Pose:
                 # Axes without a curve add nothing: 0, or a scale of 1.
                 rest = np.full(3, 1.0 if property_name == SCALING else 0.0)
                 overrides = _get_choice(table, "BlendMode", 3) == _OVERRIDE
-                yield (
-                    self._sample_curve(part, rest),
-                    None if overrides else self._sample_weight(layer),
-                    table,
-                )
+                weight = None if overrides else self._sample_weight(layer)
+                yield self._sample_curve(part, rest), weight, table
 
     def _sample_weight(self, layer: int) -> Floats | float:
         """Return the weight of a layer as a number or (frames, 1)."""
@@ -395,12 +378,8 @@ class Pose:
         axes = []
         for letter, default in zip("XYZ", defaults.tolist(), strict=True):
             curve = curves.get(f"d|{letter}")
-            value = (
-                _get_number(table, f"d|{letter}", default)
-                if curve is None
-                else self.sampler.sample(curve)
-            )
-            axes.append(np.asarray(value, np.float64))
+            constant = np.float64(_get_number(table, f"d|{letter}", default))
+            axes.append(constant if curve is None else self.sampler.sample(curve))
         return np.stack(np.broadcast_arrays(*axes)).T  # each axis is contiguous
 
 
@@ -454,10 +433,8 @@ def _to_angles(turn: Floats, axes: str) -> Floats:
 def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
     """Return the translation including the contribution of pivots and their offsets."""
     shift = shift + _get_vector(properties, "RotationOffset")
-    pivot, center = (
-        _get_vector(properties, "RotationPivot"),
-        _get_vector(properties, "ScalingPivot"),
-    )
+    pivot = _get_vector(properties, "RotationPivot")
+    center = _get_vector(properties, "ScalingPivot")
     # Vector from the rotation pivot that the rotation is applied to.
     lever = _get_vector(properties, "ScalingOffset") - pivot
     if center.any():
@@ -499,8 +476,7 @@ def _read_properties(node: FBXNode | None) -> Properties:
 
 
 def _get_number(properties: Properties, name: str, default: float) -> float:
-    values = properties.get(name) or [default]
-    value = values[0]
+    value = (properties.get(name) or [default])[0]
     if not isinstance(value, int | float) or not isfinite(value):
         return default
     return float(value)

@@ -1,21 +1,17 @@
-"""Write binary FBX 7.4: a skeleton at rest, its bind pose, and one or more takes.
+"""Write binary FBX: a new file with a skeleton and its takes, or a copy of a file with other takes.
 
-Lengths are centimetres, y is up. The nodes are those of the motion's rig: nodes above the joints
-become nulls, joints limb nodes. The rotation at rest is the pre-rotation of a limb node, so all its
-angles are 0 at rest. A take is an animation stack with one layer and a key in each frame. There
-is no mesh.
+A new file has version 7.4, the skeleton at rest, its bind pose, and one or more takes. Lengths are
+centimetres, y is up. The nodes are those of the motion's rig: nodes above the joints become nulls,
+joints limb nodes. The rotation at rest is the pre-rotation of a limb node, so all its angles are 0
+at rest. A take is an animation stack with one layer and a key in each frame. There is no mesh.
+
+A copy keeps meshes, skins, materials and everything else. The source is copied byte for byte,
+except its animation stacks, layers, curve nodes and curves, the nodes that count or name them, the
+frame rate and the time span. Each model keeps its pre- and post-rotation, pivots and offsets; its
+keys compensate for them. Models that are not joints of the character are at rest in the new takes.
 
 Source: as for `kineme.formats.scenes.fbx_file` and `kineme.formats.scenes.fbx_scene`; identifier
 and footer are those written by Blender, which depend only on the time of creation.
-
-@@fbx_copy: Copy an FBX file with other takes, keeping meshes, skins, materials and everything else.
-
-The source is copied byte for byte, except its animation stacks, layers, curve nodes and curves, the
-nodes that count or name them, the frame rate and the time span. Each model keeps its pre- and
-post-rotation, pivots and offsets; its keys compensate for them. Models that are not joints of the
-character are at rest in the new takes.
-
-Source: as for `kineme.formats.scenes.fbx_scene` and `kineme.formats.scenes.fbx_writer`.
 """
 
 from __future__ import annotations
@@ -59,7 +55,6 @@ from kineme.recordings.rig import Rig
 
 VERSION = 7400
 CENTIMETRE = 0.01
-
 _START = MAGIC + b"\x1a\x00" + struct.pack("<I", VERSION)
 _CREATED = "1970-01-01 10:00:00:000"
 _FILE_ID = bytes.fromhex("28b32aebb624ccc2bfc8b02aa92bfcf1")
@@ -67,6 +62,9 @@ FOOTER = bytes.fromhex("fabcab09d0c8d466b176fb831cf7267e")
 _LAST = bytes.fromhex("f85a8c6adef5d97eece90ce3758f290b")
 _CODES = {"<f4": b"f", "<f8": b"d", "<i8": b"l", "<i4": b"i"}
 _KEY_VERSION = 4008
+_AXES = (("Coord", 0), ("Up", 1), ("Front", 2))
+_ANIMATION = {"AnimationStack", "AnimationLayer", "AnimationCurveNode", "AnimationCurve"}
+_HOLDERS = {"GlobalSettings", "Documents", "Document", "Properties70"}
 
 
 def write_fbx(motion: Motion, path: Path) -> None:
@@ -81,6 +79,48 @@ def write_takes(motions: Mapping[str, Motion], path: Path) -> None:
         scene.animate(name, motion)
     with atomic_write(path) as draft:
         draft.write_bytes(encode_fbx(scene.make_nodes(), _START, FOOTER))
+
+
+def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
+    """Write a copy of ``source``, the file of the motions, with the motions as its takes.
+
+    A source in text form is not copied: only the skeleton is written, with a warning.
+    """
+    check_copy(motions, source, path)
+    with translate_read_errors(source):
+        content = load(source)
+        version, root = parse_fbx(content)
+        if not content.data.startswith(MAGIC):
+            reason = f"is a text FBX, so {path.name} has no mesh: export the source as binary FBX"
+            warn(f"{source.name} {reason}")
+            write_takes(motions, path)
+            return
+        scene = FBXScene(content, root)
+        copy = _CopyWriter(scene, next(iter(motions.values())), source, path)
+    for name, motion in motions.items():
+        copy.animate(name, motion)
+    _warn_of_textures(scene, source, path)
+    data = content.data
+    stop = root.children[-1].stop + get_head_struct(version).size
+    # Keep the source's footer, which depends on its time of creation.
+    footer = data[stop : stop + len(FOOTER)].ljust(len(FOOTER), b"\0")
+    with atomic_write(path) as draft:
+        draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
+
+
+def _warn_of_textures(scene: FBXScene, source: Path, path: Path) -> None:
+    """Warn of textures next to the source that the copy will not find."""
+    for node in scene.objects.values():
+        filename, embedded = node.child("RelativeFilename"), node.child("Content")
+        is_embedded = embedded and embedded.values and embedded.values[0]
+        if node.name != "Video" or not filename or is_embedded:
+            continue
+        texture = filename.text(0).replace("\\", "/")
+        if (source.parent / texture).is_file() and not (path.parent / texture).is_file():
+            warn(
+                f"{path.name} needs the texture {texture!r:.60}: copy it from the folder of "
+                f"{source.name}"
+            )
 
 
 class TakeWriter:
@@ -109,27 +149,20 @@ class TakeWriter:
 
     def _add_model(self, node: int, name: str, rest: Transform) -> int:
         rig = self.rig
-        kind = "Null" if node < rig.above else "LimbNode"
-        flags = "Null" if node < rig.above else "Skeleton"
-        attribute = self._add(
-            "NodeAttribute", name, "NodeAttribute", kind, make_node("TypeFlags", flags)
+        kind, flags = ("Null", "Null") if node < rig.above else ("LimbNode", "Skeleton")
+        type_flags = make_node("TypeFlags", flags)
+        attribute = self._add("NodeAttribute", name, "NodeAttribute", kind, type_flags)
+        properties = _make_properties(
+            ("RotationActive", "bool", "", 1),
+            ("InheritType", "enum", "", INHERITANCE.index(rest.inheritance)),
+            ("PreRotation", "Vector3D", "Vector", *_to_angles(rest.rotation).tolist()),
+            (TRANSLATION, TRANSLATION, "", *rest.translation.tolist()),
+            (ROTATION, ROTATION, "", 0.0, 0.0, 0.0),
+            (SCALING, SCALING, "", *rest.scale.tolist()),
         )
+        shading = make_node("Shading", True), make_node("Culling", "CullingOff")
         model = self._add(
-            "Model",
-            name,
-            "Model",
-            kind,
-            make_node("Version", 232),
-            _make_properties(
-                ("RotationActive", "bool", "", 1),
-                ("InheritType", "enum", "", INHERITANCE.index(rest.inheritance)),
-                ("PreRotation", "Vector3D", "Vector", *_to_angles(rest.rotation)),
-                (TRANSLATION, TRANSLATION, "", *rest.translation.tolist()),
-                (ROTATION, ROTATION, "", 0.0, 0.0, 0.0),
-                (SCALING, SCALING, "", *rest.scale.tolist()),
-            ),
-            make_node("Shading", True),
-            make_node("Culling", "CullingOff"),
+            "Model", name, "Model", kind, make_node("Version", 232), properties, *shading
         )
         self._link(attribute, model)
         parent = rig.parents[node]
@@ -138,16 +171,12 @@ class TakeWriter:
 
     def _make_bind_pose(self) -> list[FBXNode]:
         """Return the world matrix of each model at rest."""
+        columns = compose(*self.rig.world).transpose(0, 2, 1)  # the file stores columns first
         return [
-            FBXNode(
-                "PoseNode",
-                children=[
-                    make_node("Node", np.int64(model)),
-                    # The file stores columns first.
-                    make_node("Matrix", np.ascontiguousarray(matrix.T).ravel()),
-                ],
+            make_group(
+                "PoseNode", make_node("Node", np.int64(model)), make_node("Matrix", matrix.ravel())
             )
-            for model, matrix in zip(self.models, compose(*self.rig.world), strict=True)
+            for model, matrix in zip(self.models, columns, strict=True)
         ]
 
     def animate(self, name: str, motion: Motion) -> None:
@@ -157,9 +186,9 @@ class TakeWriter:
         stop = np.int64(times[-1])
         self.stops[name] = int(stop)
         span = [
-            (f"{kind}{end}", "KTime", "Time", np.int64(0) if end == "Start" else stop)
+            (f"{kind}{end}", "KTime", "Time", ticks)
             for kind in ("Local", "Reference")
-            for end in ("Start", "Stop")
+            for end, ticks in (("Start", np.int64(0)), ("Stop", stop))
         ]
         stack = self._add("AnimationStack", name, "AnimStack", "", _make_properties(*span))
         layer = self._add("AnimationLayer", name, "AnimLayer", "")
@@ -182,17 +211,13 @@ class TakeWriter:
         self, node: int, shifts: Floats, turns: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """Return translations and angles that move a node like this, and its rest translation."""
-        local_rotations = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
-        angles = np.degrees(rot.to_euler_zyx(local_rotations))[:, ::-1]
+        angles = _to_angles(rot.multiply(rot.conjugate(self.rig.rotations[node]), turns))
         return shifts, angles, self.rig.translations[node]
 
     def _add_curves(
         self, layer: int, model: int, property_name: str, short: str, times: Any, values: Floats
     ) -> None:
-        start = [
-            (f"d|{axis}", "Number", "", x)
-            for axis, x in zip("XYZ", values[0].tolist(), strict=True)
-        ]
+        start = [(f"d|{axis}", "Number", "", x) for axis, x in zip("XYZ", values[0], strict=True)]
         node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _make_properties(*start))
         self._link(node, layer)
         self._link(node, self.models[model], property_name)
@@ -249,163 +274,32 @@ class _SceneWriter(TakeWriter):
             FBXNode("ObjectType", [kind], [make_node("Count", kinds.count(kind))])
             for kind in dict.fromkeys(kinds)
         ]
-        creator = f"kineme {__version__}"
+        creator = make_node("Creator", f"kineme {__version__}")
+        versions = make_node("FBXHeaderVersion", 1003), make_node("FBXVersion", VERSION)
+        settings = _make_properties(
+            *((f"{name}Axis", "int", "Integer", axis) for name, axis in _AXES),
+            *((f"{name}AxisSign", "int", "Integer", 1) for name, _ in _AXES),
+            ("UnitScaleFactor", "double", "Number", 1.0),
+            ("OriginalUnitScaleFactor", "double", "Number", 1.0),
+            *self.make_time_settings(),
+        )
+        document = FBXNode(
+            "Document", [np.int64(1), "", "Scene"], [make_node("RootNode", np.int64(0))]
+        )
         return [
-            FBXNode(
-                "FBXHeaderExtension",
-                children=[
-                    make_node("FBXHeaderVersion", 1003),
-                    make_node("FBXVersion", VERSION),
-                    make_node("Creator", creator),
-                ],
-            ),
+            make_group("FBXHeaderExtension", *versions, creator),
             make_node("FileId", _FILE_ID),
             make_node("CreationTime", _CREATED),
-            make_node("Creator", creator),
-            FBXNode(
-                "GlobalSettings",
-                children=[
-                    make_node("Version", 1000),
-                    _make_properties(
-                        *((f"{name}Axis", "int", "Integer", axis) for name, axis in _AXES),
-                        *((f"{name}AxisSign", "int", "Integer", 1) for name, _ in _AXES),
-                        ("UnitScaleFactor", "double", "Number", 1.0),
-                        ("OriginalUnitScaleFactor", "double", "Number", 1.0),
-                        *self.make_time_settings(),
-                    ),
-                ],
+            creator,
+            make_group("GlobalSettings", make_node("Version", 1000), settings),
+            make_group("Documents", make_node("Count", 1), document),
+            make_group("References"),
+            make_group(
+                "Definitions", make_node("Version", 100), make_node("Count", len(kinds)), *counted
             ),
-            FBXNode(
-                "Documents",
-                children=[
-                    make_node("Count", 1),
-                    FBXNode(
-                        "Document", [np.int64(1), "", "Scene"], [make_node("RootNode", np.int64(0))]
-                    ),
-                ],
-            ),
-            FBXNode("References"),
-            FBXNode(
-                "Definitions",
-                children=[make_node("Version", 100), make_node("Count", len(kinds)), *counted],
-            ),
-            FBXNode("Objects", children=self.objects),
-            FBXNode("Connections", children=self.links),
+            make_group("Objects", *self.objects),
+            make_group("Connections", *self.links),
         ]
-
-
-_AXES = (("Coord", 0), ("Up", 1), ("Front", 2))
-
-
-def make_node(name: str, value: Any) -> FBXNode:
-    """Return a node with one value."""
-    return FBXNode(name, [value])
-
-
-def _make_properties(*entries: Sequence[Any]) -> FBXNode:
-    """Return a table of properties from name, type, label and values of each."""
-    animated = (TRANSLATION, ROTATION, SCALING, "Number")
-    return FBXNode(
-        "Properties70",
-        children=[
-            FBXNode("P", [name, kind, label, "A" if kind in animated else "", *values])
-            for name, kind, label, *values in entries
-        ],
-    )
-
-
-def _to_angles(rotation: Floats) -> list[float]:
-    """Return the angles about x, y and z in degrees, applied in this order."""
-    angles: list[float] = np.degrees(rot.to_euler_zyx(rotation))[::-1].tolist()
-    return angles
-
-
-def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: bytes = b"") -> bytes:
-    """Return a file of these nodes; nodes that were read from ``source`` are copied from it.
-
-    The last four bytes of ``start`` are the version; ``footer`` depends on the time of creation.
-    """
-    data, version = bytearray(start), start[-4:]
-    head = get_head_struct(int.from_bytes(version, "little"))
-    for node in nodes:
-        _write_node(data, node, head, source)
-    data += bytes(head.size) + footer + bytes(4)
-    data += bytes(16 - len(data) % 16)
-    return bytes(data + version + bytes(120) + _LAST)
-
-
-def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: bytes) -> None:
-    """Append a node to the file; its head states the end, so it is filled in last."""
-    at, name = len(data), node.name.encode()
-    if node.stop:
-        # Copied nodes keep their bytes, but the ends in their heads move.
-        shift = at - node.start
-        data += source[node.start : node.stop]
-        # The next head follows the values of this one, whether of a child or a sibling.
-        while at < len(data):
-            end, n_values, size, length = head.unpack_from(data, at)
-            if end:
-                head.pack_into(data, at, end + shift, n_values, size, length)
-            at += head.size + length + size
-        return
-    values = b"".join(_write_values(node.values))
-    data += bytes(head.size) + name + values
-    for child in node.children:
-        _write_node(data, child, head, source)
-    # An empty node ends the children; nodes without values and layers need it, too.
-    if node.children or not node.values or node.name == "AnimationLayer":
-        data += bytes(head.size)
-    head.pack_into(data, at, len(data), len(node.values), len(values), len(name))
-
-
-def _write_values(values: list[Any]) -> Iterator[bytes]:
-    for value in values:
-        if isinstance(value, np.ndarray):
-            packed = zlib.compress(value.tobytes(), 1)
-            yield _CODES[value.dtype.newbyteorder("<").str]
-            yield struct.pack("<III", len(value), 1, len(packed)) + packed
-        elif isinstance(value, str | bytes):
-            raw = value.encode() if isinstance(value, str) else value
-            yield (b"S" if isinstance(value, str) else b"R") + struct.pack("<I", len(raw)) + raw
-        elif isinstance(value, bool):
-            yield b"C" + struct.pack("<?", value)
-        elif isinstance(value, np.int64):
-            yield b"L" + struct.pack("<q", value)
-        elif isinstance(value, int):
-            yield b"I" + struct.pack("<i", value)
-        else:
-            yield b"D" + struct.pack("<d", value)
-
-
-_ANIMATION = {"AnimationStack", "AnimationLayer", "AnimationCurveNode", "AnimationCurve"}
-_HOLDERS = {"GlobalSettings", "Documents", "Document", "Properties70"}
-
-
-def copy_takes(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
-    """Write a copy of ``source``, the file of the motions, with the motions as its takes.
-
-    A source in text form is not copied: only the skeleton is written, with a warning.
-    """
-    check_copy(motions, source, path)
-    with translate_read_errors(source):
-        content = load(source)
-        version, root = parse_fbx(content)
-        if not content.data.startswith(MAGIC):
-            reason = f"is a text FBX, so {path.name} has no mesh: export the source as binary FBX"
-            warn(f"{source.name} {reason}")
-            write_takes(motions, path)
-            return
-        scene = FBXScene(content, root)
-        copy = _CopyWriter(scene, next(iter(motions.values())), source, path)
-    for name, motion in motions.items():
-        copy.animate(name, motion)
-    _warn_of_textures(scene, source, path)
-    data = content.data
-    stop = root.children[-1].stop + get_head_struct(version).size
-    # Keep the source's footer, which depends on its time of creation.
-    footer = data[stop : stop + len(FOOTER)].ljust(len(FOOTER), b"\0")
-    with atomic_write(path) as draft:
-        draft.write_bytes(encode_fbx(copy.rebuild(root), data[:START], footer, data))
 
 
 class _CopyWriter(TakeWriter):
@@ -448,7 +342,6 @@ class _CopyWriter(TakeWriter):
     def find_values(
         self, node: int, shifts: Floats, turns: Floats
     ) -> tuple[Floats, Floats, Floats]:
-        """Return translations and angles that move a node like this, and its rest translation."""
         if self._places[node] < 0:
             return super().find_values(node, shifts, turns)
         model, rest = self.scene.models[self._places[node]], self._rest[node]
@@ -461,23 +354,19 @@ class _CopyWriter(TakeWriter):
         """Yield the nodes of the source with the new takes instead of its own."""
         names, objects = list(self.stops), self.scene.objects
         dropped = {number for number, node in objects.items() if node.name in _ANIMATION}
-        kept_nodes = [node for number, node in objects.items() if number not in dropped]
-        counts = dict.fromkeys(_ANIMATION, 0) | Counter(
-            each.name for each in kept_nodes + self.objects
-        )
+        kept_kinds = [node.name for node in objects.values() if node.name not in _ANIMATION]
+        new_kinds = [node.name for node in self.objects]
+        counts = dict.fromkeys(_ANIMATION, 0) | Counter(kept_kinds + new_kinds)
         change = len(self.objects) - len(dropped)
         ancestors = {0, *self.models[: self.rig.above]}
         settings = {name: value for name, *_, value in self.make_time_settings()}
         for node in root.children:
             if node.name == "Objects":
-                kept_nodes = [each for each in node.children if each.name not in _ANIMATION]
-                kept_nodes = [self._extend_pose(each) for each in kept_nodes]
-                yield _replace_children(node, [*kept_nodes, *self.objects])
+                kept = (each for each in node.children if each.name not in _ANIMATION)
+                yield _replace_children(node, [*map(self._extend_pose, kept), *self.objects])
             elif node.name == "Connections":
-                kept_nodes = [
-                    each for each in node.children if self._is_kept(each, dropped, ancestors)
-                ]
-                yield _replace_children(node, [*kept_nodes, *self.links])
+                kept = (each for each in node.children if self._is_kept(each, dropped, ancestors))
+                yield _replace_children(node, [*kept, *self.links])
             elif node.name == "Definitions":
                 yield _replace_children(node, _count_objects(node, counts, change))
             elif node.name == "Takes":
@@ -544,19 +433,84 @@ def _replace_children(node: FBXNode, children: Iterable[FBXNode]) -> FBXNode:
     return FBXNode(node.name, values, list(children))
 
 
-def _warn_of_textures(scene: FBXScene, source: Path, path: Path) -> None:
-    """Warn of textures next to the source that the copy will not find."""
-    for node in scene.objects.values():
-        filename, embedded = node.child("RelativeFilename"), node.child("Content")
-        if (
-            node.name != "Video"
-            or not filename
-            or (embedded and embedded.values and embedded.values[0])
-        ):
-            continue
-        texture = filename.text(0).replace("\\", "/")
-        if (source.parent / texture).is_file() and not (path.parent / texture).is_file():
-            warn(
-                f"{path.name} needs the texture {texture!r:.60}: copy it from the folder of "
-                f"{source.name}"
-            )
+def make_node(name: str, value: Any) -> FBXNode:
+    """Return a node with one value."""
+    return FBXNode(name, [value])
+
+
+def make_group(name: str, *children: FBXNode) -> FBXNode:
+    """Return a node with children and no values."""
+    return FBXNode(name, [], list(children))
+
+
+def _make_properties(*entries: Sequence[Any]) -> FBXNode:
+    """Return a table of properties from name, type, label and values of each."""
+    animated = (TRANSLATION, ROTATION, SCALING, "Number")
+    rows = (
+        FBXNode("P", [name, kind, label, "A" if kind in animated else "", *values])
+        for name, kind, label, *values in entries
+    )
+    return make_group("Properties70", *rows)
+
+
+def _to_angles(rotations: Floats) -> Floats:
+    """Return the angles about x, y and z in degrees, applied in this order."""
+    angles: Floats = np.degrees(rot.to_euler_zyx(rotations))[..., ::-1]
+    return angles
+
+
+def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: bytes = b"") -> bytes:
+    """Return a file of these nodes; nodes that were read from ``source`` are copied from it.
+
+    The last four bytes of ``start`` are the version; ``footer`` depends on the time of creation.
+    """
+    data, version = bytearray(start), start[-4:]
+    head = get_head_struct(int.from_bytes(version, "little"))
+    for node in nodes:
+        _write_node(data, node, head, source)
+    data += bytes(head.size) + footer + bytes(4)
+    data += bytes(16 - len(data) % 16)
+    return bytes(data + version + bytes(120) + _LAST)
+
+
+def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: bytes) -> None:
+    """Append a node to the file; its head states the end, so it is filled in last."""
+    at, name = len(data), node.name.encode()
+    if node.stop:
+        # Copied nodes keep their bytes, but the ends in their heads move.
+        shift = at - node.start
+        data += source[node.start : node.stop]
+        # The next head follows the values of this one, whether of a child or a sibling.
+        while at < len(data):
+            end, n_values, size, length = head.unpack_from(data, at)
+            if end:
+                head.pack_into(data, at, end + shift, n_values, size, length)
+            at += head.size + length + size
+        return
+    values = b"".join(_write_values(node.values))
+    data += bytes(head.size) + name + values
+    for child in node.children:
+        _write_node(data, child, head, source)
+    # An empty node ends the children; nodes without values and layers need it, too.
+    if node.children or not node.values or node.name == "AnimationLayer":
+        data += bytes(head.size)
+    head.pack_into(data, at, len(data), len(node.values), len(values), len(name))
+
+
+def _write_values(values: list[Any]) -> Iterator[bytes]:
+    for value in values:
+        if isinstance(value, np.ndarray):
+            packed = zlib.compress(value.tobytes(), 1)
+            yield _CODES[value.dtype.newbyteorder("<").str]
+            yield struct.pack("<III", len(value), 1, len(packed)) + packed
+        elif isinstance(value, str | bytes):
+            raw = value.encode() if isinstance(value, str) else value
+            yield (b"S" if isinstance(value, str) else b"R") + struct.pack("<I", len(raw)) + raw
+        elif isinstance(value, bool):
+            yield b"C" + struct.pack("<?", value)
+        elif isinstance(value, np.int64):
+            yield b"L" + struct.pack("<q", value)
+        elif isinstance(value, int):
+            yield b"I" + struct.pack("<i", value)
+        else:
+            yield b"D" + struct.pack("<d", value)

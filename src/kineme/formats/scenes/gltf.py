@@ -27,11 +27,15 @@ from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
+    DEFAULT_RATE,
+    MAX_RATE,
+    MIN_RATE,
     Transform,
     assemble,
+    count_frames,
     decompose,
+    evaluate_bezier,
     find_keys,
-    require_frame_memory,
 )
 from kineme.formats.scenes.characters import (
     SceneNode,
@@ -43,24 +47,19 @@ from kineme.formats.scenes.characters import (
 )
 from kineme.formats.scenes.gltf_file import MAGIC, Animation, GLTFFile, SceneObject
 from kineme.formats.scenes.gltf_writer import EXTRAS, copy_animations, write_animations, write_gltf
+from kineme.formats.skeletons.placing import order_depth_first
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
-
-DEFAULT_RATE = 30.0
-"""Frames per second of files whose keys are not evenly spaced."""
 
 TRANSLATION, ROTATION, SCALE = "translation", "rotation", "scale"
 SLACK = 0.05
 """Fraction of the time between frames by which a key may miss its frame."""
 
-MIN_RATE, MAX_RATE = 0.01, 100_000.0
-"""Frames per second that are accepted as a rate."""
 
 _JSON = re.compile(rb'"asset"\s*:\s*\{')
 _WIDTHS = {TRANSLATION: 3, ROTATION: 4, SCALE: 3}
 _EVEN = 0.02  # relative deviation from their mean of steps between evenly spaced keys
 _ROUNDED = 0.1  # frames by which the last key may miss its frame
-_MAX_FRAMES = 1e12
 
 
 class Keys(NamedTuple):
@@ -89,38 +88,35 @@ def read_gltf(content: FileContent, options: ReadOptions) -> Motion:
     animated = find_moving_takes(moved_nodes, bones)
     names = make_unique(animation.name or "animation" for animation in file.tree.animations)
     number, notes = choose_take(content, names, animated, options.take)
-    nodes = [
-        SceneNode(
-            each.name or f"node{order[j]}",
-            parents[j],
-            order[j] in bones,
-            each.mesh is not None or each.camera is not None,
-            order[j] in moved_nodes[number],
-            end=_is_marked(each) if _is_kineme(file) else is_end(each.name),
-        )
-        for j, each in enumerate(objects)
-    ]
+    nodes = _make_nodes(file, order, parents, bones, moved_nodes[number])
     character = find_character(content, nodes, options.person)
-    keys = _read_keys(
-        file, file.tree.animations[number], _find_needed_nodes(nodes, character.joints, order)
-    )
+    joints = character.joints
+    needed = {order[j] for j in (*joints, *list_ancestors(nodes, joints[0]))}
+    keys = _read_keys(file, file.tree.animations[number], needed)
     fps, rate_notes = _find_rate(file, keys, options)
-    start, n_frames = _find_span(keys, fps)
-    require_frame_memory(content, len(character.joints), n_frames, external_size=file.external_size)
+    start = min((float(track.times[0]) for track in keys.values()), default=0.0)
+    stop = max((float(track.times[-1]) for track in keys.values()), default=0.0)
+    n_frames = count_frames(
+        content, len(joints), (stop - start) * fps + 1 + _ROUNDED, external_size=file.external_size
+    )
     frame_times = start + np.arange(n_frames) / fps
 
     def transform(j: int) -> Transform:
-        return _sample_transform(
-            objects[j], {path: keys.get((order[j], path)) for path in _WIDTHS}, frame_times
+        rest = _read_rest(objects[j])
+        tracks = [keys.get((order[j], path)) for path in _WIDTHS]
+        translation, rotation, scale = (
+            part if track is None else _sample_channel(track, frame_times)
+            for part, track in zip(rest[:3], tracks, strict=True)
         )
+        return Transform(translation, rotation, scale)
 
     return assemble(
         content,
         nodes,
-        character.joints,
+        joints,
         transform,
         lambda j: _read_rest(objects[j]),
-        len(frame_times),
+        n_frames,
         fps,
         unit=options.unit or 1.0,
         turn=make_up_rotation(options.up or "y"),
@@ -144,48 +140,38 @@ def _read_binds(file: GLTFFile, order: Sequence[int], parents: Sequence[int]) ->
             continue
         with suppress(ReadError, ValueError):  # ignore damaged skins
             # The file stores columns first.
-            inverse = (
-                file.read_array(skin.inverse_bind_matrices).reshape(-1, 4, 4).transpose(0, 2, 1)
-            )
+            stored = file.read_array(skin.inverse_bind_matrices)
+            inverse = stored.reshape(-1, 4, 4).transpose(0, 2, 1)
             for joint, matrix in zip(skin.joints, inverse, strict=False):
                 if joint in indices and np.isfinite(matrix).all() and np.linalg.det(matrix) > 0:
                     matrices[indices[joint]] = np.asarray(np.linalg.inv(matrix), np.float64)
     return matrices
 
 
-def _is_kineme(file: GLTFFile) -> bool:
-    extras = file.tree.asset.extras
-    return isinstance(extras, dict) and EXTRAS in extras
-
-
-def _is_marked(node: SceneObject) -> bool:
-    return isinstance(node.extras, dict) and node.extras.get("end_site") is True
+def _make_nodes(
+    file: GLTFFile, order: list[int], parents: list[int], bones: set[int], moved: set[int]
+) -> list[SceneNode]:
+    """Return the nodes of the scene; kineme's own files mark end sites, others name them."""
+    extras, nodes = file.tree.asset.extras, []
+    is_own = isinstance(extras, dict) and EXTRAS in extras
+    for number, parent in zip(order, parents, strict=True):
+        node = file.tree.nodes[number]
+        is_marked = isinstance(node.extras, dict) and node.extras.get("end_site") is True
+        geometry = node.mesh is not None or node.camera is not None
+        end = is_marked if is_own else is_end(node.name)
+        name = node.name or f"node{number}"
+        nodes.append(SceneNode(name, parent, number in bones, geometry, number in moved, end))
+    return nodes
 
 
 def _order_nodes(file: GLTFFile) -> tuple[list[int], list[int]]:
     """Return the numbers of the nodes, parents first, and the index of each one's parent."""
-    nodes = file.tree.nodes
-    children = {child for node in nodes for child in node.children}
-    # Start with nodes without parent; reversed, since the stack pops the last one first.
-    waiting = [(number, -1) for number in reversed(range(len(nodes))) if number not in children]
-    order: list[int] = []
-    parents: list[int] = []
-    visited: set[int] = set()
-    while waiting:
-        number, parent = waiting.pop()
-        # Damaged files may have cycles and invalid numbers.
-        if number in visited or not 0 <= number < len(nodes):
-            continue
-        visited.add(number)
-        waiting += [(child, len(order)) for child in reversed(nodes[number].children)]
-        order.append(number)
-        parents.append(parent)
-    return order, parents
-
-
-def _find_needed_nodes(nodes: list[SceneNode], joints: list[int], order: list[int]) -> set[int]:
-    """Return the numbers of the nodes of a character and of their ancestors."""
-    return {order[j] for j in (*joints, *list_ancestors(nodes, joints[0]))}
+    numbers = range(len(file.tree.nodes))
+    # Damaged files may have invalid numbers.
+    children = [[each for each in node.children if each in numbers] for node in file.tree.nodes]
+    tops = {*numbers} - {child for group in children for child in group}
+    pairs = list(order_depth_first(sorted(tops), children.__getitem__))
+    return [number for number, _ in pairs], [parent for _, parent in pairs]
 
 
 def _read_keys(
@@ -239,27 +225,6 @@ def _find_rate(
     return DEFAULT_RATE, [Note(remark, "warning")]
 
 
-def _find_span(keys: dict[tuple[int, str], Keys], fps: float) -> tuple[float, int]:
-    """Return the second of the first key, and the number of frames up to the last one."""
-    start = min((float(track.times[0]) for track in keys.values()), default=0.0)
-    stop = max((float(track.times[-1]) for track in keys.values()), default=0.0)
-    return start, int(min((stop - start) * fps + 1 + _ROUNDED, _MAX_FRAMES))
-
-
-def _sample_transform(
-    node: SceneObject, keys: dict[str, Keys | None], frame_times: Floats
-) -> Transform:
-    """Return a node's transform at these seconds."""
-    rest = dict(zip(_WIDTHS, _read_rest(node)[:3], strict=True))
-    samples = {
-        path: rest[path]
-        if track is None
-        else _sample_channel(track, frame_times, is_rotation=path == ROTATION)
-        for path, track in keys.items()
-    }
-    return Transform(samples[TRANSLATION], samples[ROTATION], samples[SCALE])
-
-
 def _read_rest(node: SceneObject) -> Transform:
     """Return the transform of a node without animation."""
     if node.matrix is not None and len(node.matrix) == 16:
@@ -279,10 +244,10 @@ def _to_array(values: list[float] | None, default: list[float]) -> Floats:
     return np.array(values if fits else default, np.float64)
 
 
-def _sample_channel(keys: Keys, frame_times: Floats, *, is_rotation: bool) -> Floats:
+def _sample_channel(keys: Keys, frame_times: Floats) -> Floats:
     """Return values at these seconds (frames, 3); rotations as (frames, 4), w first."""
     times, values = keys.times, keys.values
-    cubic = keys.interpolation == "CUBICSPLINE"
+    cubic, is_rotation = keys.interpolation == "CUBICSPLINE", values.shape[1] == _WIDTHS[ROTATION]
     # (keys, 3, width): tangent into the key, value, tangent out of it.
     tangents = values.reshape(len(times), 3, -1) if cubic else values[:, None]
     if is_rotation:
@@ -301,26 +266,15 @@ def _sample_channel(keys: Keys, frame_times: Floats, *, is_rotation: bool) -> Fl
         if keys.interpolation == "STEP":
             sampled = np.where(share[:, None] >= 1, stop, start)
         elif cubic:
-            step = np.diff(times)[index]
+            third = np.diff(times)[index, None] / 3
             # Outgoing tangent of the key before, incoming one of the key after.
-            out, into = tangents[index, 2], tangents[index + 1, 0]
-            sampled = _evaluate_hermite(start, stop, out, into, share[:, None], step[:, None])
+            out, into = start + third * tangents[index, 2], stop - third * tangents[index + 1, 0]
+            sampled = evaluate_bezier(start, out, into, stop, share[:, None])
         elif is_rotation:
             sampled = rot.slerp(start, stop, share[:, None])
         else:
             sampled = start + share[:, None] * (stop - start)
     return rot.normalize(sampled) if is_rotation else sampled
-
-
-def _evaluate_hermite(
-    start: Floats, stop: Floats, out: Floats, into: Floats, share: Floats, step: Floats
-) -> Floats:
-    """Return cubic values between keys with slopes at both ends."""
-    square, cube = share**2, share**3
-    # Hermite basis: both values, and both slopes times the interval.
-    first, last = 2 * cube - 3 * square + 1, 3 * square - 2 * cube
-    slopes = (cube - 2 * square + share) * out + (cube - square) * into
-    return np.asarray(first * start + last * stop + step * slopes, np.float64)
 
 
 FORMAT = Format(

@@ -70,8 +70,8 @@ class BufferView(Struct, rename="camel"):
     extensions: dict[str, Any] = field(default_factory=dict)
 
 
-class SparsePart(Struct, rename="camel"):
-    """Indices or values of a sparse accessor."""
+class ViewPart(Struct, rename="camel"):
+    """A part of a buffer view, from an offset on."""
 
     buffer_view: int
     byte_offset: int = 0
@@ -82,8 +82,8 @@ class Sparse(Struct):
     """Elements of an accessor that have other values."""
 
     count: int
-    indices: SparsePart
-    values: SparsePart
+    indices: ViewPart
+    values: ViewPart
 
 
 class Accessor(Struct, rename="camel"):
@@ -194,32 +194,22 @@ class GLTFFile:
             raise self.content.error(f"accessor {number} has a type that is not in glTF")
         if accessor.count < 1:
             raise self.content.error(f"accessor {number} has no elements: damaged")
-        shape = accessor.count, width
         if accessor.buffer_view is None:
-            self.content.require_memory(
-                8 * accessor.count * width, f"an accessor of {accessor.count}"
-            )
-            stored = np.zeros(shape, code)
+            size = 8 * accessor.count * width
+            self.content.require_memory(size, f"an accessor of {accessor.count}")
+            stored = np.zeros((accessor.count, width), code)
         else:
-            location = accessor.buffer_view, accessor.byte_offset
-            stored = self._read_elements(number, *location, shape, code)
+            part = ViewPart(accessor.buffer_view, accessor.byte_offset)
+            stored = self._read_elements(number, part, (accessor.count, width), code)
         if (sparse := accessor.sparse) is not None:
             # The array is a read-only view of the file's bytes.
             stored = stored.copy()
             kind = COMPONENTS.get(sparse.indices.component_type, "<f4")
-            indices, replacements = sparse.indices, sparse.values
-            rows = self._read_elements(
-                number, indices.buffer_view, indices.byte_offset, (sparse.count, 1), kind
-            )[:, 0]
+            rows = self._read_elements(number, sparse.indices, (sparse.count, 1), kind)[:, 0]
             if rows.dtype.kind != "u" or rows.max() >= accessor.count:
                 raise self.content.error(f"accessor {number} has values outside of it: damaged")
-            stored[rows] = self._read_elements(
-                number,
-                replacements.buffer_view,
-                replacements.byte_offset,
-                (sparse.count, width),
-                code,
-            )
+            replacements = self._read_elements(number, sparse.values, (sparse.count, width), code)
+            stored[rows] = replacements
         values = stored.astype(np.float64)
         if accessor.normalized and stored.dtype.kind in "iu":
             # The largest integer is 1, the smallest is clipped to -1 (section 3.6.2.2).
@@ -229,21 +219,20 @@ class GLTFFile:
         return values
 
     def _read_elements(
-        self, number: int, view_number: int, offset: int, shape: tuple[int, int], code: str
+        self, number: int, part: ViewPart, shape: tuple[int, int], code: str
     ) -> NDArray[Any]:
-        """Return the elements of an accessor in a buffer view, from ``offset`` on."""
-        view = self.get_part(self.tree.buffer_views, view_number, "buffer view")
+        """Return the elements of an accessor in a buffer view."""
+        view = self.get_part(self.tree.buffer_views, part.buffer_view, "buffer view")
         if "EXT_meshopt_compression" in view.extensions:
-            raise self.content.error(
-                "its keys are compressed by meshopt: export it without compression"
-            )
+            reason = "its keys are compressed by meshopt: export it without compression"
+            raise self.content.error(reason)
         data = self.read_buffer(view.buffer)
         size, (count, width) = np.dtype(code).itemsize, shape
         # Without a stride the elements are contiguous.
         step = view.byte_stride or size * width
-        start = view.byte_offset + offset
+        start = view.byte_offset + part.byte_offset
         stop = min(view.byte_offset + view.byte_length, len(data))
-        if min(view.byte_offset, offset) < 0 or count < 1 or step < size:
+        if min(view.byte_offset, part.byte_offset) < 0 or count < 1 or step < size:
             raise self.content.error(f"accessor {number} is outside its buffer: damaged")
         # The last element needs no whole stride.
         if start + (count - 1) * step + size * width > stop:

@@ -1,10 +1,10 @@
-"""Write glTF 2.0: a skeleton, a mesh for it, and one or more animations.
+"""Write glTF 2.0: a new file with a skeleton and animations, or a copy with other animations.
 
-The nodes are those of the motion's rig, with its rest pose. Without a rig each joint is a node at
-its offset, below a node named after the file. A mesh with a thin bone for each joint makes programs
-recognise the skeleton: without it Blender imports empties, and Godot nothing. Rotations have a key
-in each frame, translations only if they change. Numbers have 32 bits, a precision of a thousandth
-of a millimetre.
+The nodes of a new file are those of the motion's rig, with its rest pose. Without a rig each joint
+is a node at its offset, below a node named after the file. A mesh with a thin bone for each joint
+makes programs recognise the skeleton: without it Blender imports empties, and Godot nothing.
+Rotations have a key in each frame, translations only if they change. Numbers have 32 bits, a
+precision of a thousandth of a millimetre.
 
 ``asset.extras.kineme.fps`` stores the frame rate, which the format lacks; ``end_site`` in the
 extras of a node marks end sites.
@@ -12,13 +12,12 @@ extras of a node marks end sites.
 The JSON consists of a few dictionaries and needs no package. The benchmarks check it with Khronos'
 validator.
 
+A copy keeps meshes, skins, materials and everything else. Nodes, meshes and accessors keep their
+numbers, since extensions may refer to them. New animations reuse the numbers freed by the old ones.
+Bytes used only by old animations are dropped. Nodes that are not joints of the character are at
+rest in the new animations.
+
 Source: Khronos Group, "glTF 2.0 specification", sections 3.7.3 and 3.11.
-
-@@gltf_copy: Copy a glTF file with other animations, keeping meshes, skins, materials and everything else.
-
-Nodes, meshes and accessors keep their numbers, since extensions may refer to them. New animations
-reuse the numbers freed by the old ones. Bytes used only by old animations are dropped. Nodes that
-are not joints of the character are at rest in the new animations.
 """
 
 from __future__ import annotations
@@ -50,13 +49,10 @@ from kineme.recordings.rig import Rig
 
 EXTRAS = "kineme"
 """Key of kineme's data in the extras of a file."""
-
 BONE_WIDTH = 0.08
 """Width of a bone of the mesh as a fraction of its length."""
-
 LEAF_LENGTH = 0.05
 """Metres: length of a drawn bone without children."""
-
 _FLOAT, _BYTE, _SHORT, _INT = 5126, 5121, 5123, 5125
 _KEYS, _VERTICES, _INDICES = None, 34962, 34963
 _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
@@ -79,6 +75,30 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
     save_gltf(file.tree, bytes(file.data), path)
 
 
+def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
+    """Write a copy of ``source``, the file of the motions, with the motions as its animations."""
+    skeleton = check_copy(motions, source, path)
+    rig = get_rig(skeleton)
+    with translate_read_errors(source):
+        file = GLTFFile(load(source))
+        tree: dict[str, Any] = decode_json(file.text, source, dict)
+    numbers = list(rig.numbers)
+    if max(numbers) >= len(tree["nodes"]):
+        raise WriteError(path, f"{source.name} has changed since it was read")
+    if "EXT_meshopt_compression" in tree.get("extensionsUsed", ()):
+        reason = "are compressed by meshopt: export it without compression"
+        raise WriteError(path, f"the buffers of {source.name} {reason}")
+    copy = Animator(skeleton, rig, numbers[rig.above :], tree)
+    _drop_animations(copy, file)
+    if numbers[rig.above] < 0:
+        copy.numbers = [_add_root(copy, file, rig), *numbers[rig.above + 1 :]]
+    _embed_images(copy, file)
+    for name, motion in motions.items():
+        copy.animate(name, motion)
+    _close_number_gaps(copy)
+    save_gltf(tree, bytes(copy.data), path)
+
+
 def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a glTF") -> Motion:
     """Return the first of the motions to be written as animations of one skeleton.
 
@@ -93,6 +113,20 @@ def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a g
             raise WriteError(path, "its animations have different skeletons: write several files")
     warn_of_gaps(motions.values(), path)
     return first
+
+
+def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
+    if first.names != second.names or first.parents != second.parents:
+        return False
+    if first.rig is None or second.rig is None or not first.rig.numbers:
+        return np.allclose(first.offsets, second.offsets, atol=RIGID)
+    # Offsets of joints with translations depend on the take, so compare the rest poses.
+    if first.rig.numbers != second.rig.numbers:
+        return False
+    first_rest, second_rest = (
+        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (first.rig, second.rig)
+    )
+    return np.allclose(first_rest, second_rest, atol=RIGID)
 
 
 def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skeleton:
@@ -114,26 +148,18 @@ def make_uneven_error(source: Path, path: Path) -> WriteError:
 def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:
     """Write the JSON and its buffer to a GLB, or to a ``.gltf`` with an embedded buffer."""
     buffer: dict[str, Any] = {"byteLength": len(data)}
-    binary = path.suffix.lower() != ".gltf"
-    if not binary:
+    is_binary = path.suffix.lower() != ".gltf"
+    if not is_binary:
         stored = base64.b64encode(data).decode()
         buffer["uri"] = f"data:application/octet-stream;base64,{stored}"
-    text = json.dumps({**tree, "buffers": [buffer]}, ensure_ascii=False, separators=(",", ":"))
+    tree = {**tree, "buffers": [buffer]}
+    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    if is_binary:
+        text += b" " * (-len(text) % 4)  # chunks are multiples of four bytes, like the data
+        chunks = CHUNK.pack(len(text), JSON) + text + CHUNK.pack(len(data), BYTES) + data
+        text = HEADER.pack(MAGIC, 2, HEADER.size + len(chunks)) + chunks
     with atomic_write(path) as draft:
-        draft.write_bytes(_encode_glb(text.encode(), data) if binary else text.encode())
-
-
-def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
-    if first.names != second.names or first.parents != second.parents:
-        return False
-    if first.rig is None or second.rig is None or not first.rig.numbers:
-        return np.allclose(first.offsets, second.offsets, atol=RIGID)
-    # Offsets of joints with translations depend on the take, so compare the rest poses.
-    first_rest, second_rest = (
-        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (first.rig, second.rig)
-    )
-    same = first.rig.numbers == second.rig.numbers
-    return same and np.allclose(first_rest, second_rest, atol=RIGID)
+        draft.write_bytes(text)
 
 
 class Animator:
@@ -204,6 +230,37 @@ class Animator:
         return _store_part(self.tree["accessors"], accessor, self.free_accessors)
 
 
+def _store_part(parts: list[Any], part: Any, free: list[int]) -> int:
+    """Store a part in a list of the JSON, at a free number if possible; return its number."""
+    if free:
+        number = free.pop(0)
+        parts[number] = part
+        return number
+    parts.append(part)
+    return len(parts) - 1
+
+
+def describe_transform(rig: Rig, node: int) -> dict[str, Any]:
+    """Return the JSON of a node's rest transform, without defaults."""
+    parts = {
+        "translation": (rig.translations[node], np.zeros(3)),
+        "rotation": (np.roll(rig.rotations[node], -1), np.array([0.0, 0.0, 0.0, 1.0])),
+        "scale": (rig.scales[node], np.ones(3)),
+    }
+    return {
+        name: part.tolist() for name, (part, default) in parts.items() if (part != default).any()
+    }
+
+
+def _align_signs(turns: Floats) -> Floats:
+    """Return rotations with signs such that successive quaternions are close."""
+    # With a negative dot product the next quaternion is nearer with opposite sign.
+    flips = np.einsum("fc,fc->f", turns[1:], turns[:-1]) < 0
+    # An odd number of flips so far inverts the sign.
+    signs = np.r_[1.0, np.where(np.cumsum(flips) % 2, -1.0, 1.0)]
+    return np.asarray(turns * signs[:, None], np.float64)
+
+
 class _SceneWriter(Animator):
     """Collect the parts of a file."""
 
@@ -260,17 +317,15 @@ class _SceneWriter(Animator):
         # Move each vertex from the rest pose to the bind pose of its joint.
         to_bind = (binds @ np.linalg.inv(rest))[joints]
         vertices = np.einsum("vij,vj->vi", to_bind[:, :3, :3], vertices) + to_bind[:, :3, 3]
-        # Use the smallest integer type for the numbers of joints.
-        kind = np.uint8 if skeleton.n_joints <= 256 else np.uint16
-        joint_indices = np.zeros((len(vertices), 4), kind)
         # A vertex may have four joints; here the first has all the weight.
+        joint_indices = np.zeros((len(vertices), 4), int)
         joint_indices[:, 0] = joints
         weights = np.zeros((len(vertices), 4))
         weights[:, 0] = 1.0
         # The file stores columns first.
         inverse = np.linalg.inv(binds).transpose(0, 2, 1)
         inverse[:, :, 3] = [0.0, 0.0, 0.0, 1.0]  # required exactly by glTF
-        code = _BYTE if kind is np.uint8 else _SHORT
+        code = _BYTE if skeleton.n_joints <= 256 else _SHORT
         attributes = {
             "POSITION": self.add_accessor(vertices, _VERTICES, bounds=True),
             "JOINTS_0": self.add_accessor(joint_indices, _VERTICES, code),
@@ -278,49 +333,13 @@ class _SceneWriter(Animator):
         }
         indices = self.add_accessor(faces.reshape(-1, 1), _INDICES, _INT)
         inverses = self.add_accessor(inverse.reshape(-1, 16), _KEYS)
-        self.tree["meshes"] = [
-            {"name": "bones", "primitives": [{"attributes": attributes, "indices": indices}]}
-        ]
-        self.tree["skins"] = [
-            {
-                "joints": list(range(skeleton.n_joints)),
-                "inverseBindMatrices": inverses,
-            }
-        ]
+        primitive = {"attributes": attributes, "indices": indices}
+        self.tree["meshes"] = [{"name": "bones", "primitives": [primitive]}]
+        skin = {"joints": [*range(skeleton.n_joints)], "inverseBindMatrices": inverses}
         if rig.binds is not None:
             # Bind matrices are relative to the node above all joints.
-            self.tree["skins"][0]["skeleton"] = skeleton.n_joints + max(rig.above, 1) - 1
-
-
-def _store_part(parts: list[Any], part: Any, free: list[int]) -> int:
-    """Store a part in a list of the JSON, at a free number if possible; return its number."""
-    if free:
-        number = free.pop(0)
-        parts[number] = part
-        return number
-    parts.append(part)
-    return len(parts) - 1
-
-
-def describe_transform(rig: Rig, node: int) -> dict[str, Any]:
-    """Return the JSON of a node's rest transform, without defaults."""
-    parts = {
-        "translation": (rig.translations[node], np.zeros(3)),
-        "rotation": (np.roll(rig.rotations[node], -1), np.array([0.0, 0.0, 0.0, 1.0])),
-        "scale": (rig.scales[node], np.ones(3)),
-    }
-    return {
-        name: part.tolist() for name, (part, default) in parts.items() if (part != default).any()
-    }
-
-
-def _align_signs(turns: Floats) -> Floats:
-    """Return rotations with signs such that successive quaternions are close."""
-    # With a negative dot product the next quaternion is nearer with opposite sign.
-    flips = np.einsum("fc,fc->f", turns[1:], turns[:-1]) < 0
-    # An odd number of flips so far inverts the sign.
-    signs = np.r_[1.0, np.where(np.cumsum(flips) % 2, -1.0, 1.0)]
-    return np.asarray(turns * signs[:, None], np.float64)
+            skin["skeleton"] = skeleton.n_joints + max(rig.above, 1) - 1
+        self.tree["skins"] = [skin]
 
 
 def _build_bone_mesh(
@@ -354,50 +373,9 @@ def _build_bone_mesh(
                 current, following = start + 1 + k, start + 1 + (k + 1) % 4
                 faces += [(start, following, current), (start + 5, current, following)]
     if not vertices:  # all joints have the same position
-        vertices, faces, joints = (
-            [positions[0] + LEAF_LENGTH * axis for axis in np.eye(3)],
-            [(0, 1, 2)],
-            [0] * 3,
-        )
+        vertices = [positions[0] + LEAF_LENGTH * axis for axis in np.eye(3)]
+        faces, joints = [(0, 1, 2)], [0] * 3
     return np.array(vertices), np.array(faces), np.array(joints)
-
-
-def _encode_glb(text: bytes, data: bytes) -> bytes:
-    """Return a GLB with both chunks padded to multiples of four bytes."""
-    text += b" " * (-len(text) % 4)
-    chunks = [CHUNK.pack(len(text), JSON), text, CHUNK.pack(len(data), BYTES), data]
-    length = HEADER.size + sum(map(len, chunks))
-    return HEADER.pack(MAGIC, 2, length) + b"".join(chunks)
-
-
-_COMPRESSION = "EXT_meshopt_compression"
-
-
-def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> None:
-    """Write a copy of ``source``, the file of the motions, with the motions as its animations."""
-    skeleton = check_copy(motions, source, path)
-    rig = get_rig(skeleton)
-    with translate_read_errors(source):
-        file = GLTFFile(load(source))
-        tree: dict[str, Any] = decode_json(file.text, source, dict)
-    numbers = list(rig.numbers)
-    if max(numbers) >= len(tree["nodes"]):
-        raise WriteError(path, f"{source.name} has changed since it was read")
-    if _COMPRESSION in tree.get("extensionsUsed", ()):
-        raise WriteError(
-            path,
-            f"the buffers of {source.name} are compressed by meshopt: export it without "
-            "compression",
-        )
-    copy = Animator(skeleton, rig, numbers[rig.above :], tree)
-    _drop_animations(copy, file)
-    if numbers[rig.above] < 0:
-        copy.numbers = [_add_root(copy, file, rig), *numbers[rig.above + 1 :]]
-    _embed_images(copy, file)
-    for name, motion in motions.items():
-        copy.animate(name, motion)
-    _close_number_gaps(copy)
-    save_gltf(tree, bytes(copy.data), path)
 
 
 def _drop_animations(copy: Animator, file: GLTFFile) -> None:
@@ -416,11 +394,10 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
     needed: set[int] = set()
     dropped: set[int] = set()
     for number, accessor in enumerate(tree["accessors"]):
-        views = [accessor, *accessor.get("sparse", {}).values()]
-        views_of_accessor = {
-            each["bufferView"] for each in views if isinstance(each, dict) and "bufferView" in each
-        }
-        (dropped if number in keys else needed).update(views_of_accessor)
+        sparse = accessor.get("sparse", {})
+        parts = accessor, sparse.get("indices", {}), sparse.get("values", {})
+        views = {part["bufferView"] for part in parts if "bufferView" in part}
+        (dropped if number in keys else needed).update(views)
     # Views used only by the dropped accessors are free, too.
     copy.free_accessors, copy.free_views = sorted(keys), sorted(dropped - needed)
     for number, view in enumerate(tree["bufferViews"]):
@@ -439,7 +416,7 @@ def _drop_animations(copy: Animator, file: GLTFFile) -> None:
 def _close_number_gaps(copy: Animator) -> None:
     """Drop unused numbers at the end, and put placeholders at unused numbers in between."""
     view = {"buffer": 0, "byteLength": 4}
-    accessor = {"componentType": 5126, "count": 1, "type": "SCALAR"}
+    accessor = {"componentType": _FLOAT, "count": 1, "type": "SCALAR"}
     for name, free, part in (
         ("accessors", copy.free_accessors, accessor),
         ("bufferViews", copy.free_views, view),

@@ -1,4 +1,4 @@
-"""Read USD: skeletons and their animations (UsdSkel) in ``.usda``, ``.usdc`` and ``.usd``.
+"""Read and write USD: skeletons and their animations (UsdSkel).
 
 One skeleton and one of its animations are read, by default the one bound to it, else one that moves
 its joints. Unit, up axis and rate are the stage's; the rate is time codes per second divided by the
@@ -6,14 +6,15 @@ time codes between samples. USD interpolates between samples, also for ``fps=``.
 animation does not move are at rest. Needs ``usd-core``.
 
 The file is read in a separate process, since the library may crash, hang or print on damaged files.
-
-Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
-
-@@usd_layers: Open USD stages, with limits on the layers they may include and on their size.
-
 A layer includes others by sublayers, references and payloads. Only files in the folder of the main
 file are allowed. References to prims with references multiply, so their number is checked before a
 stage is composed.
+
+Written lengths are metres, y is up. A time code is a frame, and time codes per second are the frame
+rate. The rest pose is that of the motion's rig. ``jointNames`` hold the original names; in paths
+they are reduced to letters, digits and ``_``. The custom data of the skeleton list the end sites.
+
+Source: Pixar, "UsdSkel: schemas and API", OpenUSD documentation.
 """
 
 from __future__ import annotations
@@ -34,142 +35,41 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import make_unique, require_extra
-from kineme._util.files import translate_read_errors
-from kineme._util.rotations import from_matrices
-from kineme.errors import KinemeError, ReadError
-from kineme.formats.files import MAX_EXPANSION, FileContent, find_sibling, load
-from kineme.formats.options import ReadOptions
-from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import (
-    Transform,
-    assemble,
-    orthogonalize,
-    require_frame_memory,
+from kineme._util.files import atomic_write, translate_read_errors
+from kineme.errors import KinemeError, ReadError, WriteError
+from kineme.formats.files import (
+    MAX_EXPANSION,
+    FileContent,
+    clean_names,
+    find_sibling,
+    load,
+    require_rotations,
 )
+from kineme.formats.options import ReadOptions
+from kineme.formats.plausibility import warn_of_gaps
+from kineme.formats.registry import Format
+from kineme.formats.scenes.assembly import Transform, assemble, compose, count_frames, decompose
 from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
-from kineme.formats.scenes.usd_writer import END_SITES, write_usd
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
+from kineme.recordings.posing import get_rig, pose_rig
 
+END_SITES = "kineme:endSites"
+"""Key of the names of end sites in the custom data of a skeleton."""
 SUFFIXES = (".usda", ".usdc", ".usd")
-
+HEADS = (b"#usda ", b"PXR-USDC")
+CENTIMETRE = 0.01
+"""Metres: the default unit of stages."""
 MAX_REFERENCES = 100_000
 """Maximum number of prims included by references; this many take a second and 200 MB."""
-
 MAX_SUBLAYERS = 1000
-
 MIN_STAGE_MEMORY = 1 << 30
 """Bytes of memory that composing any stage may use."""
-
 TIMEOUT_S = 300.0
 """Seconds that reading a file may take."""
 
-
-def open_stage(content: FileContent) -> tuple[Any, int]:
-    """Open the stage of a file; return it and the size in bytes of the other layers.
-
-    Raise ReadError if it includes a file outside its folder, or too much.
-    """
-    from pxr import Usd
-
-    layers, other_size = _load_layers(content)
-    _check_sublayers(content, layers)
-    _check_growth(content, layers[0])
-    return Usd.Stage.Open(layers[0]), other_size
-
-
-def _load_layers(content: FileContent) -> tuple[list[Any], int]:
-    """Load the layer of a file and all it includes; return them and the size of the others.
-
-    Missing layers are removed with a warning, since the library would search elsewhere for them.
-    """
-    from pxr import Sdf
-
-    layers: dict[str, Any] = {}
-    waiting, size = [os.path.abspath(content.path)], 0  # noqa: PTH100 (links are kept)
-    while waiting:
-        path = waiting.pop()
-        if path in layers:
-            continue
-        size += Path(path).stat().st_size
-        _limit_process(size)
-        layers[path] = layer = Sdf.Layer.FindOrOpen(path)
-        for name in filter(None, layer.GetCompositionAssetDependencies()):
-            plain, _ = Sdf.Layer.SplitIdentifier(name)
-            # Like the library, resolve ".." in the text, regardless of links.
-            target = os.path.normpath(Path(path).parent / plain)
-            file = find_sibling(content, target)
-            if file.is_file() and file.suffix.lower() in SUFFIXES:
-                waiting.append(target)
-            else:
-                layer.UpdateCompositionAssetDependency(name, "")
-                content.warn(f"the layer {name!r:.60} is missing or not USD, so it is left out")
-    return list(layers.values()), size - len(content.data)
-
-
-def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
-    """Raise ReadError if nested sublayers combine too many layers."""
-    from pxr import Sdf
-
-    for layer in layers:
-        stack = [layer]
-        # The list grows during the loop.
-        for sublayer in stack:
-            stack += [
-                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
-            ]
-            if len(stack) > MAX_SUBLAYERS:
-                raise content.error(f"its sublayers expand to more than {MAX_SUBLAYERS}")
-
-
-def _check_growth(content: FileContent, layer: Any) -> None:
-    """Raise ReadError if references include too much, or values are in clips (other files)."""
-    from pxr import Pcp, Sdf
-
-    cache = Pcp.Cache(Pcp.LayerStackIdentifier(layer), "usd", True)
-    waiting, n_included = [Sdf.Path.absoluteRootPath], 0
-    while waiting:
-        path = waiting.pop()
-        if path.IsPrimPath():
-            cache.RequestPayloads([path], [])
-        index, _ = cache.ComputePrimIndex(path)
-        if any(spec.HasInfo("clips") for spec in index.primStack):
-            raise content.error("has its animation in value clips: flatten the stage first")
-        nodes = list(index.rootNode.children)  # one per target of a reference
-        while nodes:
-            nodes += nodes.pop().children
-            n_included += 1
-            if n_included > MAX_REFERENCES:
-                raise content.error(
-                    f"its references expand to more than {MAX_REFERENCES} prims: export the "
-                    "character by itself"
-                )
-        waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]
-
-
-def _limit_process(size: int) -> None:
-    """Limit this process to the memory that layers of this size may use."""
-    if sys.platform == "win32":
-        return
-    import resource
-
-    memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
-    # A limit of 0 for core files: none is written if the process crashes.
-    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
-        soft, hard = resource.getrlimit(limit)
-        wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
-        with suppress(OSError, ValueError):  # some systems do not allow this limit
-            resource.setrlimit(limit, (wanted, hard))
-
-
-CENTIMETRE = 0.01
-"""Metres: the default unit of stages."""
-
-HEADS = (b"#usda ", b"PXR-USDC")
 _EVEN = 0.02  # relative deviation from their median of evenly spaced steps
 _ROUNDED = 0.1  # frames by which the last sample may miss its frame
-_MAX_FRAMES = 1e12
-
 _PROGRAM = """
 import pickle, sys
 sys.path[:] = pickle.load(sys.stdin.buffer)
@@ -300,7 +200,7 @@ class _Skeleton:
 
         self.prim = prim
         schema = UsdSkel.Skeleton(prim)
-        self.joints = list(map(str, schema.GetJointsAttr().Get() or ()))
+        self.joints = _list_joints(schema)
         joint_names = list(map(str, schema.GetJointNamesAttr().Get() or ()))
         default_names = [joint.rpartition("/")[2] for joint in self.joints]
         self.names = joint_names if len(joint_names) == len(default_names) else default_names
@@ -309,13 +209,8 @@ class _Skeleton:
         self.bound = UsdSkel.BindingAPI(prim).GetInheritedAnimationSource()
         rest = schema.GetRestTransformsAttr().Get()
         is_complete = rest is not None and len(rest) == len(self.joints)
-        self.rest = (
-            np.array(rest, np.float64)
-            if is_complete
-            else np.tile(np.eye(4), (len(default_names), 1, 1))
-        )
-        transforms = (_to_transform(matrix[None]) for matrix in self.rest)
-        self.rest_pose = [Transform(*(part[0] for part in each[:3])) for each in transforms]
+        matrices = np.array(rest, np.float64) if is_complete else [np.eye(4)] * len(self.joints)
+        self.rest_pose = [decompose(matrix.T) for matrix in matrices]  # USD has row vectors
 
     def is_end(self, j: int) -> bool:
         if self.ends is not None:
@@ -325,13 +220,13 @@ class _Skeleton:
     def find_animations(self, animations: Sequence[Any]) -> list[Any]:
         """Return the animations that move joints of it, the one bound to it first."""
         joints = set(self.joints)
-        matching = [each for each in animations if joints & set(map(str, _list_joints(each)))]
+        matching = [each for each in animations if joints.intersection(_list_joints(each))]
         # False sorts before True: the bound animation comes first.
         return sorted(matching, key=lambda each: each.GetPrim() != self.bound)
 
     def sample_pose(self, animation: Any, codes: Floats) -> list[Transform]:
         """Return the transform of each joint at these time codes."""
-        animated = list(map(str, _list_joints(animation)))
+        animated = _list_joints(animation)
         columns = {joint: number for number, joint in enumerate(animated)}
         shifts = _sample_values(animation.GetTranslationsAttr(), codes, len(animated), 3)
         turns = _sample_values(animation.GetRotationsAttr(), codes, len(animated), 4)
@@ -401,13 +296,13 @@ def _find_frames(
     if not (np.isfinite(times).all() and 0 < fps < np.inf and codes_per_second > 0):
         raise content.error("states no valid frame rate: give fps= (--fps)")
     step = codes_per_second / fps
-    count = min((times[-1] - times[0]) / step + 1 + _ROUNDED, _MAX_FRAMES)
-    require_frame_memory(content, joints, int(count), external_size=external_size)
-    return fps, times[0] + step * np.arange(int(count)), notes
+    count = (times[-1] - times[0]) / step + 1 + _ROUNDED
+    n_frames = count_frames(content, joints, count, external_size=external_size)
+    return fps, times[0] + step * np.arange(n_frames), notes
 
 
-def _list_joints(animation: Any) -> Sequence[Any]:
-    return animation.GetJointsAttr().Get() or ()
+def _list_joints(schema: Any) -> list[str]:
+    return list(map(str, schema.GetJointsAttr().Get() or ()))
 
 
 def _sample_values(attribute: Any, codes: Floats, joints: int, width: int) -> Floats | None:
@@ -429,26 +324,159 @@ def _sample_carrier(xformable: Any, codes: Floats) -> Transform:
     """Return the world transform of a skeleton's prim."""
     matrices = np.array([xformable.ComputeLocalToWorldTransform(code) for code in codes.tolist()])
     is_constant = np.abs(matrices - matrices[0]).max() == 0
-    transform = _to_transform(matrices[:1] if is_constant else matrices)
-    shift, turn, scale = (part[0] if is_constant else part for part in transform[:3])
-    return Transform(shift, turn, scale)
+    return decompose(matrices[0].T if is_constant else matrices.transpose(0, 2, 1))
 
 
-def _to_transform(matrices: Floats) -> Transform:
-    """Return the transform of matrices (frames, 4, 4) for row vectors, as in USD."""
-    # Convert row vectors to column vectors.
-    axes = matrices[:, :3, :3].transpose(0, 2, 1)
-    scale = np.linalg.norm(axes, axis=1)
-    # Put a reflection into the scale, so that the axes are a rotation.
-    scale = np.where(np.linalg.det(axes)[:, None] < 0, -scale, scale)
-    turns = from_matrices(orthogonalize(axes / np.where(scale == 0, 1, scale)[:, None, :]))
-    return Transform(matrices[:, 3, :3], turns, scale)
+def open_stage(content: FileContent) -> tuple[Any, int]:
+    """Open the stage of a file; return it and the size in bytes of the other layers.
+
+    Raise ReadError if it includes a file outside its folder, or too much.
+    """
+    from pxr import Usd
+
+    layers, other_size = _load_layers(content)
+    _check_sublayers(content, layers)
+    _check_growth(content, layers[0])
+    return Usd.Stage.Open(layers[0]), other_size
 
 
-FORMAT = Format(
-    "USD",
-    SUFFIXES,
-    lambda head: head.startswith(HEADS),
-    read_usd,
-    write_usd,
-)
+def _load_layers(content: FileContent) -> tuple[list[Any], int]:
+    """Load the layer of a file and all it includes; return them and the size of the others.
+
+    Missing layers are removed with a warning, since the library would search elsewhere for them.
+    """
+    from pxr import Sdf
+
+    layers: dict[str, Any] = {}
+    waiting, size = [os.path.abspath(content.path)], 0  # noqa: PTH100 (links are kept)
+    while waiting:
+        path = waiting.pop()
+        if path in layers:
+            continue
+        size += Path(path).stat().st_size
+        _limit_process(size)
+        layers[path] = layer = Sdf.Layer.FindOrOpen(path)
+        for name in filter(None, layer.GetCompositionAssetDependencies()):
+            plain, _ = Sdf.Layer.SplitIdentifier(name)
+            # Like the library, resolve ".." in the text, regardless of links.
+            target = os.path.normpath(Path(path).parent / plain)
+            file = find_sibling(content, target)
+            if file.is_file() and file.suffix.lower() in SUFFIXES:
+                waiting.append(target)
+            else:
+                layer.UpdateCompositionAssetDependency(name, "")
+                content.warn(f"the layer {name!r:.60} is missing or not USD, so it is left out")
+    return list(layers.values()), size - len(content.data)
+
+
+def _check_sublayers(content: FileContent, layers: list[Any]) -> None:
+    """Raise ReadError if nested sublayers combine too many layers."""
+    from pxr import Sdf
+
+    for layer in layers:
+        stack = [layer]
+        # The list grows during the loop.
+        for sublayer in stack:
+            stack += [
+                Sdf.Layer.FindRelativeToLayer(sublayer, name) for name in sublayer.subLayerPaths
+            ]
+            if len(stack) > MAX_SUBLAYERS:
+                raise content.error(f"its sublayers expand to more than {MAX_SUBLAYERS}")
+
+
+def _check_growth(content: FileContent, layer: Any) -> None:
+    """Raise ReadError if references include too much, or values are in clips (other files)."""
+    from pxr import Pcp, Sdf
+
+    cache = Pcp.Cache(Pcp.LayerStackIdentifier(layer), "usd", True)
+    waiting, n_included = [Sdf.Path.absoluteRootPath], 0
+    while waiting:
+        path = waiting.pop()
+        if path.IsPrimPath():
+            cache.RequestPayloads([path], [])
+        index, _ = cache.ComputePrimIndex(path)
+        if any(spec.HasInfo("clips") for spec in index.primStack):
+            raise content.error("has its animation in value clips: flatten the stage first")
+        nodes = list(index.rootNode.children)  # one per target of a reference
+        while nodes:
+            nodes += nodes.pop().children
+            n_included += 1
+            if n_included > MAX_REFERENCES:
+                raise content.error(
+                    f"its references expand to more than {MAX_REFERENCES} prims: export the "
+                    "character by itself"
+                )
+        waiting += [path.AppendChild(name) for name in index.ComputePrimChildNames()[0]]
+
+
+def _limit_process(size: int) -> None:
+    """Limit this process to the memory that layers of this size may use."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    memory = MIN_STAGE_MEMORY + MAX_EXPANSION * size
+    # A limit of 0 for core files: none is written if the process crashes.
+    for limit, most in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
+        soft, hard = resource.getrlimit(limit)
+        wanted = most if soft == resource.RLIM_INFINITY else min(most, soft)
+        with suppress(OSError, ValueError):  # some systems do not allow this limit
+            resource.setrlimit(limit, (wanted, hard))
+
+
+def write_usd(motion: Motion, path: Path) -> None:
+    """Write a motion to a USD file."""
+    require_rotations(motion, path, "a USD")
+    with require_extra("usd-core", "usd"):
+        from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel, Vt
+    warn_of_gaps([motion], path)
+    skeleton = motion.skeleton
+    names = clean_names(path, skeleton.names, str.strip)
+    # Paths need unique identifiers.
+    words = make_unique(Tf.MakeValidIdentifier(name) for name in names)
+    joints: list[str] = []
+    for word, parent in zip(words, skeleton.parents, strict=True):
+        joints.append(word if parent < 0 else f"{joints[parent]}/{word}")
+    stage = Usd.Stage.CreateInMemory()
+    # Programs interpret transforms above the skeleton differently, so merge them into the root.
+    rig = get_rig(skeleton).join_root().to_metres()
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    stage.SetTimeCodesPerSecond(motion.fps)
+    stage.SetFramesPerSecond(motion.fps)
+    stage.SetStartTimeCode(0)
+    stage.SetEndTimeCode(motion.n_frames - 1)
+    top = Sdf.Path(f"/{Tf.MakeValidIdentifier(path.stem)}")
+    root = UsdSkel.Root.Define(stage, top)
+    stage.SetDefaultPrim(root.GetPrim())
+    bound = UsdSkel.Skeleton.Define(stage, top.AppendChild("Skeleton"))
+    bound.CreateJointsAttr(joints)
+    bound.CreateJointNamesAttr(names)
+    # USD has row vectors.
+    local, world = (
+        Vt.Matrix4dArray.FromNumpy(np.ascontiguousarray(matrices.transpose(0, 2, 1)))
+        for matrices in (compose(rig.translations, rig.rotations, rig.scales), compose(*rig.world))
+    )
+    bound.CreateRestTransformsAttr(local)
+    bound.CreateBindTransformsAttr(world)
+    ends = [names[j] for j in sorted(skeleton.end_sites)]
+    bound.GetPrim().SetCustomDataByKey(END_SITES, Vt.StringArray(ends))
+    animation = UsdSkel.Animation.Define(stage, bound.GetPath().AppendChild("Animation"))
+    animation.CreateJointsAttr(joints)
+    animation.CreateScalesAttr(Vt.Vec3hArray.FromNumpy(rig.scales.astype("f2")))
+    shifts, turns = pose_rig(motion, rig)
+    shifts, turns = shifts.astype("f4"), np.roll(turns, -1, axis=-1).astype("f4")  # w last
+    translations, rotations = animation.CreateTranslationsAttr(), animation.CreateRotationsAttr()
+    for frame in range(motion.n_frames):
+        translations.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(shifts[frame])), frame)
+        rotations.Set(Vt.QuatfArray.FromNumpy(np.ascontiguousarray(turns[frame])), frame)
+    binding = UsdSkel.BindingAPI.Apply(bound.GetPrim())
+    binding.CreateAnimationSourceRel().SetTargets([animation.GetPath()])
+    with atomic_write(path) as draft:
+        try:
+            stage.Export(str(draft), addSourceFileComment=False)
+        except Tf.ErrorException as error:
+            raise WriteError(path, "cannot be written as USD") from error
+
+
+FORMAT = Format("USD", SUFFIXES, lambda head: head.startswith(HEADS), read_usd, write_usd)

@@ -1,4 +1,4 @@
-"""Read AMC: the motion part of the Acclaim format.
+"""Read and write AMC, the motion part of the Acclaim format, with its ASF.
 
 A frame is a line with its number, followed by a line per bone with its name and a value for each of
 its degrees of freedom. With C the bone's frame (its ``axis`` in the ASF) and R the product of its
@@ -10,19 +10,14 @@ Bones may be in any order, and without values if the ASF gives them no degree of
 states neither its skeleton nor its frame rate: see `find_skeleton`; 120 Hz, the rate of the CMU
 database, is assumed.
 
-If all frames have the layout of the first, the text is parsed in chunks of whole frames, which
-limits memory to the numbers.
+Motion and skeleton are written as a pair of files with the same name, lengths in CMU's unit (1/0.45
+inch), angles in degrees. The frame of each bone is that of its rig at rest. The root is always
+called ``root``. A bone can carry children only at its tip. If the children of a joint have
+different positions, or those of the root are not at its origin, each gets a rigid parent bone
+called ``PARENT-CHILD``. A joint with varying offset also gets translations. A comment stores the
+frame rate for `read`.
 
 Source: Acclaim Advanced Technologies, ASF/AMC definition.
-
-@@amc_writer: Write ASF/AMC: skeleton and motion as a pair of files with the same name.
-
-Lengths are in CMU's unit (1/0.45 inch), angles in degrees. The frame of each bone is that of its
-rig at rest. The root is always called ``root``.
-
-A bone can carry children only at its tip. If the children of a joint have different positions, or
-those of the root are not at its origin, each gets a rigid parent bone called ``PARENT-CHILD``. A
-joint with varying offset also gets translations. A comment stores the frame rate for `read`.
 """
 
 from __future__ import annotations
@@ -46,18 +41,18 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.skeletons.bvh import RIGID, compute_local_pose
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.skeletons.placing import build_motion, require_frame_memory
 from kineme.formats.units import UNITS, iterate_blocks, to_metres
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.posing import get_rig
 
 Layout = dict[str, int]
 """Number of values of each bone of a frame, in the order of the file."""
-
 FPS = 120.0
 """Default frame rate, that of the CMU database."""
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
+UNIT = UNITS["cmu"]
 
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
 _KEYWORD = re.compile(rb"^[ \t]*:(FULLY-SPECIFIED|DEGREES|RADIANS)\b", re.MULTILINE | re.IGNORECASE)
@@ -71,23 +66,18 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     figure = read_asf(load(asf), None if options.unit is None else to_metres(options.unit))
     head = _find_head(content)
     keywords = [word.lower() for word in _KEYWORD.findall(head)]
-    angle_unit = (
-        1.0
-        if b"radians" in keywords
-        else radians(1)
-        if b"degrees" in keywords
-        else figure.angle_unit
+    angle_unit = radians(1) if b"degrees" in keywords else figure.angle_unit
+    if b"radians" in keywords:
+        angle_unit = 1.0
+    values = _read_uniform_frames(content, len(head), figure) or _read_line_by_line(
+        content, len(head), figure
     )
-    values = read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf}"]
     fps = options.fps or _parse_rate_comment(head)
     if fps is None:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
-    n_frames, n_joints = len(next(iter(values.values()))), figure.skeleton.n_joints
-    content.require_memory(
-        BYTES_PER_JOINT * n_joints * n_frames, f"{n_joints} joints in {n_frames} frames"
-    )
+    require_frame_memory(content, figure.skeleton.n_joints, len(values[ROOT]))
     provenance = content.provenance("AMC", notes)
     content.release()
     rotations, slides = _compute_local(values, figure, angle_unit)
@@ -102,17 +92,6 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
         provenance=provenance,
         frames=_collect_bone_frames(figure),
     )
-
-
-def _collect_bone_frames(figure: Figure) -> Floats:
-    """Return the frame of each joint (joints, 4); an end site has that of its bone."""
-    skeleton = figure.skeleton
-    frames = np.tile(rot.IDENTITY, (skeleton.n_joints, 1))
-    for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
-        if parent >= 0:
-            bone = None if joint in skeleton.end_sites else figure.bones[name]
-            frames[joint] = frames[parent] if bone is None else bone.frame
-    return frames
 
 
 def _find_head(content: FileContent) -> bytes:
@@ -145,15 +124,12 @@ def find_skeleton(path: Path) -> Path:
         if len(asf_files) == 1:
             return asf_files[0]
         candidates += asf_files
-    if not candidates:
-        raise ReadError(
-            path, "no ASF skeleton found next to it: give one with skeleton= (--skeleton)"
-        )
-    raise ReadError(
-        path,
-        f"none of the {len(candidates)} ASF files next to it has its name: give one with "
-        "skeleton= (--skeleton)",
+    problem = (
+        f"none of the {len(candidates)} ASF files next to it has its name"
+        if candidates
+        else "no ASF skeleton found next to it"
     )
+    raise ReadError(path, f"{problem}: give one with skeleton= (--skeleton)")
 
 
 def _parse_rate_comment(head: bytes) -> float | None:
@@ -165,12 +141,24 @@ def _parse_rate_comment(head: bytes) -> float | None:
         return None
 
 
+def _collect_bone_frames(figure: Figure) -> Floats:
+    """Return the frame of each joint (joints, 4): none of the root, an end site has its bone's."""
+    skeleton = figure.skeleton
+    frames = np.tile(rot.IDENTITY, (skeleton.n_joints, 1))
+    for joint, parent in enumerate(skeleton.parents):
+        if joint in skeleton.end_sites:
+            frames[joint] = frames[parent]
+        elif parent >= 0:
+            frames[joint] = figure.bones[skeleton.names[joint]].frame
+    return frames
+
+
 def _compute_local(
     values: dict[str, Floats], figure: Figure, angle_unit: float
 ) -> tuple[Floats, dict[int, Floats]]:
     """Return rotations (frames, joints, 4), and translations (frames, 3) in metres if they vary."""
     skeleton = figure.skeleton
-    n = len(next(iter(values.values())))
+    n = len(values[ROOT])
     rotations = np.empty((n, skeleton.n_joints, 4))
     for span in iterate_blocks(n):
         block_rotations = np.zeros((skeleton.n_joints, 4, span.stop - span.start))
@@ -181,11 +169,9 @@ def _compute_local(
             axes = "".join(bone.dof[i][1] for i in turns)
             local = rot.from_euler(angle_unit * values[name][span][:, turns], axes)
             # The preset orientation is applied first.
-            if name == ROOT:
-                local = rot.multiply(local, bone.frame)
-            else:
-                # C R C^-1, with C the frame of the bone.
-                local = rot.multiply(rot.multiply(bone.frame, local), rot.conjugate(bone.frame))
+            local = rot.multiply(local, bone.frame if name == ROOT else rot.conjugate(bone.frame))
+            if name != ROOT:  # C R C^-1, with C the frame of the bone
+                local = rot.multiply(bone.frame, local)
             block_rotations[skeleton.joint(name)] = local.T
         rotations[span] = block_rotations.transpose(2, 0, 1)
     slides = {}
@@ -203,26 +189,13 @@ def _compute_local(
     return rotations, slides
 
 
-def _recognises(head: bytes) -> bool:
-    return _KEYWORD.search(head) is not None
-
-
-def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001
-    """Raise ReadError: a skeleton alone has no motion."""
-    raise content.error("is a skeleton without a motion: give the AMC file that belongs to it")
-
-
-def read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
-    """Return each bone's values (frames, dofs) from the bytes after ``start``."""
-    return _read_uniform_frames(content, start, figure) or _read_line_by_line(
-        content, start, figure
-    )
-
-
 def _read_uniform_frames(
     content: FileContent, start: int, figure: Figure
 ) -> dict[str, Floats] | None:
-    """Return the values if every frame has the layout of the first, else None."""
+    """Return each bone's values (frames, dofs) if every frame has the layout of the first.
+
+    The text is parsed in chunks of whole frames, which limits memory to the numbers.
+    """
     chunks: list[Floats] = []
     layout: Layout | None = None
     next_label = np.nan
@@ -306,10 +279,9 @@ def _parse_rows_compiled(text: bytes, layout: Layout) -> Floats | None:
 
     counts = np.array([*layout.values()], np.int64)
     names = [name.encode() for name in layout]
-    shortest = 2 * (
-        1 + len(names) + int(counts.sum())
-    )  # a word has at least one letter and a space
-    rows = np.empty((len(text) // shortest + 1, 1 + int(counts.sum())))
+    n_values = 1 + int(counts.sum())
+    shortest = 2 * (len(names) + n_values)  # a word has at least one letter and a space
+    rows = np.empty((len(text) // shortest + 1, n_values))
     # The kernel requires spaces at both ends.
     n_rows = read_rows(
         np.frombuffer(bytearray(b"\n" + text + b"\n"), np.uint8),
@@ -351,7 +323,7 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
         if len(words) == 1 and words[0].isdigit():
             if frames:
                 _check_complete(content, frames, first_line)
-            before, label = label, _frame_number(content, words[0], number)
+            before, label = label, _parse_frame_number(content, words[0], number)
             if frames and label != before + 1:
                 content.warn(f"frame {label} follows {before}", number)
             first_line = number
@@ -382,7 +354,7 @@ def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict
     }
 
 
-def _frame_number(content: FileContent, word: bytes, line: int) -> int:
+def _parse_frame_number(content: FileContent, word: bytes, line: int) -> int:
     if len(word) > 18:
         raise content.error(f"{word[:18].decode()}... is not a frame number", line)
     return int(word)
@@ -407,28 +379,13 @@ def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], 
     """Raise ReadError if the last frame is empty or lacks a bone of the first one."""
     missing = [name for name in frames[0] if name not in frames[-1]]
     if missing or not frames[-1]:
-        raise content.error(
-            f"a frame has no values for {missing[0] if missing else 'any bone'}", line
-        )
+        bone = missing[0] if missing else "any bone"
+        raise content.error(f"a frame has no values for {bone}", line)
 
 
-UNIT = UNITS["cmu"]
-
-
-@dataclass
-class Bone:
-    """A bone to be written; ``joint`` is None for a rigid one."""
-
-    name: str
-    parent: str
-    tip: Floats
-    joint: int | None
-    slides: bool = False
-    frame: Floats = field(default_factory=rot.IDENTITY.copy)
-
-    @property
-    def dof(self) -> str:
-        return "tx ty tz rx ry rz" if self.slides else "rx ry rz"
+def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001
+    """Raise ReadError: a skeleton alone has no motion."""
+    raise content.error("is a skeleton without a motion: give the AMC file that belongs to it")
 
 
 def write_amc(motion: Motion, path: Path) -> None:
@@ -437,9 +394,9 @@ def write_amc(motion: Motion, path: Path) -> None:
     skeleton = motion.skeleton
     if sum(parent < 0 for parent in skeleton.parents) != 1:
         raise WriteError(path, "an AMC holds one figure, but this motion has several roots")
-    moving = sorted(j for j in skeleton.end_sites if slides[j])
-    if moving:
-        raise WriteError(path, f"end site {skeleton.names[moving[0]]!r} moves on its bone")
+    for j in sorted(skeleton.end_sites):
+        if slides[j]:
+            raise WriteError(path, f"end site {skeleton.names[j]!r} moves on its bone")
     # The frame of a bone is the world rotation of its node at rest; the root has none.
     rig = get_rig(skeleton)
     frames = rot.multiply(rig.turn, rig.world[1][rig.above :])
@@ -461,6 +418,18 @@ def write_amc(motion: Motion, path: Path) -> None:
     head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:DEGREES\n"
     lines = (f"{i}\n{''.join(each)}" for i, each in enumerate(zip(*blocks, strict=True), 1))
     save(path, [head, *lines])
+
+
+@dataclass
+class Bone:
+    """A bone to be written; ``joint`` is None for a rigid one."""
+
+    name: str
+    parent: str
+    tip: Floats
+    joint: int | None
+    slides: bool = False
+    frame: Floats = field(default_factory=rot.IDENTITY.copy)
 
 
 def _list_bones(
@@ -500,7 +469,7 @@ def _format_asf(bones: list[Bone]) -> Iterator[str]:
         axis = " ".join(f"{angle:.12g}" for angle in turns)
         yield f"    length {length / UNIT:.12f}\n    axis {axis} XYZ\n"
         if bone.joint is not None:
-            yield f"    dof {bone.dof}\n"
+            yield f"    dof {'tx ty tz ' if bone.slides else ''}rx ry rz\n"
         yield "  end\n"
     yield ":hierarchy\n  begin\n"
     children: dict[str, list[str]] = {}
@@ -518,4 +487,6 @@ def _to_word(name: str) -> str:
 
 
 SKELETON = Format("ASF", (".asf",), lambda _: False, refuse_asf)
-FORMAT = Format("AMC", (".amc",), _recognises, read_amc, write_amc)
+FORMAT = Format(
+    "AMC", (".amc",), lambda head: _KEYWORD.search(head) is not None, read_amc, write_amc
+)

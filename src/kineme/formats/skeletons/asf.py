@@ -25,11 +25,11 @@ import numpy as np
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme.formats.files import FileContent, parse_numbers
+from kineme.formats.skeletons.placing import order_depth_first
 from kineme.formats.units import INCH
 from kineme.recordings import Skeleton
 
 Line = tuple[int, list[str]]
-
 ROOT = "root"
 _BLANKS = str.maketrans("(),", "   ")
 
@@ -46,6 +46,23 @@ class Figure:
     skeleton: Skeleton
     scale: float
     angle_unit: float
+
+
+@dataclass
+class Bone:
+    """A bone in the file's length unit and radians."""
+
+    name: str
+    direction: Floats = field(default_factory=lambda: np.zeros(3))
+    length: float = 0.0
+    frame: Floats = field(default_factory=lambda: rot.IDENTITY)
+    dof: tuple[str, ...] = ()
+    position: Floats = field(default_factory=lambda: np.zeros(3))
+    line: int = 0
+
+    @property
+    def tip(self) -> Floats:
+        return self.direction * self.length
 
 
 def read_asf(content: FileContent, scale: float | None = None) -> Figure:
@@ -78,30 +95,6 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     )
 
 
-def _build_skeleton(
-    order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
-) -> Skeleton:
-    names: list[str] = []
-    indices: dict[str, int] = {}
-    joint_parents: list[int] = []
-    offsets: list[Floats] = []
-    ends = []
-    inner = set(parents.values())
-    for name in order:
-        parent = parents.get(name)
-        joint_parents.append(-1 if parent is None else indices[parent])
-        offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
-        indices[name] = len(names)
-        names.append(name)
-        # A leaf bone of non-zero length gets an end site.
-        if name not in inner and bones[name].tip.any():
-            joint_parents.append(len(names) - 1)
-            offsets.append(bones[name].tip)
-            ends.append(len(names))
-            names.append(f"{name}_end")
-    return Skeleton(tuple(names), tuple(joint_parents), scale * np.array(offsets), frozenset(ends))
-
-
 def _split_sections(content: FileContent) -> dict[str, list[Line]]:
     """Return the lines of each section as words, without comments and blank lines."""
     sections: dict[str, list[Line]] = {}
@@ -117,6 +110,21 @@ def _split_sections(content: FileContent) -> dict[str, list[Line]]:
         if words:
             current.append((number, words))
     return sections
+
+
+def read_root(content: FileContent, lines: list[Line], angle_unit: float) -> Bone:
+    """Return the root from the lines of its section."""
+    entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
+    root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
+    if "order" in entries:
+        root.dof = _parse_dof(content, *entries["order"])
+    if "position" in entries:
+        root.position = np.array(read_values(content, *entries["position"], 3))
+    if "orientation" in entries:
+        line, words = entries["orientation"]
+        letters = entries.get("axis", (0, ["xyz"]))[1]
+        root.frame = _parse_frame(content, line, words[:3] + letters, angle_unit)
+    return root
 
 
 def _split_blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line]]:
@@ -140,63 +148,6 @@ def _split_blocks(content: FileContent, lines: list[Line]) -> Iterator[list[Line
         raise content.error("the last bone has no 'end': the file is truncated", lines[-1][0])
 
 
-def _parse_parents(
-    content: FileContent, lines: list[Line], bones: dict[str, Bone]
-) -> dict[str, str]:
-    parents: dict[str, str] = {}
-    for number, (parent, *children) in lines:
-        if not children and parent.lower() in ("begin", "end"):
-            continue
-        for name in (parent, *children):
-            if name not in bones:
-                raise content.error(f"bone {name!r} is not in :bonedata", number)
-        for name in children:
-            if name in parents or name == ROOT:
-                raise content.error(f"bone {name!r} has a second parent, {parent!r}", number)
-            parents[name] = parent
-    return parents
-
-
-def _order_bones(
-    content: FileContent, parents: dict[str, str], bones: dict[str, Bone]
-) -> list[str]:
-    """Return bones depth first, siblings in the order of the hierarchy."""
-    children: dict[str, list[str]] = {name: [] for name in bones}
-    for name, parent in parents.items():
-        children[parent].append(name)
-    order, waiting = [], [ROOT]
-    while waiting:
-        order.append(waiting.pop())
-        # Reversed, since the stack pops the last one first.
-        waiting.extend(reversed(children[order[-1]]))
-    reached = set(order)
-    # Bones in a cycle are never reached from the root.
-    lost = [name for name in bones if name not in reached]
-    if lost:
-        raise content.error(
-            f"bone {lost[0]!r} is not connected to the root: its line in :hierarchy is "
-            "missing or circular"
-        )
-    return order
-
-
-@dataclass
-class Bone:
-    """A bone in the file's length unit and radians."""
-
-    name: str
-    direction: Floats = field(default_factory=lambda: np.zeros(3))
-    length: float = 0.0
-    frame: Floats = field(default_factory=lambda: rot.IDENTITY)
-    dof: tuple[str, ...] = ()
-    position: Floats = field(default_factory=lambda: np.zeros(3))
-    line: int = 0
-
-    @property
-    def tip(self) -> Floats:
-        return self.direction * self.length
-
-
 def read_bone(content: FileContent, block: list[Line], angle_unit: float) -> Bone:
     """Return a bone from the lines between ``begin`` and ``end``."""
     entries = {words[0].lower(): (n, words[1:]) for n, words in block}
@@ -215,21 +166,6 @@ def read_bone(content: FileContent, block: list[Line], angle_unit: float) -> Bon
     if "dof" in entries:
         bone.dof = _parse_dof(content, *entries["dof"])
     return bone
-
-
-def read_root(content: FileContent, lines: list[Line], angle_unit: float) -> Bone:
-    """Return the root from the lines of its section."""
-    entries = {words[0].lower(): (n, words[1:]) for n, words in lines}
-    root = Bone(ROOT, dof=("tx", "ty", "tz", "rx", "ry", "rz"))
-    if "order" in entries:
-        root.dof = _parse_dof(content, *entries["order"])
-    if "position" in entries:
-        root.position = np.array(read_values(content, *entries["position"], 3))
-    if "orientation" in entries:
-        line, words = entries["orientation"]
-        letters = entries.get("axis", (0, ["xyz"]))[1]
-        root.frame = _parse_frame(content, line, words[:3] + letters, angle_unit)
-    return root
 
 
 def _parse_frame(content: FileContent, line: int, words: list[str], angle_unit: float) -> Floats:
@@ -266,3 +202,63 @@ def read_values(
         kind = "positive " if positive else ""
         raise content.error(f"{count} {kind}number(s) expected, found {' '.join(words)!r}", line)
     return values
+
+
+def _parse_parents(
+    content: FileContent, lines: list[Line], bones: dict[str, Bone]
+) -> dict[str, str]:
+    parents: dict[str, str] = {}
+    for number, (parent, *children) in lines:
+        if not children and parent.lower() in ("begin", "end"):
+            continue
+        for name in (parent, *children):
+            if name not in bones:
+                raise content.error(f"bone {name!r} is not in :bonedata", number)
+        for name in children:
+            if name in parents or name == ROOT:
+                raise content.error(f"bone {name!r} has a second parent, {parent!r}", number)
+            parents[name] = parent
+    return parents
+
+
+def _order_bones(
+    content: FileContent, parents: dict[str, str], bones: dict[str, Bone]
+) -> list[str]:
+    """Return bones depth first, siblings in the order of the hierarchy."""
+    children: dict[str, list[str]] = {name: [] for name in bones}
+    for name, parent in parents.items():
+        children[parent].append(name)
+    order = [name for name, _ in order_depth_first([ROOT], children.__getitem__)]
+    reached = set(order)
+    # Bones in a cycle are never reached from the root.
+    lost = [name for name in bones if name not in reached]
+    if lost:
+        raise content.error(
+            f"bone {lost[0]!r} is not connected to the root: its line in :hierarchy is "
+            "missing or circular"
+        )
+    return order
+
+
+def _build_skeleton(
+    order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
+) -> Skeleton:
+    names: list[str] = []
+    indices: dict[str, int] = {}
+    joint_parents: list[int] = []
+    offsets: list[Floats] = []
+    ends = []
+    inner = set(parents.values())
+    for name in order:
+        parent = parents.get(name)
+        joint_parents.append(-1 if parent is None else indices[parent])
+        offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
+        indices[name] = len(names)
+        names.append(name)
+        # A leaf bone of non-zero length gets an end site.
+        if name not in inner and bones[name].tip.any():
+            joint_parents.append(len(names) - 1)
+            offsets.append(bones[name].tip)
+            ends.append(len(names))
+            names.append(f"{name}_end")
+    return Skeleton(tuple(names), tuple(joint_parents), scale * np.array(offsets), frozenset(ends))

@@ -1,4 +1,4 @@
-"""Read BVH: the Biovision hierarchy in its many variants.
+"""Read and write BVH, the Biovision hierarchy, in its many variants.
 
 The file has a tree of joints with an offset and named channels each, then a line of channel values
 per frame. A joint's rotation is the product of its rotation channels in the order of the file, in
@@ -9,19 +9,16 @@ Position channels replace the joint's offset. In PyMO's ``AV_8Walk.bvh``, one of
 both, the hips have an offset 35.4 high and a first position 35.6 high (inches): replacing puts the
 feet on the floor, adding would put them at the height of the hips.
 
-A BVH has no unit and no up axis; `kineme.formats.units` infers them.
-
-Source: M. Meredith, S. Maddock, "Motion capture file formats explained", University of Sheffield
-CS-01-11, 2001, section 3.
-
-@@bvh_writer: Write BVH: rotations as Z Y X in degrees, in units and axes of the original BVH.
-
-Recordings of other formats are written in centimetres with y up and the rest pose of their rig. A
-BVH has no rotations at rest, so these become part of the rotations of each frame.
+A BVH has no unit and no up axis; `kineme.formats.units` infers them. Rotations are written as Z Y
+X, in the units and axes of the original BVH; recordings of other formats in centimetres with y up.
+A BVH has no rotations at rest, so those of a rig become part of the rotations of each frame.
 
 Joints whose offset varies get six channels, others three; roots always get six. An end site that
 moves or has children becomes a joint. A BVH has no names for end sites: reading names them
 ``PARENT_end``.
+
+Source: M. Meredith, S. Maddock, "Motion capture file formats explained", University of Sheffield
+CS-01-11, 2001, section 3.
 """
 
 from __future__ import annotations
@@ -51,7 +48,7 @@ from kineme.formats.files import (
 )
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
-from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion
+from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import compute_local_translations
@@ -59,6 +56,14 @@ from kineme.recordings.posing import align_to_rest
 
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
+UNIT = 0.01
+"""Metres per unit for recordings from other formats."""
+RIGID = 5e-7
+"""Metres by which a bone may differ from its offset and still count as rigid.
+
+Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
+adds up to 0.01 mm.
+"""
 
 _HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
@@ -71,12 +76,9 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a BVH file."""
     head = _parse_head(content, options)
     values = read_frames(content, head.start, head.width, head.declared)
-    n_joints = len(head.joints)
     if len(values) != head.declared:
         content.warn(f"{head.declared} frames declared, {len(values)} found and kept", head.line)
-    content.require_memory(
-        BYTES_PER_JOINT * n_joints * len(values), f"{n_joints} joints in {len(values)} frames"
-    )
+    require_frame_memory(content, len(head.joints), len(values))
     provenance = content.provenance("BVH", head.notes)
     content.release()
     local = _compute_local(head.joints, values)
@@ -129,61 +131,6 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
 
 
-def _place_joints(
-    joints: list[Joint],
-    local: tuple[Floats, dict[int, Floats]],
-    fps: float,
-    options: ReadOptions,
-    provenance: Provenance,
-) -> Motion:
-    """Return the motion of joints from the result of `_compute_local`."""
-    parents = tuple(joint.parent for joint in joints)
-    inner = {*parents}
-    skeleton = Skeleton(
-        tuple(joint.name for joint in joints),
-        parents,
-        np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
-    )
-    return build_motion(
-        skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
-    )
-
-
-def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
-    """Return quaternions (frames, joints, 4), and translations of joints with position channels.
-
-    Translations (frames, 3) are by the number of the joint, in file units.
-    """
-    rotations = np.empty((len(values), len(joints), 4))
-    translations = {
-        # Position channels replace the offset per axis.
-        j: np.tile(joint.offset, (len(values), 1))
-        for j, joint in enumerate(joints)
-        if any(kind == "position" for _, kind in joint.channels)
-    }
-    for span in iterate_blocks(len(values)):
-        # One contiguous row per channel.
-        columns = np.ascontiguousarray(values[span].T)
-        block_rotations = np.zeros((len(joints), 4, columns.shape[1]))
-        block_rotations[:, 0] = 1.0
-        column = 0
-        # Columns are in the order of the joints' channels.
-        for j, joint in enumerate(joints):
-            rotation_columns, axes = [], ""
-            for axis, kind in joint.channels:
-                if kind == "position":
-                    translations[j][span, "xyz".index(axis)] = columns[column]
-                else:
-                    rotation_columns.append(column)
-                    axes += axis
-                column += 1
-            if rotation_columns:
-                block_rotations[j] = rot.from_euler(np.radians(columns[rotation_columns]).T, axes).T
-        rotations[span] = block_rotations.transpose(2, 0, 1)
-    return rotations, translations
-
-
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
     try:
         (period,) = parse_numbers([word])
@@ -214,7 +161,6 @@ class _HierarchyParser:
         text = content.data[:stop].decode("utf-8", "replace").removeprefix("\ufeff")
         lines = enumerate(text.replace("{", " { ").replace("}", " } ").splitlines(), 1)
         self.words = [(word, number) for number, line in lines for word in line.split()]
-        self.position = 0
         self.joints: list[Joint] = []
         open_joints: list[int] = []
         if not self.words or self.words[0][0].upper() != "HIERARCHY":
@@ -226,9 +172,8 @@ class _HierarchyParser:
             if key in ("ROOT", "JOINT", "END"):
                 parent = open_joints[-1] if open_joints else -1
                 if (key == "ROOT") != (parent < 0):
-                    raise content.error(
-                        f"{word} {'outside' if parent < 0 else 'inside'} a joint", line
-                    )
+                    where = "outside" if parent < 0 else "inside"
+                    raise content.error(f"{word} {where} a joint", line)
                 open_joints.append(len(self.joints))
                 self.joints.append(Joint(self._parse_name(line), parent, line, key == "END"))
             elif not open_joints:
@@ -240,16 +185,13 @@ class _HierarchyParser:
             elif key == "CHANNELS":
                 self.joints[open_joints[-1]].channels = self._parse_channels(line)
             else:
-                raise content.error(
-                    f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}", line
-                )
+                reason = f"OFFSET, CHANNELS, JOINT or '}}' expected, found {word[:40]!r}"
+                raise content.error(reason, line)
         if not self.joints:
             raise content.error("the hierarchy has no ROOT")
         if open_joints:
-            name = self.joints[open_joints[-1]].name
-            raise content.error(
-                f"the '}}' of joint {name!r} is missing before MOTION", self.words[-1][1]
-            )
+            reason = f"the '}}' of joint {self.joints[open_joints[-1]].name!r} is missing"
+            raise content.error(f"{reason} before MOTION", self.words[-1][1])
         self._name_end_sites()
 
     def _take_word(self) -> tuple[str, int]:
@@ -324,7 +266,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     fault: ReadError | None = None
     repaired = 0
     last = number = content.line_at(start)
-    for number, line in enumerate(_split_lines(content.data, start), last):
+    for number, line in _split_lines(content.data, start, last):
         last = number
         if fault is not None:  # faults are tolerated only in the last line
             raise fault
@@ -335,7 +277,7 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
             continue
         repaired += is_repaired
         values.extend(row)
-        if row and len(row) != width:
+        if len(row) != width:
             # Other widths are valid only if all numbers together give the declared frames.
             odd_lines.append((number, len(row)))
     if odd_lines and (fault or len(values) != width * declared):
@@ -350,40 +292,31 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     if fault is not None:
         content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
     if repaired:
-        content.warn(
-            f"spaces missing before minus signs added in {format_count(repaired, 'frame')}"
-        )
+        count_text = format_count(repaired, "frame")
+        content.warn(f"spaces missing before minus signs added in {count_text}")
     return np.frombuffer(values).reshape(-1, width)
 
 
 def sample_frames(data: bytes, start: int, width: int, every: int) -> Floats | None:
     """Return the values of every ``every``-th frame; None if lines do not match frames."""
-    lines = (line for line in _split_lines(data, start) if line.strip())
+    lines = islice(_split_lines(data, start), 0, None, every)
     try:
-        rows = [parse_numbers(line.split()) for line in islice(lines, 0, None, every)]
+        rows = [parse_numbers(line.split()) for _, line in lines]
     except ValueError:
         return None
     return np.array(rows) if rows and all(len(row) == width for row in rows) else None
 
 
-def _split_lines(data: bytes, start: int) -> Iterator[bytes]:
-    """Yield the lines from ``start`` on, in chunks, without blank ones at the end."""
-    stop = _find_end(data, start)
-    while start < stop:
+def _split_lines(data: bytes, start: int, number: int = 0) -> Iterator[tuple[int, bytes]]:
+    """Yield number and text of the lines from ``start`` on that are not blank, in chunks."""
+    while start < len(data):
         # Cut after a line break to keep lines whole.
-        cut = min(data.find(b"\n", start + CHUNK) + 1 or stop, stop)
-        yield from data[start:cut].splitlines()
+        cut = data.find(b"\n", start + CHUNK) + 1 or len(data)
+        for line in data[start:cut].splitlines():
+            if line and not line.isspace():
+                yield number, line
+            number += 1
         start = cut
-
-
-def _find_end(data: bytes, start: int) -> int:
-    """Return the offset after which only blanks and empty lines follow."""
-    # Search backwards in chunks, since most files end with few blanks.
-    for stop in range(len(data), start, -CHUNK):
-        first = max(start, stop - CHUNK)
-        if text := data[first:stop].rstrip():
-            return first + len(text)
-    return start
 
 
 def _parse_row(line: bytes) -> tuple[list[float], bool]:
@@ -397,14 +330,59 @@ def _parse_row(line: bytes) -> tuple[list[float], bool]:
         return parse_numbers(repaired.split()), True
 
 
-UNIT = 0.01
-"""Metres per unit for recordings from other formats."""
-RIGID = 5e-7
-"""Metres by which a bone may differ from its offset and still count as rigid.
+def _compute_local(joints: list[Joint], values: Floats) -> tuple[Floats, dict[int, Floats]]:
+    """Return quaternions (frames, joints, 4), and translations of joints with position channels.
 
-Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
-adds up to 0.01 mm.
-"""
+    Translations (frames, 3) are by the number of the joint, in file units.
+    """
+    rotations = np.empty((len(values), len(joints), 4))
+    translations = {
+        # Position channels replace the offset per axis.
+        j: np.tile(joint.offset, (len(values), 1))
+        for j, joint in enumerate(joints)
+        if any(kind == "position" for _, kind in joint.channels)
+    }
+    for span in iterate_blocks(len(values)):
+        # One contiguous row per channel.
+        columns = np.ascontiguousarray(values[span].T)
+        block_rotations = np.zeros((len(joints), 4, columns.shape[1]))
+        block_rotations[:, 0] = 1.0
+        column = 0
+        # Columns are in the order of the joints' channels.
+        for j, joint in enumerate(joints):
+            rotation_columns, axes = [], ""
+            for axis, kind in joint.channels:
+                if kind == "position":
+                    translations[j][span, "xyz".index(axis)] = columns[column]
+                else:
+                    rotation_columns.append(column)
+                    axes += axis
+                column += 1
+            if rotation_columns:
+                block_rotations[j] = rot.from_euler(np.radians(columns[rotation_columns]).T, axes).T
+        rotations[span] = block_rotations.transpose(2, 0, 1)
+    return rotations, translations
+
+
+def _place_joints(
+    joints: list[Joint],
+    local: tuple[Floats, dict[int, Floats]],
+    fps: float,
+    options: ReadOptions,
+    provenance: Provenance,
+) -> Motion:
+    """Return the motion of joints from the result of `_compute_local`."""
+    parents = tuple(joint.parent for joint in joints)
+    inner = {*parents}
+    skeleton = Skeleton(
+        tuple(joint.name for joint in joints),
+        parents,
+        np.array([joint.offset for joint in joints]),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
+    )
+    return build_motion(
+        skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
+    )
 
 
 def write_bvh(motion: Motion, path: Path) -> None:
@@ -421,17 +399,14 @@ def write_bvh(motion: Motion, path: Path) -> None:
     translations, offsets = (rot.rotate(inverse, each) / unit for each in (translations, offsets))
     angles = np.degrees(rot.to_euler_zyx(turns))
     fixed_ends = {j for j in skeleton.end_sites if not slides[j]}
-    order = list(_order_depth_first(motion))
+    roots = (j for j, parent in enumerate(skeleton.parents) if parent < 0)
+    order = [j for j, _ in order_depth_first(roots, skeleton.children.__getitem__)]
     columns: list[Floats] = []
     for j in order:
-        if j in fixed_ends:
-            continue
-        if slides[j]:
-            columns.append(translations[:, j])
-        columns.append(angles[:, j])
-    head = "\n".join(
-        _format_hierarchy(skeleton, offsets, order, slides, _name_joints(motion, fixed_ends, path))
-    )
+        if j not in fixed_ends:
+            columns += [translations[:, j], angles[:, j]] if slides[j] else [angles[:, j]]
+    names = _name_joints(motion, fixed_ends, path)
+    head = "\n".join(_format_hierarchy(skeleton, offsets, order, slides, names))
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
     save(path, [head, "\n", timing, *format_table(np.concatenate(columns, axis=1))])
 
@@ -439,21 +414,11 @@ def write_bvh(motion: Motion, path: Path) -> None:
 def compute_local_pose(
     motion: Motion, path: Path, what: str
 ) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
-    """Return rotations and translations for a format without rotations at rest.
+    """Return the pose of each frame for a format without rotations at rest.
 
-    Returns
-    -------
-    rotations, translations : ndarray of shape (frames, joints, 4), (frames, joints, 3)
-        Relative to the parent; metres.
-    offsets : ndarray of shape (joints, 3)
-        The translations at rest.
-    slides : ndarray of shape (joints,)
-        Whether the translation of a joint varies.
-
-    Raises
-    ------
-    WriteError
-        The motion has no rotations, which ``what`` needs.
+    These are rotations (frames, joints, 4) and translations (frames, joints, 3) relative to the
+    parent, offsets (joints, 3) at rest, and whether the translation of each joint varies. Raise
+    WriteError if the motion has no rotations, which ``what`` needs.
     """
     require_rotations(motion, path, what)
     aligned = align_to_rest(motion)
@@ -465,13 +430,8 @@ def compute_local_pose(
 def _name_joints(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
     """Return the names of joints that a line can hold; end sites have none."""
     named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
-    return dict(
-        zip(
-            named,
-            clean_names(path, [motion.skeleton.names[j] for j in named], _clean_name),
-            strict=True,
-        )
-    )
+    names = clean_names(path, [motion.skeleton.names[j] for j in named], _clean_name)
+    return dict(zip(named, names, strict=True))
 
 
 def _clean_name(name: str) -> str:
@@ -506,16 +466,6 @@ def _format_hierarchy(
             yield f"{tab}\tCHANNELS {places} Zrotation Yrotation Xrotation"
     while open_joints:
         yield "\t" * depths[open_joints.pop()] + "}"
-
-
-def _order_depth_first(motion: Motion) -> Iterator[int]:
-    children = motion.skeleton.children
-    # Reversed, since the stack pops the last one first.
-    waiting = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0][::-1]
-    while waiting:
-        joint = waiting.pop()
-        yield joint
-        waiting.extend(reversed(children[joint]))
 
 
 FORMAT = Format(

@@ -6,13 +6,15 @@ of frames that fit into the processor's cache.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
+from kineme.formats.files import FileContent
 from kineme.formats.units import (
     PLAUSIBLE_HEIGHTS,
     estimate_height,
@@ -26,8 +28,37 @@ from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
 from kineme.recordings.rig import make_rig
 
+Node = TypeVar("Node", bound=Hashable)
+
 BYTES_PER_JOINT = 2 * 8 * (4 + 3)
 """Bytes of a joint in a frame: rotation and position, twice."""
+
+
+def require_frame_memory(
+    content: FileContent, joints: int, frames: int, *, allowed: int = 0
+) -> None:
+    """Raise ReadError if a file of this size cannot hold so many frames.
+
+    A motion of at most ``allowed`` bytes is accepted from any file.
+    """
+    size = BYTES_PER_JOINT * joints * frames
+    if size > allowed:
+        content.require_memory(size, f"{joints} joints in {frames} frames")
+
+
+def order_depth_first(
+    tops: Iterable[Node], children: Callable[[Node], Sequence[Node]]
+) -> Iterator[tuple[Node, int]]:
+    """Yield each node once, siblings in order, with the index of its parent in this order or -1."""
+    # Reversed, since the stack pops the last one first.
+    waiting = [(node, -1) for node in reversed([*tops])]
+    visited: set[Node] = set()
+    while waiting:
+        node, parent = waiting.pop()
+        if node not in visited:  # damaged files may have cycles
+            waiting += [(child, len(visited)) for child in reversed(children(node))]
+            visited.add(node)
+            yield node, parent
 
 
 def build_motion(
