@@ -17,11 +17,10 @@ from kineme.formats import devices
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
-from kineme.formats.points import list_joints
 from kineme.formats.registry import recognises_safely
 from kineme.formats.sniffing import sniff
 from kineme.recordings import Motion, Signals
-from kineme.recordings.column_names import is_body
+from kineme.recordings.column_names import group_axes, is_body
 
 
 @dataclass(frozen=True)
@@ -112,4 +111,4 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
     """
     dialect = find_dialect(names, lines)
     has_reader = dialect is not None and dialect.read is not None
-    return not has_reader and not any(map(is_body, list_joints(names)))
+    return not has_reader and not any(map(is_body, group_axes(names)))

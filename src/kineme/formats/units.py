@@ -27,9 +27,7 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": INCH, "cmu": INCH / 0.45}
 """Metres in one unit; "cmu" is 1/0.45 inch, the unit of the CMU database."""
 
 CERTAIN_HEIGHTS = (1.2, 2.4)
-"""Body heights in metres for which a unit is certain. Their ratio is below 2.2, the smallest
-ratio of two units.
-"""
+"""Heights of a body in metres that make its unit certain; any two units differ by more."""
 
 PLAUSIBLE_HEIGHTS = (0.3, 4.0)
 """Body heights in metres outside of which a given unit is doubtful."""
@@ -125,9 +123,21 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
 def estimate_height(skeleton: Skeleton, means: Floats) -> float:
     """Return three quarters of the longest path along the bones, in file units.
 
-    ``means`` (joints, 3) are the mean positions of joints relative to their parents.
+    ``means`` (joints, 3) are the mean positions of joints relative to their parents. Bones above
+    the hips are ignored: their length is the distance walked.
     """
-    return 0.75 * _measure_longest_path(skeleton, np.linalg.norm(means, axis=1))
+    lengths = np.linalg.norm(means, axis=1).tolist()
+    body = set(skeleton.body) - {skeleton.carrier}
+    reach = [0.0] * skeleton.n_joints
+    longest = 0.0
+    # Process children before parents: `reach` is the longest path down from each joint.
+    for joint in range(skeleton.n_joints - 1, -1, -1):
+        parent = skeleton.parents[joint]
+        if parent >= 0 and joint in body:
+            branch = reach[joint] + lengths[joint]
+            longest = max(longest, reach[parent] + branch)
+            reach[parent] = max(reach[parent], branch)
+    return 0.75 * longest
 
 
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
@@ -156,24 +166,6 @@ def infer_rate(word: str) -> tuple[float, str | None]:
         note = f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
         return float(lowest), note
     return float(1 / period), None
-
-
-def _measure_longest_path(skeleton: Skeleton, lengths: Floats) -> float:
-    """Return the longest path between two joints along the bones of the body.
-
-    Bones above the hips are ignored: their length is the distance walked.
-    """
-    body = set(skeleton.body) - {skeleton.carrier}
-    reach = [0.0] * skeleton.n_joints
-    longest = 0.0
-    # Process children before parents: `reach` is the longest path down from each joint.
-    for joint in range(skeleton.n_joints - 1, -1, -1):
-        parent = skeleton.parents[joint]
-        if parent >= 0 and joint in body:
-            branch = reach[joint] + float(lengths[joint])
-            longest = max(longest, reach[parent] + branch)
-            reach[parent] = max(reach[parent], branch)
-    return longest
 
 
 def infer_scale(

@@ -17,7 +17,7 @@ at the first of them:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats, Ints, Masks
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import find_spans
+from kineme.recordings.arrays import find_spans, list_spans, mark_spans
 from kineme.recordings.provenance import Note
 from kineme.recordings.times import Clock, is_unix_time
 
@@ -47,6 +47,14 @@ _SLOWEST_S = 2.0  # longest period of a slow channel, seconds
 _MOST_FRAMES_PER_ROW = 8  # limits the size of the grid
 _VALUES = 1_000_000  # additional values that the grid may always have
 _HOUR, _DAY = 3600.0, 86400.0
+
+FROZEN_S = 3.0
+"""Seconds without a change after which an otherwise changing channel counts as frozen."""
+_CHANGES = 0.5  # fraction of steps that change in a channel that is not frozen
+_CLIPPED = 3  # successive values at the limit of a sensor that count as clipped
+_CLIPS = 0.001  # fraction of clipped values from which on a warning is given
+_COARSE = 5  # sensor steps by which values jump to the limit if clipped
+_LEVELS = 50  # a sensor has at least so many different values
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,10 +91,6 @@ class Timing:
     def row_seconds(self) -> Floats | None:
         """Return the second of each row in time order; None if rows are frames."""
         return None if self.at is None else self.at / self.fps
-
-    def noted(self, notes: Iterable[Note | str]) -> Timing:
-        """Return a copy with these notes instead of its own."""
-        return replace(self, notes=tuple(notes))
 
     def frames_of_rows(self, n_rows: int) -> Ints:
         """Return the nearest frame of each row in file order; 0 for a row without a time."""
@@ -127,9 +131,7 @@ class Timing:
                 continue
             for channel in channels:
                 found[:, channel] = np.interp(grid, known, frames[seen, channel])
-            hole = np.zeros(n_frames, np.bool_)
-            for start, stop in _find_holes(known, n_frames, self.fps).tolist():
-                hole[start:stop] = True
+            hole = mark_spans(_find_holes(known, n_frames, self.fps).tolist(), n_frames)
             missing[:, channels] = hole[:, None]
             filled += len(channels) * (n_frames - len(known) - int(hole.sum()))
         return Resampled(found, missing if missing.any() else None, filled if on_grid else 0)
@@ -272,7 +274,7 @@ def _add_clock_and_gaps(
 
 def fill_gaps_in_channels(
     timing: Timing, values: ArrayLike, names: Sequence[str]
-) -> tuple[Floats, list[tuple[int, int]], list[Note | str]]:
+) -> tuple[Floats, tuple[tuple[int, int], ...], list[Note | str]]:
     """Return finite values of each frame, the gaps, and notes.
 
     A frame lies in a gap if any channel is missing for long. Raise ParameterError if a channel
@@ -285,37 +287,25 @@ def fill_gaps_in_channels(
         values_filled = format_count(resampled.filled, "missing value")
         notes.append(f"{values_filled} interpolated linearly")
     if resampled.missing is None:
-        return resampled.values, list(timing.gaps), [*notes, *doubts]
-    jumps = np.zeros(len(resampled.values), np.bool_)
-    for start, stop in timing.gaps:
-        jumps[start:stop] = True
-    if resampled.missing.all(axis=0).any():
-        name = names[int(resampled.missing.all(axis=0).argmax())]
-        raise ParameterError(
-            f"column {name!r} contains no numbers: name the other columns (--columns)"
-        )
+        return resampled.values, timing.gaps, [*notes, *doubts]
+    jumps = mark_spans(timing.gaps, len(resampled.values))
+    for name, channel_missing in zip(names, resampled.missing.T, strict=True):
+        if channel_missing.all():
+            raise ParameterError(
+                f"column {name!r} contains no numbers: name the other columns (--columns)"
+            )
     long = resampled.missing.any(axis=1)
     if (long | jumps).all():
         raise ParameterError(
             "every frame lacks some channel for too long: choose columns with fewer gaps "
             "(--columns)"
         )
-    # gaps where the clock was reset are reported already
+    # Gaps where the clock was reset are reported already.
     holes = find_spans(long & ~jumps)
     if len(holes):
         frames = format_count(int((long & ~jumps).sum()), "frame")
         notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
-    gaps = [(start, stop) for start, stop in find_spans(long | jumps).tolist()]
-    return resampled.values, gaps, [*notes, *doubts]
-
-
-FROZEN_S = 3.0
-"""Seconds without a change after which an otherwise changing channel counts as frozen."""
-_CHANGES = 0.5  # fraction of steps that change in a channel that is not frozen
-_CLIPPED = 3  # successive values at the limit of a sensor that count as clipped
-_CLIPS = 0.001  # fraction of clipped values from which on a warning is given
-_COARSE = 5  # sensor steps by which values jump to the limit if clipped
-_LEVELS = 50  # a sensor has at least so many different values
+    return resampled.values, list_spans(long | jumps), [*notes, *doubts]
 
 
 def find_faulty_channels(
@@ -433,15 +423,11 @@ def _correct_clock(
     rising = steps[steps > 0]
     usual = float(np.median(rising)) if len(rising) else 0.0
     if back.sum() > max(1, _FEW * len(steps)):  # rows are shuffled; the clock was not reset
-        return (
-            shown,
-            None,
-            [Note("rows are not in order of time: sorted by their times", "warning")],
-        )
+        remark = "rows are not in order of time: sorted by their times"
+        return shown, None, [Note(remark, "warning")]
 
     def near(by: float) -> Masks:
-        found: Masks = np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S)
-        return found
+        return np.asarray(np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S))
 
     notes: list[Note | str] = []
     hours = near(-_HOUR) & back if usual < _HOUR / 10 else np.zeros_like(back)
@@ -456,8 +442,8 @@ def _correct_clock(
     steps = np.diff(at)
     reset = steps < -LONGEST_S
     if not reset.any():
-        if (steps < 0).any():
-            notes.append("1 step back in time" if (steps < 0).sum() == 1 else "steps back in time")
+        if n_back := int((steps < 0).sum()):
+            notes.append("1 step back in time" if n_back == 1 else "steps back in time")
         return at, None, notes
     if not _was_clock_set(at, usual, values):
         return at, None, [*notes, Note("rows are not in order of time: sorted", "warning")]

@@ -30,8 +30,8 @@ from kineme.formats.channels.reading import ChannelTable, read_text_channels
 from kineme.formats.delimited import as_text, make_unique_names, replace_decimal_comma
 from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
-from kineme.formats.plausibility import mark_spans
 from kineme.recordings import Signals
+from kineme.recordings.arrays import mark_spans
 from kineme.recordings.times import RATE, is_rate, is_timing
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
