@@ -98,7 +98,7 @@ def find_dialect(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | N
     )
 
 
-def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
+def hold_channels(names: Sequence[str]) -> bool:
     """Return whether no column of a table is a coordinate of a joint or keypoint.
 
     A table of joint coordinates is a motion. Sensors have coordinates, too: ``acc_x``, ``gyro.y``
@@ -109,6 +109,6 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
     >>> hold_channels(["time", "acc_x", "acc_y"]), hold_channels(["time", "hip_x", "hip_y"])
     (True, False)
     """
-    dialect = find_dialect(names, lines)
+    dialect = find_dialect(names)
     has_reader = dialect is not None and dialect.read is not None
     return not has_reader and not any(map(is_body, group_axes(names)))

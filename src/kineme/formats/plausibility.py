@@ -83,54 +83,6 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
     return notes
 
 
-def check_rigid_points(
-    points: Floats, names: Sequence[str], bone_points: Sequence[int]
-) -> list[Note]:
-    """Warn of points on one bone whose distance changes: they were swapped or slipped."""
-    changes = []
-    if len(bone_points) < MIN_RIGID_POINTS:
-        return []
-    for first, second in combinations(bone_points, 2):
-        lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
-        # Percentiles ignore single outliers.
-        low, middle, high = np.percentile(lengths, (2, 50, 98))
-        if high - low > MAX_DISTANCE_CHANGE * middle:
-            changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
-    if not changes:
-        return []
-    return [
-        Note(f"points on the same bone change their distance: {join_names(changes)}", "warning")
-    ]
-
-
-def check_bone_lengths(motion: Motion) -> Motion:
-    """Warn if most bones of a skeleton have no length: the rest pose is missing in the file."""
-    parents = motion.skeleton.parents
-    # A few empty bones are normal: files list more joints than the body has.
-    bones = [j for j, parent in enumerate(parents) if parent >= 0]
-    bones = [j for j in bones if j not in motion.skeleton.end_sites]
-    if motion.rotations is None or not bones:
-        return motion
-    positions = motion.positions[:: max(1, motion.n_frames // SAMPLED_FRAMES)]
-    lengths = np.linalg.norm(
-        positions[:, bones] - positions[:, [parents[j] for j in bones]], axis=2
-    )
-    empty = int((lengths.max(axis=0) < MIN_BONE_LENGTH).sum())
-    if empty < MIN_EMPTY_BONES or 2 * empty <= len(bones):
-        return motion
-    remark = f"{empty} of {len(bones)} bones have no length: export the file with its rest pose"
-    return motion.noted(Note(remark, "warning"))
-
-
-def check_posture(motion: Motion) -> Motion:
-    """Warn if the body of a motion with y up lies down most of the time: up may be another axis."""
-    axis = find_lying_axis(motion.skeleton, motion.positions)
-    if axis is None:
-        return motion
-    remark = f"the body lies along {axis} most of the time; give up= (--up) if it stands there"
-    return motion.noted(Note(remark, "warning"))
-
-
 def _find_jumps(
     points: Floats, fps: float
 ) -> tuple[list[tuple[int, int, int]], list[tuple[int, int]]]:
@@ -226,6 +178,19 @@ def fill_gaps(points: Floats, fps: float) -> Gaps:
     return gaps
 
 
+def _interpolate_cubic(
+    visible: NDArray[np.intp], values: Floats, frames: NDArray[np.intp]
+) -> Floats:
+    """Return values (frames, 3) at the frames that were not seen."""
+    if len(visible) == 1:
+        return np.repeat(values, len(frames), axis=0)
+    from scipy.interpolate import PchipInterpolator
+
+    # Clipping holds the nearest position at both ends.
+    inside = np.clip(frames, visible[0], visible[-1])
+    return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)
+
+
 def bridge_gaps(
     points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
 ) -> tuple[tuple[int, int], ...]:
@@ -271,14 +236,49 @@ def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
         )
 
 
-def _interpolate_cubic(
-    visible: NDArray[np.intp], values: Floats, frames: NDArray[np.intp]
-) -> Floats:
-    """Return values (frames, 3) at the frames that were not seen."""
-    if len(visible) == 1:
-        return np.repeat(values, len(frames), axis=0)
-    from scipy.interpolate import PchipInterpolator
+def check_rigid_points(
+    points: Floats, names: Sequence[str], bone_points: Sequence[int]
+) -> list[Note]:
+    """Warn of points on one bone whose distance changes: they were swapped or slipped."""
+    changes = []
+    if len(bone_points) < MIN_RIGID_POINTS:
+        return []
+    for first, second in combinations(bone_points, 2):
+        lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
+        # Percentiles ignore single outliers.
+        low, middle, high = np.percentile(lengths, (2, 50, 98))
+        if high - low > MAX_DISTANCE_CHANGE * middle:
+            changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
+    if not changes:
+        return []
+    return [
+        Note(f"points on the same bone change their distance: {join_names(changes)}", "warning")
+    ]
 
-    # Clipping holds the nearest position at both ends.
-    inside = np.clip(frames, visible[0], visible[-1])
-    return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)
+
+def check_bone_lengths(motion: Motion) -> Motion:
+    """Warn if most bones of a skeleton have no length: the rest pose is missing in the file."""
+    parents = motion.skeleton.parents
+    # A few empty bones are normal: files list more joints than the body has.
+    bones = [j for j, parent in enumerate(parents) if parent >= 0]
+    bones = [j for j in bones if j not in motion.skeleton.end_sites]
+    if motion.rotations is None or not bones:
+        return motion
+    positions = motion.positions[:: max(1, motion.n_frames // SAMPLED_FRAMES)]
+    lengths = np.linalg.norm(
+        positions[:, bones] - positions[:, [parents[j] for j in bones]], axis=2
+    )
+    empty = int((lengths.max(axis=0) < MIN_BONE_LENGTH).sum())
+    if empty < MIN_EMPTY_BONES or 2 * empty <= len(bones):
+        return motion
+    remark = f"{empty} of {len(bones)} bones have no length: export the file with its rest pose"
+    return motion.noted(Note(remark, "warning"))
+
+
+def check_posture(motion: Motion) -> Motion:
+    """Warn if the body of a motion with y up lies down most of the time: up may be another axis."""
+    axis = find_lying_axis(motion.skeleton, motion.positions)
+    if axis is None:
+        return motion
+    remark = f"the body lies along {axis} most of the time; give up= (--up) if it stands there"
+    return motion.noted(Note(remark, "warning"))

@@ -218,9 +218,8 @@ def _choose_body(names: list[str], gaps: Gaps, n_frames: int) -> Body:
         worst = max(incomplete, key=lambda point: (masks[point].sum(), -point))
         without = find_body(names, usable - {worst})
         tried.add(worst)
-        if without.keys() == body.keys() and _count_missing(without, masks) < _count_missing(
-            body, masks
-        ):
+        is_better = _count_missing(without, masks) < _count_missing(body, masks)
+        if is_better and without.keys() == body.keys():
             usable, body = usable - {worst}, without
     return body
 
@@ -229,11 +228,10 @@ def _find_missing_with_body(
     positions: Floats, gaps: Gaps, used: set[int], is_visible: NDArray[np.bool_], fps: float
 ) -> list[int]:
     """Return points with long gaps only in frames without the body, and fill these gaps."""
-    n = len(positions)
     points = [
         point
         for point, spans in gaps.open.items()
-        if point not in used and not (is_visible & mark_spans(spans.tolist(), n)).any()
+        if point not in used and not is_visible[mark_spans(spans.tolist(), len(positions))].any()
     ]
     bridge_gaps(positions, gaps, points, fps)
     return points
@@ -276,15 +274,15 @@ def _describe_gaps(
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
-        notes.append(
-            f"left out, since they are never seen: {join_names([names[p] for p in never])}"
-        )
-    broken = [p for p in gaps.open if p not in never and p not in kept_points]
+        unseen = join_names([names[p] for p in never])
+        notes.append(f"left out, since they are never seen: {unseen}")
+    broken = [
+        f"{names[p]} (frames {spans[0, 0]} to {spans[-1, 1] - 1})"
+        for p, spans in gaps.open.items()
+        if p not in never and p not in kept_points
+    ]
     if broken:
-        parts = [
-            f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
-        ]
-        left_out = f"left out for gaps above {LONGEST_S} s: {join_names(parts)}"
+        left_out = f"left out for gaps above {LONGEST_S} s: {join_names(broken)}"
         notes.append(Note(left_out, "warning"))
     return notes
 

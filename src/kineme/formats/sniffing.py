@@ -75,12 +75,8 @@ def sniff(content: FileContent) -> DelimitedText:
     r"""Return the table in a text file.
 
     The names are in the first line, unless a later line has more cells than all lines above it and
-    looks like names above rows of numbers.
-
-    Raises
-    ------
-    ReadError
-        The file is empty, or the names cannot be read.
+    looks like names above rows of numbers. Raise ReadError if the file is empty or the names cannot
+    be read.
 
     Examples
     --------
@@ -111,16 +107,14 @@ def sniff(content: FileContent) -> DelimitedText:
     first_row = indices[first + n_words] + 1
     is_blank_separated = header_end is not None or separator not in lines[head]
     if is_blank_separated:
-        separator, cells = "\t", lines[head].split()
-        cells = [cell.strip('"').strip() for cell in cells]
+        separator = "\t"
+        cells = [cell.strip('"').strip() for cell in lines[head].split()]
     else:
         row = next(filter(str.strip, islice(lines, first_row, None)), "")
         cells = split_head(content, lines[head], row, separator)
     skipped = indices[first + 1 : first + 1 + n_words]
-    if (
-        n_words
-        and (joined := _join_names(cells, split_cells(lines[skipped[0]], separator))) != cells
-    ):
+    joined = _join_names(cells, split_cells(lines[skipped[0]], separator)) if skipped else cells
+    if joined != cells:
         cells, skipped = joined, skipped[1:]
     is_headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     remark = "has no numbers and was skipped"

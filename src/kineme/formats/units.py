@@ -62,12 +62,6 @@ _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEIGHT = 1.7  # metres assumed for a body measured in pixels
 
 
-def iterate_blocks(n_frames: int) -> Iterator[slice]:
-    """Yield slices of frames, in blocks that fit into the processor's cache."""
-    for start in range(0, n_frames, BLOCK):
-        yield slice(start, min(start + BLOCK, n_frames))
-
-
 def to_metres(unit: str | float) -> float:
     """Return the metres in one ``unit``, a name in `UNITS` or already a length."""
     return UNITS[unit] if isinstance(unit, str) else float(unit)
@@ -79,19 +73,6 @@ def parse_unit(word: str) -> str | None:
     if metric := _METRES.fullmatch(word):
         return {"centi": "cm", "milli": "mm"}.get(metric[1], "m")
     return "inch" if word in ("in", "inch", "inches") else word if word in METRIC else None
-
-
-def turn_upright(points: Floats, up: str) -> Floats:
-    """Turn points (frames, points, 3) in place so that their axis ``up`` becomes y; return them."""
-    if up != "y":
-        for span in iterate_blocks(len(points)):
-            points[span] = rot.rotate(make_up_rotation(up), points[span])
-    return points
-
-
-def make_up_rotation(up: str) -> Floats:
-    """Return the rotation that turns the axis ``up`` to y."""
-    return np.array(_TO_Y[up])
 
 
 def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
@@ -138,34 +119,6 @@ def estimate_height(skeleton: Skeleton, means: Floats) -> float:
             longest = max(longest, reach[parent] + branch)
             reach[parent] = max(reach[parent], branch)
     return 0.75 * longest
-
-
-def infer_up(skeleton: Skeleton, positions: Floats) -> str:
-    """Return the axis along which the body stands at rest and most of the time, else "y"."""
-    feet, head = find_feet_and_head(skeleton)
-    if not head or not feet:
-        return "y"
-    axis = _find_body_axis(place_at_rest(skeleton)[None], feet, head, 0.9)
-    return axis if axis and axis == _find_body_axis(positions, feet, head, 0.7) else "y"
-
-
-def infer_rate(word: str) -> tuple[float, str | None]:
-    """Return frames per second for a written frame time, and a note if it was rounded.
-
-    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s. If exactly one integer rate
-    lies in that range, here 120 Hz, it is used.
-    """
-    period = Decimal(word)
-    exponent = period.as_tuple().exponent
-    # Half a unit of the last written digit is the largest rounding error.
-    half = Decimal(5).scaleb(int(exponent) - 1)
-    if half >= period:
-        return float(1 / period), None
-    lowest, highest = ceil(1 / (period + half)), floor(1 / (period - half))
-    if lowest == highest and float(1 / period) != lowest:
-        note = f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
-        return float(lowest), note
-    return float(1 / period), None
 
 
 def infer_scale(
@@ -223,6 +176,15 @@ def _find_human_unit(spread: float) -> str | None:
     return next(fits, None)
 
 
+def infer_up(skeleton: Skeleton, positions: Floats) -> str:
+    """Return the axis along which the body stands at rest and most of the time, else "y"."""
+    feet, head = find_feet_and_head(skeleton)
+    if not head or not feet:
+        return "y"
+    axis = _find_body_axis(place_at_rest(skeleton)[None], feet, head, 0.9)
+    return axis if axis and axis == _find_body_axis(positions, feet, head, 0.7) else "y"
+
+
 def infer_up_axis(
     default: str, positions: Floats, body: Body, *, is_stated: bool = False
 ) -> tuple[str, list[str]]:
@@ -275,3 +237,41 @@ def _find_body_axis(
     if abs(direction[axis]) < least:
         return None
     return ("-" if direction[axis] < 0 else "") + "xyz"[axis]
+
+
+def turn_upright(points: Floats, up: str) -> Floats:
+    """Turn points (frames, points, 3) in place so that their axis ``up`` becomes y; return them."""
+    if up != "y":
+        for span in iterate_blocks(len(points)):
+            points[span] = rot.rotate(make_up_rotation(up), points[span])
+    return points
+
+
+def make_up_rotation(up: str) -> Floats:
+    """Return the rotation that turns the axis ``up`` to y."""
+    return np.array(_TO_Y[up])
+
+
+def iterate_blocks(n_frames: int) -> Iterator[slice]:
+    """Yield slices of frames, in blocks that fit into the processor's cache."""
+    for start in range(0, n_frames, BLOCK):
+        yield slice(start, min(start + BLOCK, n_frames))
+
+
+def infer_rate(word: str) -> tuple[float, str | None]:
+    """Return frames per second for a written frame time, and a note if it was rounded.
+
+    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s. If exactly one integer rate
+    lies in that range, here 120 Hz, it is used.
+    """
+    period = Decimal(word)
+    exponent = period.as_tuple().exponent
+    # Half a unit of the last written digit is the largest rounding error.
+    half = Decimal(5).scaleb(int(exponent) - 1)
+    if half >= period:
+        return float(1 / period), None
+    lowest, highest = ceil(1 / (period + half)), floor(1 / (period - half))
+    if lowest == highest and float(1 / period) != lowest:
+        note = f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
+        return float(lowest), note
+    return float(1 / period), None

@@ -133,26 +133,12 @@ def find_time_unit(column: str) -> str | None:
 
 
 def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str | None]:
-    """Return times in seconds, and the unit if it was guessed from their steps.
+    """Return times (rows,) in seconds, NaN if missing, and the unit if guessed from their steps.
 
-    Parameters
-    ----------
-    values : (rows,) array_like
-        Numbers, dates of numpy and pandas, or texts.
-    unit : str, optional
-        One of `UNITS_OF_TIME`. By default the unit in which the numbers are dates of this century;
-        else seconds, or the coarsest unit with at least four rows a second if steps are large.
-
-    Returns
-    -------
-    seconds : (rows,) array
-        NaN for missing times.
-    guessed : str or None
-
-    Raises
-    ------
-    ValueError, TypeError
-        The values are not times.
+    ``values`` (rows,) are numbers, dates of numpy and pandas, or texts; raise ValueError or
+    TypeError for others. ``unit`` is one of `UNITS_OF_TIME`. By default it is the one in which the
+    numbers are dates of this century; else seconds, or the coarsest unit with at least four rows a
+    second if steps are large.
 
     Examples
     --------
@@ -222,17 +208,17 @@ def is_day_first(texts: Sequence[str]) -> bool | None:
     --------
     >>> is_day_first(["5/6/2026 23:59:59", "13/6/2026 0:00:00"])
     True
-    >>> is_day_first(["5/6/2026 1:00"])
+    >>> is_day_first(["5/6/2026 1:00", "13-Jun-2026 1:00"])
     """
-    for text in texts:
-        match = _WRITTEN.fullmatch(text)
-        if match and max(int(match["first"]), int(match["second"])) > 12:
-            return int(match["first"]) > 12
+    for text in filter(is_ambiguous, texts):
+        first, second = map(int, re.findall(r"\d+", text)[:2])
+        if max(first, second) > 12:
+            return first > 12
     return None
 
 
 def is_ambiguous(text: str) -> bool:
-    """Return whether the order of day and month in a date is unknown."""
+    """Return whether a date alone does not state the order of day and month, as ``5/6/2026``."""
     match = _WRITTEN.fullmatch(text)
     if match is None or len(match["first"]) == 4 or match["mark"] == ".":
         return False

@@ -66,7 +66,8 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
         if isinstance(entry, Mapping) and entry.get("keypoints")
     ]
     names = _find_names(data) if is_set else None
-    frames = _find_frames(content, data.get("images") if is_set else None, entries)
+    images = data.get("images") if is_set else None
+    frames = _find_frames(content, images, entries)
     people = []
     for entry, frame, person in zip(entries, frames, name_people(entries, *_IDS), strict=True):
         groups = split_groups(content, entry["keypoints"], 3)
@@ -76,7 +77,6 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
         names = list(NAMES)
     if count != len(names):
         raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
-    images = data.get("images") if is_set else None
     numbers = range(len(images)) if isinstance(images, list) else ()
     return video_to_motion(content, options, "COCO", names, people, LIMIT, frames=numbers)
 

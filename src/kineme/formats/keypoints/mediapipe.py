@@ -274,13 +274,10 @@ def normalize_name(name: str) -> str:
 _PLACES = {normalize_name(name): i for i, name in enumerate(NAMES)}
 
 
-def is_long(names: Sequence[str]) -> bool:
+def is_long(names: Sequence[str], _: Sequence[str]) -> bool:
     """Return whether these are the columns of a table with a row for each landmark."""
-    lower = [name.lower() for name in names]
-    return {"x", "y"} <= set(lower) and None not in (
-        _find_column(names, _FRAME),
-        _find_column(names, _LANDMARK),
-    )
+    columns = (_find_column(names, _FRAME), _find_column(names, _LANDMARK))
+    return {"x", "y"} <= {name.lower() for name in names} and None not in columns
 
 
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -395,10 +392,8 @@ def _find_column(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
 
 WIDE = Dialect(
     "MediaPipe",
-    lambda names, _: len(_find_landmark_columns(names)) >= 2 * len(NAMES),
+    lambda names, _: bool(_find_landmark_columns(names)),
     read_landmarks,
     motion=True,
 )
-LONG = Dialect(
-    "MediaPipe, a row per landmark", lambda names, _: is_long(names), read_long, motion=True
-)
+LONG = Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True)
