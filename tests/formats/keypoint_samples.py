@@ -1,9 +1,10 @@
-"""Output of each pose estimator for a person in front of a camera."""
+"""Output of each pose estimator for a person in front of a camera, and TRC files."""
 
 from __future__ import annotations
 
 import io
 import json
+from pathlib import Path
 
 import numpy as np
 
@@ -136,3 +137,23 @@ def sleap_h5(tracks: np.ndarray, nodes: tuple[str, ...], names: list[str], new: 
 
 def as_json(data: object) -> bytes:
     return json.dumps(data).encode()
+
+
+def write_trc(
+    path: Path, points: np.ndarray, names: list[str], unit: str = "mm", fps: float = 30.0
+) -> Path:
+    """Write points (frames, names, 3), which are in this unit, as a TRC file."""
+    head = [
+        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
+        f"{fps:g}\t{fps:g}\t{len(points)}\t{len(names)}\t{unit}",
+        "Frame#\tTime\t" + "\t\t\t".join(names),
+        "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"),
+        "",
+    ]
+    rows = (
+        "\t".join([f"{i + 1}", f"{i / fps:.4f}", *(f"{v:.5f}" for v in frame.ravel())])
+        for i, frame in enumerate(points)
+    )
+    path.write_text("\n".join([*head, *rows]))
+    return path

@@ -81,13 +81,6 @@ def test_tables_as_spreadsheets_and_loggers_write_them(tmp_path, text, encoding,
     assert read(tmp_path / "all.tsv").values.tolist() == signals.values[:, :1].tolist()
 
 
-def test_joints_with_decimal_commas(tmp_path) -> None:
-    rows = "".join(f"{i / 50:.2f};{i},5;1,25;0,5\n".replace(".", ",") for i in range(9))
-    motion = read(write(tmp_path, "a.csv", "time;hip_x;hip_y;hip_z\n" + rows), unit="m", up="y")
-    assert motion.positions[:, 0].tolist() == [[i + 0.5, 1.25, 0.5] for i in range(9)]
-    assert "numbers have a decimal comma" in motion.provenance.notes
-
-
 def test_decimal_commas_are_those_of_numbers_alone(tmp_path) -> None:
     dates = "".join(f"2026-01-31 09:30:00,{i}00;{i},5;1,25\n" for i in range(9))
     path = write(tmp_path, "a.csv", "time;acc_x;acc_y\n" + dates)
@@ -423,15 +416,9 @@ def test_parquet(tmp_path) -> None:
         ("hip_x,hip_y,hip_z", False),
         ("time,hip_x,hip_y,hip_z,acc_x,acc_y,acc_z", False),
         ("hipX,hipY", False),
-        ("scorer,DLC,DLC", False),
     ],
 )
 def test_sensors_are_told_from_joints(tmp_path, names, signals) -> None:
-    if names.startswith("scorer"):
-        assert signals is False  # tables of DeepLabCut have three lines of names, see below
-        with pytest.raises(ReadError, match="DeepLabCut"):
-            read(write(tmp_path, "a.csv", names + "\n"), columns=["a"])
-        return
     assert hold_channels(names.split(",")) is signals
     rows = (",".join("1" for _ in names.split(",")) + "\n") * 2
     recording = read(write(tmp_path, "a.csv", names + "\n" + rows), fps=50, unit="m")
@@ -441,9 +428,11 @@ def test_sensors_are_told_from_joints(tmp_path, names, signals) -> None:
 
 
 @pytest.mark.parametrize("options", [{"columns": ["a"]}, {"emg": True}])
-def test_what_holds_no_channels_is_not_read_as_such(options) -> None:
+def test_what_holds_no_channels_is_not_read_as_such(tmp_path, options) -> None:
     with pytest.raises(ReadError, match="is BVH, which cannot be read as channels"):
         read(bundled_recording(), **options)
+    with pytest.raises(ReadError, match="is a DeepLabCut table of joints, which is a motion"):
+        read(write(tmp_path, "a.csv", "scorer,DLC,DLC\n"), **options)
 
 
 def test_a_body_in_a_mat_file_is_told_from_sensors(tmp_path) -> None:

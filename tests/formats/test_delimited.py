@@ -113,10 +113,13 @@ def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) 
         DIALECTS.remove("broken")
 
 
-@pytest.mark.parametrize("head", ["start_s;stop_s;label", "Observer,Ann\nstart_s,stop_s,label,n"])
+@pytest.mark.parametrize(
+    "head",
+    ["start_s;stop_s;label", "start_s\tstop_s\tlabel", "Observer,Ann\nstart_s,stop_s,label,n"],
+)
 def test_a_folder_passes_over_tables_of_spans_in_any_layout(tmp_path: Path, head: str) -> None:
     names = head.splitlines()[-1]
-    separator = ";" if ";" in names else ","
+    separator = next(mark for mark in ";\t," if mark in names)
     row = separator.join(["0.5", "1.5", "walk", "3"][: names.count(separator) + 1])
     (tmp_path / "labels.csv").write_text(f"{head}\n{row}\n{row}\n{row}\n")
     (tmp_path / "take.csv").write_text(text("time,acc_x,acc_y,acc_z"))

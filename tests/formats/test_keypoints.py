@@ -24,6 +24,7 @@ from keypoint_samples import (
     sleap_h5,
     standing,
     world_landmarks,
+    write_trc,
 )
 from typer.testing import CliRunner
 
@@ -527,23 +528,6 @@ def test_landmarks_of_freemocap_are_in_space(tmp_path: Path) -> None:
     notes = " ".join(motion.provenance.notes)
     assert "unit mm inferred" in notes
     assert "up axis z inferred" in notes
-
-
-def write_trc(path: Path, points: np.ndarray, names: list[str], unit: str) -> Path:
-    head = [
-        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
-        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
-        f"30\t30\t{len(points)}\t{len(names)}\t{unit}",
-        "Frame#\tTime\t" + "\t\t\t".join(names),
-        "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"),
-        "",
-    ]
-    rows = (
-        "\t".join([f"{i + 1}", f"{i / 30:.4f}", *(f"{v:.4f}" for v in frame.ravel())])
-        for i, frame in enumerate(points)
-    )
-    path.write_text("\n".join([*head, *rows]))
-    return path
 
 
 @pytest.mark.parametrize("sign", [1, -1], ids=["y up", "y down"])

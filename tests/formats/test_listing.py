@@ -37,6 +37,11 @@ def archive(path: Path, *names: str) -> Path:
         ("labels.csv", "start_s,stop_s,label\n0,1,a\n", False),
         ("labels.tsv", "\ufeffonset\tduration\n", False),
         ("readme.txt", "time went by\n", False),
+        ("take.txt", "acc_x\tacc_y\n" + "0.1\t0.2\n" * 20, True),  # nothing tells its rate
+        ("take.txt", "hip_x hip_y hip_z\n" + "0.1 0.9 0.2\n" * 20, True),
+        ("take.txt", "On Monday, subject 3.\n12 trials, 3 of them bad\nNo notes.\n", False),
+        ("take.txt", "0.5\t1.5\twalk\n1.5\t2.0\trun\n2.0\t2.5\twalk\n", False),
+        ("take.txt", "0.1\n" * 30, False),
         ("a.json", '{"people": []}', False),  # a frame of a folder
         ("a.json", '[{"people": []}]', True),
         ("a.json", '{"0": {"people": []}, "1": {"people": []}}', True),
@@ -167,21 +172,3 @@ def test_archives_that_are_none_are_not_listed_as_zip(tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as file:
         file.writestr("poses.npy", b"")
     assert holds_recording(tmp_path / "a.npz")
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("acc_x\tacc_y\n" + "0.1\t0.2\n" * 20, True),  # nothing tells its rate
-        ("hip_x hip_y hip_z\n" + "0.1 0.9 0.2\n" * 20, True),
-        ("Recorded on Monday, subject 3.\n12 trials, 3 of them bad\nNo notes.\n", False),
-        ("0.5\t1.5\twalk\n1.5\t2.0\trun\n2.0\t2.5\twalk\n", False),
-        ("0.1\n" * 30, False),
-    ],
-)
-def test_texts_with_columns_of_numbers_are_recordings(
-    tmp_path: Path, text: str, expected: bool
-) -> None:
-    path = tmp_path / "take.txt"
-    path.write_text(text)
-    assert holds_recording(path) == expected

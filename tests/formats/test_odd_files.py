@@ -36,15 +36,6 @@ def test_a_leap_second(tmp_path: Path) -> None:
     assert (found.fps, found.n_frames, found.gaps) == (2, 6, ())
 
 
-@pytest.mark.parametrize("mark", [",", ";", "\t"])
-def test_a_table_of_labels_is_no_recording(tmp_path: Path, mark: str) -> None:
-    suffix = "tsv" if mark == "\t" else "csv"
-    head = mark.join(("label", "start_s", "stop_s"))
-    (tmp_path / f"labels.{suffix}").write_text(f"{head}\nwalk{mark}0{mark}1\n")
-    (tmp_path / f"data.{suffix}").write_text(f"time{mark}acc_x\n0{mark}1\n")
-    assert [path.stem for path in scan_folder(tmp_path).recordings] == ["data"]
-
-
 def test_what_kineme_wrote_keeps_its_unit_whatever_is_said_of_its_axis(tmp_path: Path) -> None:
     motion = kineme.read(kineme.bundled_recording())[:30]
     kineme.write(motion, tmp_path / "own.npz")

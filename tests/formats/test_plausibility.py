@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import ezc3d
 import numpy as np
 import pytest
+from keypoint_samples import write_trc
+from marker_samples import c3d_bytes
 
 import kineme
 from kineme.errors import KinemeWarning
@@ -42,38 +43,6 @@ def walker(*, head: bool = True) -> np.ndarray:
     return points if head else points[:, [i for i, n in enumerate(NAMES) if "FHD" not in n]]
 
 
-def write_trc(path: Path, points: np.ndarray, names: list[str], unit: str = "mm") -> Path:
-    scale = {"mm": 1000, "m": 1}[unit]
-    head = [
-        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
-        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits",
-        f"{FPS:g}\t{FPS:g}\t{len(points)}\t{len(names)}\t{unit}",
-        "Frame#\tTime\t" + "\t\t\t".join(names),
-        "\t\t" + "\t".join(f"{axis}{i + 1}" for i in range(len(names)) for axis in "XYZ"),
-        "",
-    ]
-    rows = (
-        "\t".join([f"{i + 1}", f"{i / FPS:.4f}", *(f"{v:.5f}" for v in row.ravel())])
-        for i, row in enumerate(scale * points)
-    )
-    path.write_text("\n".join([*head, *rows]))
-    return path
-
-
-def write_c3d(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
-    file = ezc3d.c3d()
-    file["parameters"]["POINT"]["RATE"]["value"] = [FPS]
-    file["parameters"]["POINT"]["LABELS"]["value"] = names
-    file["parameters"]["POINT"]["UNITS"]["value"] = ["mm"]
-    if up:
-        file.add_parameter("POINT", "Y_SCREEN", [f"+{up.upper()}"])
-    values = np.ones((4, len(names), len(points)))
-    values[:3] = 1000 * points.transpose(2, 1, 0)
-    file["data"]["points"] = values
-    file.write(str(path))
-    return path
-
-
 def write_csv(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
     columns = [f"{name}_{axis}" for name in names for axis in "xyz"]
     rows = [",".join(f"{v:.5f}" for v in row.ravel()) for row in points]
@@ -86,9 +55,19 @@ def write_csv(path: Path, points: np.ndarray, names: list[str], up: str = "") ->
     return path
 
 
+def write_millimetres(path: Path, points: np.ndarray, names: list[str] = NAMES) -> Path:
+    return write_trc(path, 1000 * points, names, fps=FPS)
+
+
+def write_c3d(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
+    y_screen = f"+{up.upper()}" if up else None
+    path.write_bytes(c3d_bytes(1000 * points, names, rate=FPS, y_screen=y_screen))
+    return path
+
+
 WRITERS = {
     ".c3d": write_c3d,
-    ".trc": lambda path, points, names, up="": write_trc(path, points, names),
+    ".trc": write_millimetres,
     ".csv": write_csv,
 }
 
@@ -132,20 +111,20 @@ def test_a_c3d_that_names_another_up_axis_is_warned_of(tmp_path: Path, stated: s
 @pytest.mark.parametrize("marker", ["LASI", "LWRA"])
 def test_a_marker_that_jumps_and_comes_back_is_not_seen_there(tmp_path: Path, marker: str) -> None:
     points = walker()
-    sound = read_quietly(write_trc(tmp_path / "sound.trc", points, NAMES))
+    sound = read_quietly(write_millimetres(tmp_path / "sound.trc", points))
     assert sound.provenance.warnings == ()
     points[200:206, NAMES.index(marker)] += (0.2, 0.55, 0.1)  # 58 m/s
     with pytest.warns(
         KinemeWarning, match=rf"jump away and back.*: {marker} \(frames 200 to 205\)"
     ):
-        motion = kineme.read(write_trc(tmp_path / "a.trc", points, NAMES))
+        motion = kineme.read(write_millimetres(tmp_path / "a.trc", points))
     assert np.abs(motion.positions - sound.positions).max() < 0.005
 
 
 def test_a_jump_without_return_is_warned_of_and_kept(tmp_path: Path) -> None:
     points = walker()
     points[200:, NAMES.index("LWRA"), 1] += 0.6
-    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert motion.provenance.warnings == ("points that jump: LWRA (first in frame 200)",)
     assert motion.gaps == ()
 
@@ -153,15 +132,15 @@ def test_a_jump_without_return_is_warned_of_and_kept(tmp_path: Path) -> None:
 def test_a_moved_origin_is_no_jump_of_each_marker(tmp_path: Path) -> None:
     points = walker()
     points[200:] += (1.0, 0, 2.0)
-    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert motion.provenance.warnings == ()
 
 
 def test_markers_at_the_origin_are_not_seen_there(tmp_path: Path) -> None:
     points = walker()
-    sound = read_quietly(write_trc(tmp_path / "sound.trc", points, NAMES))
+    sound = read_quietly(write_millimetres(tmp_path / "sound.trc", points))
     points[100:110, NAMES.index("LWRA")] = 0
-    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert list(motion.provenance.warnings) == [
         "points exactly at the origin in some frames, read as missing there: LWRA"
     ]
@@ -171,7 +150,7 @@ def test_markers_at_the_origin_are_not_seen_there(tmp_path: Path) -> None:
 def test_frames_of_zeros_are_a_gap(tmp_path: Path) -> None:
     points = walker()
     points[100:160] = 0
-    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert motion.gaps == ((100, 160),)
     assert any("60 frames with zeros only" in each for each in motion.provenance.warnings)
 
@@ -188,13 +167,13 @@ def test_markers_of_one_bone_that_are_exchanged_are_warned_of(tmp_path: Path) ->
     points = walker()
     left, right = NAMES.index("LASI"), NAMES.index("RPSI")
     points[150:250, [left, right]] = points[150:250, [right, left]]
-    motion = read_quietly(write_trc(tmp_path / "a.trc", points, NAMES))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     (warning,) = (each for each in motion.provenance.warnings if "bone" in each)
     assert warning.startswith("points on the same bone change their distance: LASI and LPSI")
 
 
 def test_a_body_of_a_kilometre_is_of_another_unit(tmp_path: Path) -> None:
-    path = write_trc(tmp_path / "a.trc", 1000 * walker(), NAMES, unit="m")
+    path = write_trc(tmp_path / "a.trc", 1000 * walker(), NAMES, "m", FPS)
     with pytest.warns(
         KinemeWarning, match=r"unit m, the points spread over 16\d\d m: mm assumed \(1\.6\d m\)"
     ):
@@ -205,7 +184,7 @@ def test_a_body_of_a_kilometre_is_of_another_unit(tmp_path: Path) -> None:
 
 
 def test_a_body_that_lies_is_warned_of(tmp_path: Path) -> None:
-    motion = read_quietly(write_trc(tmp_path / "a.trc", walker(), NAMES))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", walker()))
     lying = motion.positions[:, :, [1, 2, 0]]
     path = tmp_path / "a.npz"
     np.savez(

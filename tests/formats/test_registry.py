@@ -135,12 +135,6 @@ def test_writers_are_of_motions_or_of_signals(tmp_path: Path) -> None:
         kineme.write(np.zeros(3), tmp_path / "a.csv")
 
 
-def test_channels_without_names_are_read_again_with_their_rate(tmp_path: Path) -> None:
-    kineme.write(kineme.Signals(np.arange(6.0).reshape(3, 2), 10), tmp_path / "a.csv")
-    again = kineme.read(tmp_path / "a.csv")
-    assert (again.names, again.fps, again.n_frames) == (("1", "2"), 10, 3)
-
-
 def test_a_file_with_nothing_but_a_byte_order_mark_is_empty(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\xef\xbb\xbf\n")
     with pytest.raises(ReadError, match="the file is empty"):

@@ -60,18 +60,18 @@ def test_moves_are_found(view: View) -> None:
     assert 3.4 < moves[-1] < 4.5
 
 
-def test_light_that_changes_is_no_move() -> None:
+@pytest.mark.parametrize(
+    "picture",
+    [
+        lambda time: draw((50, 50, 1), time) * (0.5 + 0.1 * time),
+        lambda time: np.random.default_rng(round(15 * time)).normal(128, 4, (360, 640, 3)),
+    ],
+    ids=["light that changes", "a wall without edges"],
+)
+def test_what_is_no_move(picture: Callable[[float], np.ndarray]) -> None:
     camera = CameraWatch()
     for time in (np.arange(60) / 15).tolist():
-        picture = (draw((50, 50, 1), time) * (0.5 + 0.1 * time)).astype(np.uint8)
-        assert camera.measure(picture, time) == 0
-
-
-def test_a_wall_without_edges_says_nothing() -> None:
-    camera, noise = CameraWatch(), np.random.default_rng(0)
-    for time in (np.arange(60) / 15).tolist():
-        picture = noise.normal(128, 4, (360, 640, 3)).astype(np.uint8)
-        assert camera.measure(picture, time) == 0
+        assert camera.measure(picture(time).astype(np.uint8), time) == 0
 
 
 def write_moves(path: Path, person: Callable[[float], Pose]) -> Path:

@@ -29,7 +29,7 @@ def stand_in(*boxes: tuple[int, int, int, int]) -> SimpleNamespace:
     return SimpleNamespace(BodyWithFeet=lambda pose: model)
 
 
-def test_rtmlib_finds_several_people(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rtmlib_finds_several_people_or_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "rtmlib", stand_in((5, 6, 20, 40), (30, 6, 50, 40)))
     picture = np.full((48, 64, 3), (1, 2, 3), np.uint8)
     with RTMLIB.start(None) as estimate:
@@ -37,12 +37,9 @@ def test_rtmlib_finds_several_people(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [pose.image[0].tolist() for pose in poses] == [[5, 6], [30, 6]]
     assert all(len(pose.image) == len(RTMLIB.keypoints) for pose in poses)
     assert poses[0].metres is None
-
-
-def test_rtmlib_finds_nobody_without_a_box(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "rtmlib", stand_in())
     with RTMLIB.start(None) as estimate:
-        assert estimate(np.zeros((48, 64, 3), np.uint8), 0.0) == []
+        assert estimate(picture, 0.0) == []
 
 
 def test_a_later_mediapipe_says_where_a_model_is(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.errors import KinemeWarning, MotionError
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.arrays import mark_spans
 from kineme.recordings.operations import cut, move, resample, split_at_gaps
 
 NAMES = ("pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head")
@@ -44,16 +45,7 @@ def spans(draw: st.DrawFn, n: int = 100, apart: int = 1) -> tuple[tuple[int, int
 
 
 def hidden(motion: Motion) -> np.ndarray:
-    inside = np.zeros(motion.n_frames, bool)
-    for start, stop in motion.gaps:
-        inside[start:stop] = True
-    return inside
-
-
-@pytest.mark.parametrize("gaps", [((5, 5),), ((-1, 3),), ((3, 101),), ((5, 9), (9, 12))])
-def test_gaps_are_checked(gaps: tuple[tuple[int, int], ...]) -> None:
-    with pytest.raises(MotionError, match="must be within the 100 frames"):
-        body(gaps=gaps)
+    return mark_spans(motion.gaps, motion.n_frames)
 
 
 @given(spans(), st.integers(0, 99), st.integers(1, 100))

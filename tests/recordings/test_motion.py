@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from kineme._util import rotations as rot
 from kineme.errors import MotionError, ParameterError
-from kineme.recordings import Motion, Provenance, Skeleton
+from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import (
     compute_local_translations,
     compute_world_rotations,
@@ -27,11 +27,6 @@ seeds = st.integers(0, 2**32)
 def quaternions(seed: int, *shape: int) -> np.ndarray:
     q = np.random.default_rng(seed).normal(size=(*shape, 4))
     return q / np.linalg.norm(q, axis=-1, keepdims=True)
-
-
-def test_a_motion_prints_in_one_line() -> None:
-    motion = Motion.from_rotations(ARM, [[STILL, QUARTER, STILL]] * 45, 30)
-    assert repr(motion) == "<Motion of 45 frames (1.5 s) at 30 Hz: 3 joints, 1 of them end sites>"
 
 
 def test_forward_kinematics_of_a_bent_arm() -> None:
@@ -70,12 +65,6 @@ def test_translations_are_recovered(seed: int) -> None:
 def test_world_rotations_need_rotations() -> None:
     with pytest.raises(MotionError, match="positions only"):
         compute_world_rotations(ARM, None)
-
-
-def test_time() -> None:
-    motion = Motion(ARM, np.zeros((60, 3, 3)), 30)
-    assert (motion.n_frames, motion.duration, motion.fps) == (60, 2.0, 30.0)
-    assert motion.times[[0, 1, 59]] == pytest.approx([0, 1 / 30, 59 / 30])
 
 
 def test_joints_by_name() -> None:
@@ -137,12 +126,6 @@ def test_motions_that_contradict_themselves(
 ) -> None:
     with pytest.raises(MotionError, match=reason):
         Motion(ARM, positions, fps, rotations)
-
-
-def test_provenance_grows_by_notes() -> None:
-    start = Provenance(notes=("a",))
-    assert start.noted("b", "c").notes == ("a", "b", "c")
-    assert start.notes == ("a",)
 
 
 @given(seeds)

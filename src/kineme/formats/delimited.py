@@ -59,53 +59,22 @@ _FORMULA = re.compile(r"'*[=+\-@]")
 
 @dataclass(frozen=True)
 class DelimitedText:
-    """A table in a text file.
-
-    Parameters
-    ----------
-    content : FileContent
-    lines : sequence of str
-        Lines of the file, up to the end of the table.
-    names : sequence of str
-        Unique names of the columns.
-    head : int
-        Index of the line of names, or of the first row if there are no names.
-    first_row : int
-        Index of the line of the first row.
-    separator : str
-        Separator of cells.
-    is_headless : bool
-        Whether the line at ``head`` is a row of numbers rather than names.
-    is_blank_separated : bool
-        Whether blanks separate cells; ``rows`` then contain tabs instead.
-    units : sequence of str
-        Units of the columns, if a line below the names states them.
-    rate : float, optional
-        Frames per second, if a line above the names states it.
-    notes : tuple of str
-        Notes on skipped lines.
-    hidden : frozenset of str
-        Columns that are channels only if requested by name, such as a device's counters.
-    clocks : mapping of str to str, optional
-        Columns of times and their units ("" for dates), if the device is known.
-    day_before_month : bool, optional
-        Order of day and month in dates, if a header states it.
-    """
+    """A table in a text file."""
 
     content: FileContent
-    lines: Sequence[str]
-    names: Sequence[str]
-    head: int
-    first_row: int
-    separator: str
-    is_headless: bool = False
-    is_blank_separated: bool = False
-    units: Sequence[str] = ()
-    rate: float | None = None
-    notes: tuple[str, ...] = ()
-    hidden: frozenset[str] = frozenset()
-    clocks: Mapping[str, str] | None = None
-    day_before_month: bool | None = None
+    lines: Sequence[str]  # of the file, up to the end of the table
+    names: Sequence[str]  # of the columns, unique
+    head: int  # index of the line of names, or of the first row if there are no names
+    first_row: int  # index of the line of the first row
+    separator: str  # of cells
+    is_headless: bool = False  # the line at `head` is a row of numbers rather than names
+    is_blank_separated: bool = False  # blanks separate cells; `rows` contain tabs instead
+    units: Sequence[str] = ()  # of the columns, if a line below the names states them
+    rate: float | None = None  # frames per second, if a line above the names states it
+    notes: tuple[str, ...] = ()  # on skipped lines
+    hidden: frozenset[str] = frozenset()  # channels only if requested, such as counters
+    clocks: Mapping[str, str] | None = None  # columns of times and units ("" for dates), if known
+    day_before_month: bool | None = None  # order in dates, if a header states it
 
     @cached_property
     def rows(self) -> Sequence[str]:
@@ -127,7 +96,8 @@ class DelimitedText:
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
         cells = [cell for row in rows for cell in split_cells(row, self.separator)]
         # A single number with a point shows that commas are no decimal commas.
-        return any(map(has_comma, cells)) and not any("." in c for c in cells if is_number(c))
+        has_point = any("." in cell for cell in cells if is_number(cell))
+        return not has_point and any(map(_COMMA.fullmatch, cells))
 
     @cached_property
     def dates(self) -> list[int]:
@@ -141,16 +111,11 @@ class DelimitedText:
     def times(self) -> dict[str, str]:
         """Columns of times or rates, and the names under which `find_table_timing` knows them."""
         if self.clocks is not None:
-            times = {
-                name: f"time ({unit})" if unit else "time" for name, unit in self.clocks.items()
-            }
+            times = {name: append_unit("time", unit) for name, unit in self.clocks.items()}
         else:
             units = dict(zip(self.names, self.units, strict=False))
-            times = {
-                name: append_unit(name, units.get(name, ""))
-                for name in self.names
-                if is_timing(name)
-            }
+            timing = filter(is_timing, self.names)
+            times = {name: append_unit(name, units.get(name, "")) for name in timing}
         return times | {self.names[i]: "time (s)" for i in self.dates}
 
     @cached_property
@@ -182,11 +147,9 @@ class DelimitedText:
 
     def find_numeric_columns(self) -> list[str]:
         """Return the names of columns that start with a number, an empty cell or a date."""
-        first_cells = (
-            map(replace_decimal_comma, self.first_cells)
-            if self.has_decimal_comma
-            else self.first_cells
-        )
+        first_cells = self.first_cells
+        if self.has_decimal_comma:
+            first_cells = [*map(replace_decimal_comma, first_cells)]
         dates = {self.names[i] for i in self.dates}
         return [
             name
@@ -228,13 +191,9 @@ class DelimitedText:
                 for i in dates:
                     cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
                 row = [cells[i] for i in chosen]
-                values.extend(
-                    _parse_cells(
-                        content,
-                        [*map(replace_decimal_comma, row)] if self.has_decimal_comma else row,
-                        line,
-                    )
-                )
+                if self.has_decimal_comma:
+                    row = [*map(replace_decimal_comma, row)]
+                values.extend(_parse_cells(content, row, line))
         except csv.Error as error:
             raise content.error(str(error), first + reader.line_num - 1) from None
         if not values:
@@ -282,14 +241,9 @@ def is_number(cell: str) -> bool:
     return bool(_NUMBER.fullmatch(cell))
 
 
-def has_comma(cell: str) -> bool:
-    """Return whether a cell is a number with a decimal comma."""
-    return _COMMA.fullmatch(cell) is not None
-
-
 def replace_decimal_comma(cell: str) -> str:
     """Return a number with a point instead of a decimal comma, and other text unchanged."""
-    return cell.replace(",", ".") if has_comma(cell) else cell
+    return cell.replace(",", ".") if _COMMA.fullmatch(cell) else cell
 
 
 def as_text(text: str) -> str:

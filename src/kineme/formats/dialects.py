@@ -17,11 +17,10 @@ from kineme.formats import devices
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
-from kineme.formats.points import list_joints
 from kineme.formats.registry import recognises_safely
 from kineme.formats.sniffing import sniff
 from kineme.recordings import Motion, Signals
-from kineme.recordings.column_names import is_body
+from kineme.recordings.column_names import group_axes, is_body
 
 
 @dataclass(frozen=True)
@@ -99,7 +98,7 @@ def find_dialect(names: Sequence[str], lines: Sequence[str] = ()) -> Dialect | N
     )
 
 
-def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
+def hold_channels(names: Sequence[str]) -> bool:
     """Return whether no column of a table is a coordinate of a joint or keypoint.
 
     A table of joint coordinates is a motion. Sensors have coordinates, too: ``acc_x``, ``gyro.y``
@@ -110,6 +109,6 @@ def hold_channels(names: Sequence[str], lines: Sequence[str] = ()) -> bool:
     >>> hold_channels(["time", "acc_x", "acc_y"]), hold_channels(["time", "hip_x", "hip_y"])
     (True, False)
     """
-    dialect = find_dialect(names, lines)
+    dialect = find_dialect(names)
     has_reader = dialect is not None and dialect.read is not None
-    return not has_reader and not any(map(is_body, list_joints(names)))
+    return not has_reader and not any(map(is_body, group_axes(names)))

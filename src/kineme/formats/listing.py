@@ -14,7 +14,7 @@ that were estimated from a video are read with the video.
 Files that cannot be judged (damaged, deleted or unreadable) are skipped with a reason and never
 stop the listing.
 
-@@label_tables: Recognise tables of labels, which share suffixes with recordings, by their first bytes.
+Tables of labels by ELAN and BORIS share suffixes with recordings; their first bytes tell.
 """
 
 from __future__ import annotations
@@ -32,47 +32,9 @@ from kineme.errors import ReadError
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import list_frame_files
-from kineme.formats.points import list_joints
 from kineme.formats.registry import is_video, recognises_safely, supported_formats
+from kineme.recordings.column_names import group_axes
 from kineme.recordings.times import is_timing
-
-_ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\S+)", re.IGNORECASE)
-_CLOCK_TIME = r"\d+:\d\d:\d\d\.\d{1,3}"
-_SECONDS = r"\d+(?:\.\d+)?"
-_ELAN_ROW = re.compile(
-    # tier, participant (may be empty), begin, end, duration (optional), text
-    rf"(?!{_SECONDS}\t)[^\t]+\t[^\t]*(?:\t(?:{_CLOCK_TIME}|{_SECONDS})){{2,}}\t[^\t]*[^\d\s][^\t]*"
-)
-
-
-def is_elan_table(head: str) -> bool:
-    """Return whether a text starts like a tab-delimited export of ELAN, with or without names."""
-    lines = [line.strip("\r") for line in head.splitlines() if line.strip()]
-    lines = [line for line in lines if not line.startswith('"#')]
-    if not lines:
-        return False
-    return len(_ELAN_HEADER.findall(lines[0])) >= 2 or all(map(_ELAN_ROW.fullmatch, lines[:2]))
-
-
-def is_boris_table(head: str) -> bool:
-    """Return whether a text starts like an export of events from BORIS."""
-    cells = {cell.strip('"') for cell in re.split(r"[,\t\r\n]", head)}
-    return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
-
-
-def find_label_program(head: str) -> str | None:
-    """Return the program whose table of labels starts with this text, or None."""
-    return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
-
-
-def refuse_labels(content: FileContent) -> None:
-    """Raise ReadError if a text file holds labels."""
-    if program := find_label_program(content.text[:HEAD]):
-        raise content.error(
-            f"holds labels of {program}, not a recording: read it with "
-            "kineme.read_segments, or use kineme convert with --fps"
-        )
-
 
 SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
 """Columns of tables whose rows are spans or events, in lower case."""
@@ -82,6 +44,13 @@ MIN_ROWS, MIN_COLUMNS = 3, 2
 
 _SKELETONS = {".asf"}  # belong to the AMC next to them
 _AMBIGUOUS = {".json", ".txt", ".dat"}  # may hold anything
+_ELAN_HEADER = re.compile(r"(?:begin|end) time - (?:hh:mm:ss\.ms|ss\.msec|msec|\S+)", re.IGNORECASE)
+_CLOCK_TIME = r"\d+:\d\d:\d\d\.\d{1,3}"
+_SECONDS = r"\d+(?:\.\d+)?"
+_ELAN_ROW = re.compile(
+    # tier, participant (may be empty), begin, end, duration (optional), text
+    rf"(?!{_SECONDS}\t)[^\t]+\t[^\t]*(?:\t(?:{_CLOCK_TIME}|{_SECONDS})){{2,}}\t[^\t]*[^\d\s][^\t]*"
+)
 
 
 @dataclass(frozen=True)
@@ -236,7 +205,7 @@ def _has_motion_arrays(path: Path) -> bool:
     return (
         not {"poses", "positions"}.isdisjoint(names)
         or any(map(is_timing, names))
-        or bool(list_joints(names))
+        or bool(group_axes(names))
     )
 
 
@@ -244,3 +213,32 @@ def _describe_error(error: Exception) -> str:
     if isinstance(error, OSError):
         return f"cannot be opened: {error.strerror or error}"
     return f"is damaged: {' '.join(str(error).split()) or type(error).__name__}"
+
+
+def is_elan_table(head: str) -> bool:
+    """Return whether a text starts like a tab-delimited export of ELAN, with or without names."""
+    lines = [line.strip("\r") for line in head.splitlines() if line.strip()]
+    lines = [line for line in lines if not line.startswith('"#')]
+    if not lines:
+        return False
+    return len(_ELAN_HEADER.findall(lines[0])) >= 2 or all(map(_ELAN_ROW.fullmatch, lines[:2]))
+
+
+def is_boris_table(head: str) -> bool:
+    """Return whether a text starts like an export of events from BORIS."""
+    cells = {cell.strip('"') for cell in re.split(r"[,\t\r\n]", head)}
+    return "Behavior" in cells and ("Time" in cells or {"Start (s)", "Stop (s)"} <= cells)
+
+
+def find_label_program(head: str) -> str | None:
+    """Return the program whose table of labels starts with this text, or None."""
+    return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
+
+
+def refuse_labels(content: FileContent) -> None:
+    """Raise ReadError if a text file holds labels."""
+    if program := find_label_program(content.text[:HEAD]):
+        raise content.error(
+            f"holds labels of {program}, not a recording: read it with "
+            "kineme.read_segments, or use kineme convert with --fps"
+        )

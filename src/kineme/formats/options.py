@@ -1,7 +1,4 @@
-"""Define the options for reading files.
-
-@@persons: Choose the person to read from a file with several.
-"""
+"""Define the options for reading files, and choose the person to read from a file with several."""
 
 from __future__ import annotations
 

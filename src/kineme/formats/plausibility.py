@@ -1,10 +1,8 @@
-"""Check motions for implausible data: points that jump or sit at the origin, bodies that lie down.
+"""Check motions for implausible data, and fill gaps.
 
-`drop_implausible` checks points before gaps are filled; `check_bone_lengths` and `check_posture`
-check every motion. Dropped points become gaps. Each finding is a warning that states what was
-assumed. `kineme.formats.units` checks units and up axes.
-
-@@gaps: Fill short gaps, in which a point was not seen (NaN), and list long ones.
+`drop_implausible` checks points before gaps are filled: those that jump or sit at the origin become
+gaps. `check_bone_lengths` and `check_posture` check every motion. Each finding is a warning that
+states what was assumed. `kineme.formats.units` checks units and up axes.
 
 Gaps of up to 0.2 s are filled along a monotone cubic (PCHIP) through the frames in which the point
 was seen. At either end of the recording the nearest position is held. Longer gaps are listed. If
@@ -26,115 +24,10 @@ from kineme._util.arrays import Floats, bridge_line
 from kineme._util.checks import format_count, join_names, warn
 from kineme.formats.units import find_lying_axis, iterate_blocks
 from kineme.recordings import Motion, Note
-from kineme.recordings.arrays import find_spans
+from kineme.recordings.arrays import find_spans, list_spans, mark_spans
 from kineme.recordings.regular import LONGEST_S
 
 Spans = NDArray[np.intp]
-
-
-@dataclass(frozen=True)
-class Gaps:
-    """Filled and open gaps of points.
-
-    ``filled`` is the number of filled frames by the index of the point; ``open`` are the remaining
-    spans [start, stop) of a point.
-    """
-
-    filled: dict[int, int]
-    open: dict[int, Spans]
-
-
-def fill_gaps(points: Floats, fps: float) -> Gaps:
-    """Fill the short gaps of ``points`` (frames, points, 3) in place.
-
-    A point with NaN in any coordinate counts as not seen.
-    """
-    missing = np.asarray(np.isnan(points).any(axis=2))
-    longest = int(LONGEST_S * fps + 1e-9)  # the margin undoes rounding of the product
-    gaps = Gaps({}, {})
-    for point in np.flatnonzero(missing.any(axis=0)).tolist():
-        spans = find_spans(missing[:, point])
-        lengths = spans[:, 1] - spans[:, 0]
-        # A point never seen has no neighbours to interpolate, however short the recording is.
-        long = np.asarray((lengths > longest) | (lengths == len(points)))
-        missing_frames = np.concatenate(
-            [np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)]
-        )
-        if len(missing_frames):
-            visible = np.flatnonzero(~missing[:, point])
-            points[missing_frames, point] = _interpolate_cubic(
-                visible, points[visible, point], missing_frames
-            )
-            gaps.filled[point] = len(missing_frames)
-        if long.any():
-            gaps.open[point] = spans[long]
-    return gaps
-
-
-def bridge_gaps(
-    points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
-) -> tuple[tuple[int, int], ...]:
-    """Fill the open gaps of the chosen points in place and return the filled frames [start, stop).
-
-    Values are interpolated linearly. Frames seen for at most 0.2 s between two gaps are part of
-    one gap.
-    """
-    n, longest = len(points), int(LONGEST_S * fps + 1e-9)
-    missing = np.zeros(n, np.bool_)
-    for point in chosen:
-        if point not in gaps.open:
-            continue
-        is_hidden = mark_spans(gaps.open[point].tolist(), n)
-        for axis in range(points.shape[2]):
-            bridge_line(points[:, point, axis], is_hidden)
-        missing |= is_hidden
-    for start, stop in find_spans(~missing).tolist():
-        if missing.any() and stop - start <= longest:
-            missing[start:stop] = True
-    return tuple((start, stop) for start, stop in find_spans(missing).tolist())
-
-
-def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
-    """Return a mask (n,) of the frames inside any of the spans [start, stop)."""
-    inside = np.zeros(n, np.bool_)
-    for start, stop in spans:
-        inside[start:stop] = True
-    return inside
-
-
-def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
-    """Return the motion with these spans [start, stop) added to its gaps."""
-    joined = mark_spans([*motion.gaps, *spans], motion.n_frames)
-    return replace(motion, gaps=tuple((a, b) for a, b in find_spans(joined).tolist()))
-
-
-def mark_gaps(motion: Motion) -> list[bool]:
-    """Return for each frame whether it is in a gap of the motion."""
-    return list(map(bool, mark_spans(motion.gaps, motion.n_frames)))
-
-
-def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
-    """Warn if motions with gaps are written to a format that has no gaps."""
-    seconds = sum((b - a) / motion.fps for motion in motions for a, b in motion.gaps)
-    if seconds:
-        warn(
-            f"{path.name}: gaps of {seconds:.1f} s become movement, since the format cannot "
-            "store gaps: leave these clips out, or write .npz, .csv or .trc"
-        )
-
-
-def _interpolate_cubic(
-    visible: NDArray[np.intp], values: Floats, frames: NDArray[np.intp]
-) -> Floats:
-    """Return values (frames, 3) at the frames that were not seen."""
-    if len(visible) == 1:
-        return np.repeat(values, len(frames), axis=0)
-    from scipy.interpolate import PchipInterpolator
-
-    # Clipping holds the nearest position at both ends.
-    inside = np.clip(frames, visible[0], visible[-1])
-    return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)
-
 
 MAX_SPEED = 15.0
 """Maximum speed of a point relative to the others, in body sizes per second.
@@ -188,54 +81,6 @@ def drop_implausible(points: Floats, names: Sequence[str], fps: float) -> list[N
         parts = [f"{names[point]} (first in frame {frame})" for point, frame in first.items()]
         notes.append(Note(f"points that jump: {join_names(parts)}", "warning"))
     return notes
-
-
-def check_rigid_points(
-    points: Floats, names: Sequence[str], bone_points: Sequence[int]
-) -> list[Note]:
-    """Warn of points on one bone whose distance changes: they were swapped or slipped."""
-    changes = []
-    if len(bone_points) < MIN_RIGID_POINTS:
-        return []
-    for first, second in combinations(bone_points, 2):
-        lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
-        # Percentiles ignore single outliers.
-        low, middle, high = np.percentile(lengths, (2, 50, 98))
-        if high - low > MAX_DISTANCE_CHANGE * middle:
-            changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
-    if not changes:
-        return []
-    return [
-        Note(f"points on the same bone change their distance: {join_names(changes)}", "warning")
-    ]
-
-
-def check_bone_lengths(motion: Motion) -> Motion:
-    """Warn if most bones of a skeleton have no length: the rest pose is missing in the file."""
-    parents = motion.skeleton.parents
-    # A few empty bones are normal: files list more joints than the body has.
-    bones = [j for j, parent in enumerate(parents) if parent >= 0]
-    bones = [j for j in bones if j not in motion.skeleton.end_sites]
-    if motion.rotations is None or not bones:
-        return motion
-    positions = motion.positions[:: max(1, motion.n_frames // SAMPLED_FRAMES)]
-    lengths = np.linalg.norm(
-        positions[:, bones] - positions[:, [parents[j] for j in bones]], axis=2
-    )
-    empty = int((lengths.max(axis=0) < MIN_BONE_LENGTH).sum())
-    if empty < MIN_EMPTY_BONES or 2 * empty <= len(bones):
-        return motion
-    remark = f"{empty} of {len(bones)} bones have no length: export the file with its rest pose"
-    return motion.noted(Note(remark, "warning"))
-
-
-def check_posture(motion: Motion) -> Motion:
-    """Warn if the body of a motion with y up lies down most of the time: up may be another axis."""
-    axis = find_lying_axis(motion.skeleton, motion.positions)
-    if axis is None:
-        return motion
-    remark = f"the body lies along {axis} most of the time; give up= (--up) if it stands there"
-    return motion.noted(Note(remark, "warning"))
 
 
 def _find_jumps(
@@ -292,3 +137,148 @@ def _measure_size(points: Floats) -> float:
     if not len(some):
         return 0.0
     return float(np.median((np.nanmax(some, axis=1) - np.nanmin(some, axis=1)).max(axis=1)))
+
+
+@dataclass(frozen=True)
+class Gaps:
+    """Filled and open gaps of points.
+
+    ``filled`` is the number of filled frames by the index of the point; ``open`` are the remaining
+    spans [start, stop) of a point.
+    """
+
+    filled: dict[int, int]
+    open: dict[int, Spans]
+
+
+def fill_gaps(points: Floats, fps: float) -> Gaps:
+    """Fill the short gaps of ``points`` (frames, points, 3) in place.
+
+    A point with NaN in any coordinate counts as not seen.
+    """
+    missing = np.asarray(np.isnan(points).any(axis=2))
+    longest = int(LONGEST_S * fps + 1e-9)  # the margin undoes rounding of the product
+    gaps = Gaps({}, {})
+    for point in np.flatnonzero(missing.any(axis=0)).tolist():
+        spans = find_spans(missing[:, point])
+        lengths = spans[:, 1] - spans[:, 0]
+        # A point never seen has no neighbours to interpolate, however short the recording is.
+        long = np.asarray((lengths > longest) | (lengths == len(points)))
+        missing_frames = np.concatenate(
+            [np.arange(*span) for span in spans[~long]] or [np.empty(0, np.intp)]
+        )
+        if len(missing_frames):
+            visible = np.flatnonzero(~missing[:, point])
+            points[missing_frames, point] = _interpolate_cubic(
+                visible, points[visible, point], missing_frames
+            )
+            gaps.filled[point] = len(missing_frames)
+        if long.any():
+            gaps.open[point] = spans[long]
+    return gaps
+
+
+def _interpolate_cubic(
+    visible: NDArray[np.intp], values: Floats, frames: NDArray[np.intp]
+) -> Floats:
+    """Return values (frames, 3) at the frames that were not seen."""
+    if len(visible) == 1:
+        return np.repeat(values, len(frames), axis=0)
+    from scipy.interpolate import PchipInterpolator
+
+    # Clipping holds the nearest position at both ends.
+    inside = np.clip(frames, visible[0], visible[-1])
+    return np.asarray(PchipInterpolator(visible, values)(inside), np.float64)
+
+
+def bridge_gaps(
+    points: Floats, gaps: Gaps, chosen: Iterable[int], fps: float
+) -> tuple[tuple[int, int], ...]:
+    """Fill the open gaps of the chosen points in place and return the filled frames [start, stop).
+
+    Values are interpolated linearly. Frames seen for at most 0.2 s between two gaps are part of
+    one gap.
+    """
+    n, longest = len(points), int(LONGEST_S * fps + 1e-9)
+    missing = np.zeros(n, np.bool_)
+    for point in chosen:
+        if point not in gaps.open:
+            continue
+        is_hidden = mark_spans(gaps.open[point].tolist(), n)
+        for axis in range(points.shape[2]):
+            bridge_line(points[:, point, axis], is_hidden)
+        missing |= is_hidden
+    for start, stop in find_spans(~missing).tolist():
+        if missing.any() and stop - start <= longest:
+            missing[start:stop] = True
+    return list_spans(missing)
+
+
+def split_at(motion: Motion, spans: Iterable[tuple[int, int]]) -> Motion:
+    """Return the motion with these spans [start, stop) added to its gaps."""
+    joined = mark_spans([*motion.gaps, *spans], motion.n_frames)
+    return replace(motion, gaps=list_spans(joined))
+
+
+def mark_gaps(motion: Motion) -> list[bool]:
+    """Return for each frame whether it is in a gap of the motion."""
+    marked: list[bool] = mark_spans(motion.gaps, motion.n_frames).tolist()
+    return marked
+
+
+def warn_of_gaps(motions: Iterable[Motion], path: Path) -> None:
+    """Warn if motions with gaps are written to a format that has no gaps."""
+    seconds = sum((b - a) / motion.fps for motion in motions for a, b in motion.gaps)
+    if seconds:
+        warn(
+            f"{path.name}: gaps of {seconds:.1f} s become movement, since the format cannot "
+            "store gaps: leave these clips out, or write .npz, .csv or .trc"
+        )
+
+
+def check_rigid_points(
+    points: Floats, names: Sequence[str], bone_points: Sequence[int]
+) -> list[Note]:
+    """Warn of points on one bone whose distance changes: they were swapped or slipped."""
+    changes = []
+    if len(bone_points) < MIN_RIGID_POINTS:
+        return []
+    for first, second in combinations(bone_points, 2):
+        lengths = np.linalg.norm(points[:, first] - points[:, second], axis=1)
+        # Percentiles ignore single outliers.
+        low, middle, high = np.percentile(lengths, (2, 50, 98))
+        if high - low > MAX_DISTANCE_CHANGE * middle:
+            changes.append(f"{names[first]} and {names[second]} (by {(high - low) / middle:.0%})")
+    if not changes:
+        return []
+    return [
+        Note(f"points on the same bone change their distance: {join_names(changes)}", "warning")
+    ]
+
+
+def check_bone_lengths(motion: Motion) -> Motion:
+    """Warn if most bones of a skeleton have no length: the rest pose is missing in the file."""
+    parents = motion.skeleton.parents
+    # A few empty bones are normal: files list more joints than the body has.
+    bones = [j for j, parent in enumerate(parents) if parent >= 0]
+    bones = [j for j in bones if j not in motion.skeleton.end_sites]
+    if motion.rotations is None or not bones:
+        return motion
+    positions = motion.positions[:: max(1, motion.n_frames // SAMPLED_FRAMES)]
+    lengths = np.linalg.norm(
+        positions[:, bones] - positions[:, [parents[j] for j in bones]], axis=2
+    )
+    empty = int((lengths.max(axis=0) < MIN_BONE_LENGTH).sum())
+    if empty < MIN_EMPTY_BONES or 2 * empty <= len(bones):
+        return motion
+    remark = f"{empty} of {len(bones)} bones have no length: export the file with its rest pose"
+    return motion.noted(Note(remark, "warning"))
+
+
+def check_posture(motion: Motion) -> Motion:
+    """Warn if the body of a motion with y up lies down most of the time: up may be another axis."""
+    axis = find_lying_axis(motion.skeleton, motion.positions)
+    if axis is None:
+        return motion
+    remark = f"the body lies along {axis} most of the time; give up= (--up) if it stands there"
+    return motion.noted(Note(remark, "warning"))

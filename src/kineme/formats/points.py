@@ -1,17 +1,15 @@
-"""Convert named points over time (markers, keypoints, joint positions) to a motion.
+"""Convert named points over time (markers, keypoints, columns of a table) to a motion.
 
 The motion has no rotations. Its skeleton is the small tree of `kineme.recordings.joint_names`
 (pelvis, hips, ankles, head, wrists), as far as the points define these joints. All points are
 children of the pelvis; without a pelvis and hips each point is a root. Offsets are those of the
 frame in which the body is highest.
 
-`kineme.formats.plausibility` fills short gaps. A point with a longer gap is left out with a warning. If a
-joint of the body needs the point, the gap splits the motion instead. Points that are missing only
-in such gaps are kept.
+`kineme.formats.plausibility` fills short gaps. A point with a longer gap is left out, with a
+warning. If a joint of the body needs the point, the gap splits the motion instead. Points that are
+missing only in such gaps are kept.
 
-@@columns: Convert tables with columns of joint coordinates to motions.
-
-A joint has two or three columns whose names differ in the last letter: ``hip_x hip_y hip_z``,
+In a table, a joint has two or three columns whose names differ in the last letter: ``hip_x hip_y``,
 ``hip.x``, ``hip x`` or ``hipX``, in any order, or ``hip_pos_x`` if all names have this form. A name
 may state the unit, as in ``hip_x [mm]`` or ``hip_x_mm``; columns may have different units.
 Velocities, rotations and similar columns of joints are ignored. Other columns that are read:
@@ -47,12 +45,12 @@ from kineme.formats.plausibility import (
     check_rigid_points,
     drop_implausible,
     fill_gaps,
-    mark_spans,
     split_at,
 )
 from kineme.formats.sniffing import find_table_timing, place_points, read_column
 from kineme.formats.units import METRIC, infer_scale, infer_up_axis, to_metres, turn_upright
 from kineme.recordings import Motion, Note, Provenance, Skeleton
+from kineme.recordings.arrays import mark_spans
 from kineme.recordings.column_names import COORDINATE, group_axes, is_body, list_beginnings
 from kineme.recordings.joint_names import PARENTS, find_body
 from kineme.recordings.regular import LONGEST_S
@@ -60,11 +58,22 @@ from kineme.recordings.times import is_timing
 
 Body = dict[str, tuple[int, ...]]
 Spans = tuple[tuple[int, int], ...]
+Joints = Mapping[str, Mapping[str, str]]
+"""Columns of each joint, by axis."""
 
 RIGID = ("pelvis", "head")
 """Joints of the body whose points are all on one bone."""
 BODY = "joints of the body"
 """Start of the note that lists the points of each joint."""
+LIMIT = 0.5
+"""Confidence at and above which a keypoint counts as seen."""
+
+_CONFIDENCE = re.compile(
+    r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
+)
+_POSITION = re.compile(
+    r"(.*[^\s_.:/-])(?:[\s_.:/-]+pos(?:ition)?|(?-i:Pos(?:ition)?))", re.IGNORECASE
+)
 
 
 @dataclass(frozen=True)
@@ -132,12 +141,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     if not is_visible.any():
         hidden_names = join_names([names[i] for i in sorted(body_points & gaps.open.keys())])
         raise ReadError(path, f"the body is never complete: {hidden_names} are never seen together")
-    kept_points = sorted(
-        [
-            *kept_points,
-            *_find_missing_with_body(positions, gaps, body_points, is_visible, points.fps),
-        ]
-    )
+    kept_points += _find_missing_with_body(positions, gaps, body_points, is_visible, points.fps)
+    kept_points.sort()
     notes = [*doubts, *_describe_gaps(names, gaps, kept_points, len(positions))]
     notes += _describe_splits(names, gaps, body_points, missing, points.fps)
     visible = positions if is_visible.all() else positions[is_visible]
@@ -159,7 +164,11 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         names, turn_upright(positions, up), body, kept_points, is_visible
     )
     if "pelvis" in body:
-        notes.append(f"{BODY}: {describe_body(body, names)}")
+        used = (
+            f"{joint.replace('_', ' ')} from {' '.join(names[i] for i in joint_points)}"
+            for joint, joint_points in body.items()
+        )
+        notes.append(f"{BODY}: {', '.join(used)}")
     return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
 
 
@@ -182,14 +191,6 @@ def split_subjects(names: Sequence[str], person: str | None = None) -> tuple[lis
         chosen = person if person in subjects else subjects[0]
     members = set(points.get(chosen, ()))
     return [short[i] if i in members else name for i, name in enumerate(names)], subjects
-
-
-def describe_body(body: Body, names: Sequence[str]) -> str:
-    """Return a line for users: ``left ankle from LANK, ...``."""
-    return ", ".join(
-        f"{joint.replace('_', ' ')} from {' '.join(names[i] for i in joint_points)}"
-        for joint, joint_points in body.items()
-    )
 
 
 def _describe_subject(path: str, subjects: list[str], person: str | None) -> Note:
@@ -217,9 +218,8 @@ def _choose_body(names: list[str], gaps: Gaps, n_frames: int) -> Body:
         worst = max(incomplete, key=lambda point: (masks[point].sum(), -point))
         without = find_body(names, usable - {worst})
         tried.add(worst)
-        if without.keys() == body.keys() and _count_missing(without, masks) < _count_missing(
-            body, masks
-        ):
+        is_better = _count_missing(without, masks) < _count_missing(body, masks)
+        if is_better and without.keys() == body.keys():
             usable, body = usable - {worst}, without
     return body
 
@@ -228,11 +228,10 @@ def _find_missing_with_body(
     positions: Floats, gaps: Gaps, used: set[int], is_visible: NDArray[np.bool_], fps: float
 ) -> list[int]:
     """Return points with long gaps only in frames without the body, and fill these gaps."""
-    n = len(positions)
     points = [
         point
         for point, spans in gaps.open.items()
-        if point not in used and not (is_visible & mark_spans(spans.tolist(), n)).any()
+        if point not in used and not is_visible[mark_spans(spans.tolist(), len(positions))].any()
     ]
     bridge_gaps(positions, gaps, points, fps)
     return points
@@ -275,15 +274,15 @@ def _describe_gaps(
         )
     never = [p for p, spans in gaps.open.items() if np.diff(spans).sum() == n_frames]
     if never:
-        notes.append(
-            f"left out, since they are never seen: {join_names([names[p] for p in never])}"
-        )
-    broken = [p for p in gaps.open if p not in never and p not in kept_points]
+        unseen = join_names([names[p] for p in never])
+        notes.append(f"left out, since they are never seen: {unseen}")
+    broken = [
+        f"{names[p]} (frames {spans[0, 0]} to {spans[-1, 1] - 1})"
+        for p, spans in gaps.open.items()
+        if p not in never and p not in kept_points
+    ]
     if broken:
-        parts = [
-            f"{names[p]} (frames {gaps.open[p][0, 0]} to {gaps.open[p][-1, 1] - 1})" for p in broken
-        ]
-        left_out = f"left out for gaps above {LONGEST_S} s: {join_names(parts)}"
+        left_out = f"left out for gaps above {LONGEST_S} s: {join_names(broken)}"
         notes.append(Note(left_out, "warning"))
     return notes
 
@@ -316,20 +315,6 @@ def _build_skeleton(
     offsets = upright_pose - upright_pose[parents]
     offsets[0] = 0
     return Skeleton((*joints, *(names[i] for i in rest)), tuple(parents), offsets), joint_positions
-
-
-Joints = Mapping[str, Mapping[str, str]]
-"""Columns of each joint, by axis."""
-
-LIMIT = 0.5
-"""Confidence at and above which a keypoint counts as seen."""
-
-_CONFIDENCE = re.compile(
-    r"(.*[^\s_.:/-])[\s_.:/-]+(confidence|likelihood|score|visibility|presence|c)", re.IGNORECASE
-)
-_POSITION = re.compile(
-    r"(.*[^\s_.:/-])(?:[\s_.:/-]+pos(?:ition)?|(?-i:Pos(?:ition)?))", re.IGNORECASE
-)
 
 
 def columns_to_motion(
@@ -378,11 +363,6 @@ def is_used(column: str) -> bool:
     return is_timing(column) or any(
         pattern.fullmatch(column.strip()) for pattern in (COORDINATE, _CONFIDENCE)
     )
-
-
-def list_joints(columns: Iterable[str]) -> list[str]:
-    """Return the joints whose coordinates are in columns of these names, in order."""
-    return list(group_axes(columns))
 
 
 def _find_joints(content: FileContent, columns: Iterable[str]) -> Joints:

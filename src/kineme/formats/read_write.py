@@ -283,19 +283,22 @@ def write(recording: Motion | Signals, path: AnyPath) -> None:
     check_type(recording, (Motion, Signals), "write", "kineme.read(path) gives one")
     check_path(path, "write")
     target = Path(path)
-    writers: dict[str, Callable[[Any, Path], None]] = {}
-    for candidate in supported_formats():
-        writer = candidate.write if isinstance(recording, Motion) else candidate.write_signals
-        if writer is not None:
-            writers |= {s: writer for s in candidate.suffixes if s not in writers}
+    is_motion = isinstance(recording, Motion)
+    writers = {
+        suffix: writer
+        for candidate in reversed(supported_formats())  # the first format of a suffix wins
+        for suffix in candidate.suffixes
+        if (writer := candidate.write if is_motion else candidate.write_signals)
+    }
     if target.suffix.lower() not in writers:
-        kind = "a motion" if isinstance(recording, Motion) else "signals"
+        kind = "a motion" if is_motion else "signals"
         raise WriteError(
             path,
             f"cannot write {kind} with the suffix {target.suffix!r}: use one of "
             f"{', '.join(sorted(writers))}",
         )
-    writers[target.suffix.lower()](recording, target)
+    write_file: Callable[[Any, Path], None] = writers[target.suffix.lower()]
+    write_file(recording, target)
 
 
 def _load(path: AnyPath) -> FileContent:

@@ -96,14 +96,13 @@ class Format:
         check_suffixes(self.suffixes, self.name)
 
 
-_EXPORT = "export BVH or C3D from the program that made it"
-_UNPACK = "unpack it first"
+_PACKED = (".usdz", ".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz")
 ADVICE = {
-    **dict.fromkeys((".mvn", ".qtm", ".tak", ".x2d"), _EXPORT),
-    **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
     **dict.fromkeys(
-        (".usdz", ".gz", ".bz2", ".xz", ".zip", ".7z", ".rar", ".tar", ".tgz"), _UNPACK
+        (".mvn", ".qtm", ".tak", ".x2d"), "export BVH or C3D from the program that made it"
     ),
+    **dict.fromkeys((".xlsx", ".xls", ".ods"), "save it as CSV"),
+    **dict.fromkeys(_PACKED, "unpack it first"),
 }
 """Advice for unsupported files that people try to read, by suffix."""
 

@@ -1,4 +1,6 @@
-"""Find the table in a text file of no known device (see `kineme.formats.devices` for these).
+"""Find the table in a text file of no known device, and the timing of any table.
+
+`kineme.formats.devices` describes the tables of known devices. In others:
 
 - Lines above the names may be blank, start with ``#``, be the ``sep=;`` of spreadsheets, a header
   that ends with ``endheader``, or describe the device. One of them may state the frame rate:
@@ -8,7 +10,8 @@
   first ones are shared by several columns.
 - Names may be missing: the table then starts with a row of numbers.
 
-@@timing: Find the timing of a table from its columns, see `kineme.recordings.times` and `.regular`.
+`kineme.recordings.times` describes columns of times, `kineme.recordings.regular` how rows become
+frames.
 """
 
 from __future__ import annotations
@@ -16,6 +19,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import chain, dropwhile, islice, takewhile
 
 import numpy as np
@@ -36,7 +40,7 @@ from kineme.formats.delimited import (
 )
 from kineme.formats.files import FileContent
 from kineme.recordings import Note
-from kineme.recordings.arrays import find_spans
+from kineme.recordings.arrays import list_spans, mark_spans
 from kineme.recordings.regular import Timing, place_rows
 from kineme.recordings.times import (
     UNITS_NAMED,
@@ -48,106 +52,6 @@ from kineme.recordings.times import (
     is_timing,
 )
 
-_MIN_RATE = 1.0  # frames per second; times without a unit that give less are not seconds
-
-
-def find_table_timing(
-    content: FileContent,
-    columns: Mapping[str, ArrayLike],
-    fps: float | None = None,
-    values: Floats | None = None,
-) -> Timing:
-    """Return the rate of a table and the frame of each row; ``fps`` overrides its times.
-
-    ``values`` (rows, channels) help to separate sensors of different rates. Raise ReadError if no
-    column defines the rate, or if one is inconsistent.
-    """
-    if fps:
-        return Timing(fps)
-    for column in columns:
-        if is_rate(column):
-            return Timing(_check_rate(content, read_column(content, columns, column)))
-    clocks = [column for column in columns if is_time(column)]
-    stopped = [column for column in clocks if len(clocks) > 1 and _is_stopped(columns[column])]
-    # Use the first clock that runs; a single stopped one is refused with the reason.
-    for column in [name for name in clocks if name not in stopped] or clocks:
-        unit = find_time_unit(column)
-        try:
-            times, guessed_unit = as_seconds(columns[column], unit)
-        except (ValueError, TypeError) as error:
-            raise content.error(f"column {column!r} cannot be read as times: {error}") from None
-        times = read_column(content, {column: times}, column)
-        timing = find_timing(content, times, values)
-        notes = list(timing.notes)
-        if guessed_unit:
-            remark = f"{column} is read in {UNITS_NAMED[guessed_unit]}, inferred from its steps"
-            notes.insert(0, Note(remark, "warning"))
-        elif timing.fps <= _MIN_RATE and not unit:
-            raise content.error(
-                f"its times are {1 / timing.fps:g} apart; if these are not seconds, give fps "
-                f"(--fps; {1e3 * timing.fps:g} for milliseconds)"
-            )
-        if stopped:
-            remark = f"{join_names(stopped)} does not advance: {column} used for times"
-            notes.insert(0, Note(remark, "warning"))
-        return timing.noted(notes)
-    raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
-
-
-def find_timing(content: FileContent, times: Floats, values: Floats | None = None) -> Timing:
-    """Return the result of `place_rows`; raise ReadError if the times define no rate."""
-    try:
-        return place_rows(times, values)
-    except ParameterError as error:
-        raise content.error(str(error)) from None
-
-
-def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[int, int], ...]]:
-    """Return points (rows, points, axes) as frames, and the gaps without rows.
-
-    Points that are missing for long become NaN. If rows are frames already, they stay unchanged.
-    """
-    if timing.order is None:
-        return points, timing.gaps
-    resampled = timing.resample(points.reshape(len(points), -1))
-    gaps = timing.gaps
-    if resampled.missing is not None:
-        is_empty = np.asarray(resampled.missing.all(axis=1))
-        resampled.values[resampled.missing & ~is_empty[:, None]] = np.nan
-        for start, stop in gaps:
-            is_empty[start:stop] = True
-        gaps = tuple((start, stop) for start, stop in find_spans(is_empty).tolist())
-    return resampled.values.reshape(-1, *points.shape[1:]), gaps
-
-
-def read_column(
-    content: FileContent, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
-) -> Floats:
-    """Return a column as numbers (rows,); raise ReadError if it has other values or length."""
-    try:
-        values = np.asarray(columns[name], np.float64)
-    except (ValueError, TypeError):
-        raise content.error(f"column {name!r} does not hold numbers") from None
-    if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
-        raise content.error(f"column {name!r} has shape {values.shape}, not one value per row")
-    return values
-
-
-def _is_stopped(cells: ArrayLike) -> bool:
-    """Return whether a column of times is empty, or constant over several rows."""
-    texts = {str(cell).strip() for cell in np.asarray(cells).ravel()}
-    return texts <= {"", "nan", "None"} or (len(texts) == 1 and np.size(cells) > 1)
-
-
-def _check_rate(content: FileContent, rates: Floats) -> float:
-    rate = float(rates[0])
-    if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
-        raise content.error(
-            f"the frame rate is not one positive number ({rate:g} first): give fps= (--fps)"
-        )
-    return rate
-
-
 MAX_HEADER_LINES = 200
 """Maximum number of lines above the names."""
 
@@ -157,6 +61,7 @@ MAX_WORD_LINES = 2
 SEPARATOR = re.compile(r"\s*\"?sep=(.)\"?\s*", re.IGNORECASE)
 """Line in which spreadsheets declare the separator."""
 
+_MIN_RATE = 1.0  # frames per second; times without a unit that give less are not seconds
 _RATE = re.compile(
     r"\b(?:(?:sampl\w+|frame|update|output|measurement|capture|data)[\s_]*)?"
     r"(?:rate|frequency|freq|fps)\b\s*(?:[(\[]hz[)\]])?[^\w]*(\d+(?:[.,]\d+)?)",
@@ -170,12 +75,8 @@ def sniff(content: FileContent) -> DelimitedText:
     r"""Return the table in a text file.
 
     The names are in the first line, unless a later line has more cells than all lines above it and
-    looks like names above rows of numbers.
-
-    Raises
-    ------
-    ReadError
-        The file is empty, or the names cannot be read.
+    looks like names above rows of numbers. Raise ReadError if the file is empty or the names cannot
+    be read.
 
     Examples
     --------
@@ -206,16 +107,14 @@ def sniff(content: FileContent) -> DelimitedText:
     first_row = indices[first + n_words] + 1
     is_blank_separated = header_end is not None or separator not in lines[head]
     if is_blank_separated:
-        separator, cells = "\t", lines[head].split()
-        cells = [cell.strip('"').strip() for cell in cells]
+        separator = "\t"
+        cells = [cell.strip('"').strip() for cell in lines[head].split()]
     else:
         row = next(filter(str.strip, islice(lines, first_row, None)), "")
         cells = split_head(content, lines[head], row, separator)
     skipped = indices[first + 1 : first + 1 + n_words]
-    if (
-        n_words
-        and (joined := _join_names(cells, split_cells(lines[skipped[0]], separator))) != cells
-    ):
+    joined = _join_names(cells, split_cells(lines[skipped[0]], separator)) if skipped else cells
+    if joined != cells:
         cells, skipped = joined, skipped[1:]
     is_headless = not any(map(is_timing, cells)) and any(is_finite(c) or is_date(c) for c in cells)
     remark = "has no numbers and was skipped"
@@ -346,3 +245,98 @@ def _find_rate(lines: Sequence[str]) -> float | None:
     # Several different rates are ambiguous.
     rates = values - {0.0}
     return rates.pop() if len(rates) == 1 else None
+
+
+def find_table_timing(
+    content: FileContent,
+    columns: Mapping[str, ArrayLike],
+    fps: float | None = None,
+    values: Floats | None = None,
+) -> Timing:
+    """Return the rate of a table and the frame of each row; ``fps`` overrides its times.
+
+    ``values`` (rows, channels) help to separate sensors of different rates. Raise ReadError if no
+    column defines the rate, or if one is inconsistent.
+    """
+    if fps:
+        return Timing(fps)
+    for column in columns:
+        if is_rate(column):
+            return Timing(_check_rate(content, read_column(content, columns, column)))
+    clocks = [column for column in columns if is_time(column)]
+    stopped = [column for column in clocks if len(clocks) > 1 and _is_stopped(columns[column])]
+    # Use the first clock that runs; a single stopped one is refused with the reason.
+    for column in [name for name in clocks if name not in stopped] or clocks:
+        unit = find_time_unit(column)
+        try:
+            times, guessed_unit = as_seconds(columns[column], unit)
+        except (ValueError, TypeError) as error:
+            raise content.error(f"column {column!r} cannot be read as times: {error}") from None
+        times = read_column(content, {column: times}, column)
+        timing = find_timing(content, times, values)
+        notes = list(timing.notes)
+        if guessed_unit:
+            remark = f"{column} is read in {UNITS_NAMED[guessed_unit]}, inferred from its steps"
+            notes.insert(0, Note(remark, "warning"))
+        elif timing.fps <= _MIN_RATE and not unit:
+            raise content.error(
+                f"its times are {1 / timing.fps:g} apart; if these are not seconds, give fps "
+                f"(--fps; {1e3 * timing.fps:g} for milliseconds)"
+            )
+        if stopped:
+            remark = f"{join_names(stopped)} does not advance: {column} used for times"
+            notes.insert(0, Note(remark, "warning"))
+        return replace(timing, notes=tuple(notes))
+    raise content.error("no column 'time' or 'fps' found: give fps= (--fps)")
+
+
+def find_timing(content: FileContent, times: Floats, values: Floats | None = None) -> Timing:
+    """Return the result of `place_rows`; raise ReadError if the times define no rate."""
+    try:
+        return place_rows(times, values)
+    except ParameterError as error:
+        raise content.error(str(error)) from None
+
+
+def place_points(timing: Timing, points: Floats) -> tuple[Floats, tuple[tuple[int, int], ...]]:
+    """Return points (rows, points, axes) as frames, and the gaps without rows.
+
+    Points that are missing for long become NaN. If rows are frames already, they stay unchanged.
+    """
+    if timing.order is None:
+        return points, timing.gaps
+    resampled = timing.resample(points.reshape(len(points), -1))
+    gaps = timing.gaps
+    if resampled.missing is not None:
+        is_empty = np.asarray(resampled.missing.all(axis=1))
+        resampled.values[resampled.missing & ~is_empty[:, None]] = np.nan
+        gaps = list_spans(is_empty | mark_spans(gaps, len(is_empty)))
+    return resampled.values.reshape(-1, *points.shape[1:]), gaps
+
+
+def read_column(
+    content: FileContent, columns: Mapping[str, ArrayLike], name: str, rows: int | None = None
+) -> Floats:
+    """Return a column as numbers (rows,); raise ReadError if it has other values or length."""
+    try:
+        values = np.asarray(columns[name], np.float64)
+    except (ValueError, TypeError):
+        raise content.error(f"column {name!r} does not hold numbers") from None
+    if values.ndim != 1 or len(values) == 0 or len(values) != (rows or len(values)):
+        raise content.error(f"column {name!r} has shape {values.shape}, not one value per row")
+    return values
+
+
+def _is_stopped(cells: ArrayLike) -> bool:
+    """Return whether a column of times is empty, or constant over several rows."""
+    texts = {str(cell).strip() for cell in np.asarray(cells).ravel()}
+    return texts <= {"", "nan", "None"} or (len(texts) == 1 and np.size(cells) > 1)
+
+
+def _check_rate(content: FileContent, rates: Floats) -> float:
+    rate = float(rates[0])
+    if not (np.isfinite(rate) and rate > 0) or np.ptp(rates) > 0:
+        raise content.error(
+            f"the frame rate is not one positive number ({rate:g} first): give fps= (--fps)"
+        )
+    return rate

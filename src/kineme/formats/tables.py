@@ -111,10 +111,14 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
         remarks.append(describe_header_rate(table.rate))
     times = {} if options.fps else table.times
     # With a given rate, columns of times are not read.
-    used = [i for i, name in enumerate(names) if name in times or is_used(name)]
-    used = [i for i in used if names[i] in times or not is_timing(names[i])]
-    for i in used:
-        if i < len(table.first_cells) and _is_missing_time(names[i], table.first_cells[i]):
+    used = [
+        i
+        for i, name in enumerate(names)
+        if name in times or (is_used(name) and not is_timing(name))
+    ]
+    for i, cell in enumerate(table.first_cells):
+        is_value = is_number(cell) or is_date(cell) or cell.lower() in EMPTY
+        if i in used and is_timing(names[i]) and not is_value:
             reason = f"column {names[i]!r} {NO_TIMES}: give fps= (--fps)"
             raise content.error(reason, table.first_row + 1)
     values = table.numbers(used)
@@ -122,11 +126,6 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
         times.get(names[i], names[i]): column for i, column in zip(used, values.T, strict=True)
     }
     return columns_to_motion(content, TABLE.name, columns, options).noted(*remarks)
-
-
-def _is_missing_time(name: str, cell: str) -> bool:
-    """Return whether a column has the name of a time, but does not start with one."""
-    return is_timing(name) and not (is_number(cell) or is_date(cell) or cell.lower() in EMPTY)
 
 
 TABLE = Format(

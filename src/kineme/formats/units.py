@@ -27,9 +27,7 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": INCH, "cmu": INCH / 0.45}
 """Metres in one unit; "cmu" is 1/0.45 inch, the unit of the CMU database."""
 
 CERTAIN_HEIGHTS = (1.2, 2.4)
-"""Body heights in metres for which a unit is certain. Their ratio is below 2.2, the smallest
-ratio of two units.
-"""
+"""Heights of a body in metres that make its unit certain; any two units differ by more."""
 
 PLAUSIBLE_HEIGHTS = (0.3, 4.0)
 """Body heights in metres outside of which a given unit is doubtful."""
@@ -64,12 +62,6 @@ _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
 _HEIGHT = 1.7  # metres assumed for a body measured in pixels
 
 
-def iterate_blocks(n_frames: int) -> Iterator[slice]:
-    """Yield slices of frames, in blocks that fit into the processor's cache."""
-    for start in range(0, n_frames, BLOCK):
-        yield slice(start, min(start + BLOCK, n_frames))
-
-
 def to_metres(unit: str | float) -> float:
     """Return the metres in one ``unit``, a name in `UNITS` or already a length."""
     return UNITS[unit] if isinstance(unit, str) else float(unit)
@@ -81,19 +73,6 @@ def parse_unit(word: str) -> str | None:
     if metric := _METRES.fullmatch(word):
         return {"centi": "cm", "milli": "mm"}.get(metric[1], "m")
     return "inch" if word in ("in", "inch", "inches") else word if word in METRIC else None
-
-
-def turn_upright(points: Floats, up: str) -> Floats:
-    """Turn points (frames, points, 3) in place so that their axis ``up`` becomes y; return them."""
-    if up != "y":
-        for span in iterate_blocks(len(points)):
-            points[span] = rot.rotate(make_up_rotation(up), points[span])
-    return points
-
-
-def make_up_rotation(up: str) -> Floats:
-    """Return the rotation that turns the axis ``up`` to y."""
-    return np.array(_TO_Y[up])
 
 
 def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
@@ -125,44 +104,10 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
 def estimate_height(skeleton: Skeleton, means: Floats) -> float:
     """Return three quarters of the longest path along the bones, in file units.
 
-    ``means`` (joints, 3) are the mean positions of joints relative to their parents.
+    ``means`` (joints, 3) are the mean positions of joints relative to their parents. Bones above
+    the hips are ignored: their length is the distance walked.
     """
-    return 0.75 * _measure_longest_path(skeleton, np.linalg.norm(means, axis=1))
-
-
-def infer_up(skeleton: Skeleton, positions: Floats) -> str:
-    """Return the axis along which the body stands at rest and most of the time, else "y"."""
-    feet, head = find_feet_and_head(skeleton)
-    if not head or not feet:
-        return "y"
-    axis = _find_body_axis(place_at_rest(skeleton)[None], feet, head, 0.9)
-    return axis if axis and axis == _find_body_axis(positions, feet, head, 0.7) else "y"
-
-
-def infer_rate(word: str) -> tuple[float, str | None]:
-    """Return frames per second for a written frame time, and a note if it was rounded.
-
-    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s. If exactly one integer rate
-    lies in that range, here 120 Hz, it is used.
-    """
-    period = Decimal(word)
-    exponent = period.as_tuple().exponent
-    # Half a unit of the last written digit is the largest rounding error.
-    half = Decimal(5).scaleb(int(exponent) - 1)
-    if half >= period:
-        return float(1 / period), None
-    lowest, highest = ceil(1 / (period + half)), floor(1 / (period - half))
-    if lowest == highest and float(1 / period) != lowest:
-        note = f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
-        return float(lowest), note
-    return float(1 / period), None
-
-
-def _measure_longest_path(skeleton: Skeleton, lengths: Floats) -> float:
-    """Return the longest path between two joints along the bones of the body.
-
-    Bones above the hips are ignored: their length is the distance walked.
-    """
+    lengths = np.linalg.norm(means, axis=1).tolist()
     body = set(skeleton.body) - {skeleton.carrier}
     reach = [0.0] * skeleton.n_joints
     longest = 0.0
@@ -170,10 +115,10 @@ def _measure_longest_path(skeleton: Skeleton, lengths: Floats) -> float:
     for joint in range(skeleton.n_joints - 1, -1, -1):
         parent = skeleton.parents[joint]
         if parent >= 0 and joint in body:
-            branch = reach[joint] + float(lengths[joint])
+            branch = reach[joint] + lengths[joint]
             longest = max(longest, reach[parent] + branch)
             reach[parent] = max(reach[parent], branch)
-    return longest
+    return 0.75 * longest
 
 
 def infer_scale(
@@ -231,6 +176,15 @@ def _find_human_unit(spread: float) -> str | None:
     return next(fits, None)
 
 
+def infer_up(skeleton: Skeleton, positions: Floats) -> str:
+    """Return the axis along which the body stands at rest and most of the time, else "y"."""
+    feet, head = find_feet_and_head(skeleton)
+    if not head or not feet:
+        return "y"
+    axis = _find_body_axis(place_at_rest(skeleton)[None], feet, head, 0.9)
+    return axis if axis and axis == _find_body_axis(positions, feet, head, 0.7) else "y"
+
+
 def infer_up_axis(
     default: str, positions: Floats, body: Body, *, is_stated: bool = False
 ) -> tuple[str, list[str]]:
@@ -283,3 +237,41 @@ def _find_body_axis(
     if abs(direction[axis]) < least:
         return None
     return ("-" if direction[axis] < 0 else "") + "xyz"[axis]
+
+
+def turn_upright(points: Floats, up: str) -> Floats:
+    """Turn points (frames, points, 3) in place so that their axis ``up`` becomes y; return them."""
+    if up != "y":
+        for span in iterate_blocks(len(points)):
+            points[span] = rot.rotate(make_up_rotation(up), points[span])
+    return points
+
+
+def make_up_rotation(up: str) -> Floats:
+    """Return the rotation that turns the axis ``up`` to y."""
+    return np.array(_TO_Y[up])
+
+
+def iterate_blocks(n_frames: int) -> Iterator[slice]:
+    """Yield slices of frames, in blocks that fit into the processor's cache."""
+    for start in range(0, n_frames, BLOCK):
+        yield slice(start, min(start + BLOCK, n_frames))
+
+
+def infer_rate(word: str) -> tuple[float, str | None]:
+    """Return frames per second for a written frame time, and a note if it was rounded.
+
+    ``.0083333`` stands for anything from 0.00833325 to 0.00833335 s. If exactly one integer rate
+    lies in that range, here 120 Hz, it is used.
+    """
+    period = Decimal(word)
+    exponent = period.as_tuple().exponent
+    # Half a unit of the last written digit is the largest rounding error.
+    half = Decimal(5).scaleb(int(exponent) - 1)
+    if half >= period:
+        return float(1 / period), None
+    lowest, highest = ceil(1 / (period + half)), floor(1 / (period - half))
+    if lowest == highest and float(1 / period) != lowest:
+        note = f"frame rate {lowest} Hz: the frame time {word} s is a rounded 1/{lowest}"
+        return float(lowest), note
+    return float(1 / period), None

@@ -23,10 +23,11 @@ from numpy.typing import NDArray
 from kineme._util.checks import require_extra, warn
 from kineme.errors import ParameterError, ReadError
 from kineme.formats.files import FileContent
-from kineme.formats.plausibility import mark_spans, split_at
+from kineme.formats.plausibility import split_at
 from kineme.formats.points import LIMIT, Points, to_motion
 from kineme.formats.sniffing import find_timing, place_points
 from kineme.recordings import Motion, Provenance
+from kineme.recordings.arrays import mark_spans
 from kineme.recordings.regular import Timing
 
 if TYPE_CHECKING:

@@ -20,9 +20,9 @@ import numpy as np
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
 from kineme.errors import ParameterError
-from kineme.formats.plausibility import mark_spans
 from kineme.labels.spans import format_text
 from kineme.recordings import Motion
+from kineme.recordings.arrays import mark_spans
 from kineme.segments.display import get_cluster_color
 from kineme.segments.table import Level
 

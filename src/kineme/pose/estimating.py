@@ -7,9 +7,7 @@ is removed.
 
 By default the table of ``squats.mp4`` is ``squats.mp4.poses.parquet`` beside it, or in the user's
 cache if that folder cannot be written. It holds the digest of the video: if the video changes, its
-poses are estimated again.
-
-@@video: Read videos as recordings: the first reading estimates the poses of the people in them.
+poses are estimated again. `kineme.read` does all this when it reads a video for the first time.
 """
 
 from __future__ import annotations
@@ -67,6 +65,9 @@ MIN_MEAN_CONFIDENCE = 0.3
 """Mean confidence of the keypoints below which a pose is dropped: nobody is there."""
 PROGRESS_INTERVAL_S = 0.5
 """Seconds between two reports of progress."""
+
+_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free")
+_EBML = b"\x1a\x45\xdf\xa3"  # Matroska and WebM
 
 
 def estimate_poses(
@@ -259,7 +260,8 @@ def _append_poses(
     former: Floats | None = None
     for n, frame in enumerate(video.frames(video.find_step(settings["rate"]), last)):
         check_cancelled()
-        poses = _drop_absent(estimate(frame.picture, frame.time))
+        found = estimate(frame.picture, frame.time)
+        poses = [pose for pose in found if np.mean(pose.confidence) >= MIN_MEAN_CONFIDENCE]
         if file.tell() == 0:
             height, width = (round(side * frame.scale) for side in frame.picture.shape[:2])
             head = {**settings, "width": width, "height": height, "begins": video.start_time}
@@ -278,11 +280,6 @@ def _append_poses(
             reported = now
             share = min(frame.time / video.duration, 1.0) if video.duration else None
             report(share, (n + 1) / (now - begun))
-
-
-def _drop_absent(poses: Sequence[Pose]) -> list[Pose]:
-    """Return the poses with enough confidence to be of a visible person."""
-    return [pose for pose in poses if np.mean(pose.confidence) >= MIN_MEAN_CONFIDENCE]
 
 
 def _count_colors(picture: Picture) -> Floats:
@@ -328,10 +325,6 @@ def _parse_part(part: Path, keypoints: int) -> tuple[Head, Rows, int]:
         head = {}
     dtype = make_row_type(keypoints)
     return head, np.frombuffer(rest, dtype, len(rest) // dtype.itemsize), len(line) + 1
-
-
-_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free")
-_EBML = b"\x1a\x45\xdf\xa3"  # Matroska and WebM
 
 
 def read_video(content: FileContent, options: ReadOptions) -> Motion:

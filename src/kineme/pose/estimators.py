@@ -130,9 +130,7 @@ def choose_estimator(name: str | None) -> PoseEstimator:
     """
     if name is not None:
         check_one_of(name, ESTIMATORS, "estimator")
-        candidates = [ESTIMATORS[name]]
-    else:
-        candidates = list(ESTIMATORS.values())
+    candidates = [each for each in ESTIMATORS.values() if name in (None, each.name)]
     for each in candidates:
         if each.is_installed:
             return each

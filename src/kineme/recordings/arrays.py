@@ -1,6 +1,8 @@
-"""Validate the arrays and fields of recordings: read-only, finite, set once."""
+"""Validate the arrays and fields of recordings, and convert between masks and spans of frames."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,6 +69,19 @@ def find_spans(mask: NDArray[np.bool_]) -> NDArray[np.intp]:
     # False at both ends closes every span; changes then come in pairs of start and stop.
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
     return edges.reshape(-1, 2)
+
+
+def list_spans(mask: NDArray[np.bool_]) -> tuple[tuple[int, int], ...]:
+    """Return the result of `find_spans` as pairs of numbers."""
+    return tuple((start, stop) for start, stop in find_spans(mask).tolist())
+
+
+def mark_spans(spans: Iterable[tuple[int, int]], n: int) -> NDArray[np.bool_]:
+    """Return a mask (n,) of the frames inside any of the spans [start, stop)."""
+    inside = np.zeros(n, np.bool_)
+    for start, stop in spans:
+        inside[start:stop] = True
+    return inside
 
 
 def to_samples(span: tuple[float, float], fps: float, n_samples: int) -> tuple[int, int]:

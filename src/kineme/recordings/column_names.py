@@ -1,10 +1,8 @@
-"""Group coordinate columns into points by name: ``hip_x hip_y hip_z``.
+"""Recognise columns by name: coordinates of a point, and columns that are not channels.
 
-A unit of length may follow: ``hip x [mm]``, ``hip_x_mm``, ``hip_x_px``.
-
-Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ`` are recognised by name.
-
-@@channel_names: Recognise columns that are not channels: counters, labels, and a device's surroundings.
+The coordinates of a point are ``hip_x hip_y hip_z``. A unit of length may follow: ``hip x [mm]``,
+``hip_x_mm``, ``hip_x_px``. Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ``.
+Counters, labels, and measurements of a device's surroundings are not channels.
 """
 
 from __future__ import annotations
@@ -30,20 +28,6 @@ _SURROUNDINGS = re.compile(
 )
 
 
-def is_channel_name(name: str) -> bool:
-    """Return whether a column of numbers may be a channel, judging by its name.
-
-    Examples
-    --------
-    >>> [is_channel_name(name) for name in ("acc_x", "reps", "Set number", "Battery level")]
-    [True, False, False, False]
-    """
-    plain = name.strip().lower()
-    numbered = _NUMBERED.fullmatch(plain)
-    names = {plain, numbered[1] if numbered else plain}
-    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(plain) is None
-
-
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
 )
@@ -65,8 +49,7 @@ def group_axes(columns: Iterable[str]) -> dict[str, dict[str, str]]:
     for column in columns:
         match = COORDINATE.fullmatch(column.strip())
         if match:
-            # The expression has two alternatives, with a separator or by a capital: each has its
-            # own groups.
+            # The two alternatives, with a separator or by a capital, have their own groups.
             point, axis = (match[1], match[2]) if match[1] else (match[3], match[4])
             found.setdefault(point, {})[axis.lower()] = column
     return {point: axes for point, axes in found.items() if {"x", "y"} <= axes.keys()}
@@ -96,3 +79,17 @@ def list_beginnings(name: str) -> Iterator[str]:
     """
     for word in islice(_WORD.finditer(name), 1, _MOST_WORDS):
         yield name[: word.start()].rstrip(" \t_.:/-")
+
+
+def is_channel_name(name: str) -> bool:
+    """Return whether a column of numbers may be a channel, judging by its name.
+
+    Examples
+    --------
+    >>> [is_channel_name(name) for name in ("acc_x", "reps", "Set number", "Battery level")]
+    [True, False, False, False]
+    """
+    plain = name.strip().lower()
+    numbered = _NUMBERED.fullmatch(plain)
+    names = {plain, numbered[1] if numbered else plain}
+    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(plain) is None

@@ -140,19 +140,10 @@ def find_joints(
 ) -> dict[str, tuple[int, ...]]:
     """Return the points whose mean is the joint, for each joint that is found.
 
-    Parameters
-    ----------
-    names : sequence of str
-        One per point, parents before children.
-    wanted : iterable of sequence of str
-        Parts in `NAMES` to look for, for each joint, the preferred one first. The first one also
-        names the joint, with "left" and "right" for ``*``.
-    usable : collection of int, optional
-        Indices of the points to choose from; all by default.
-    exact : bool
-        Compare full names only, as for markers.
-    single : bool
-        Return one point per joint; ignore lines with several points.
+    ``names`` has one per point, parents before children. ``wanted`` lists for each joint the parts
+    in `NAMES` to look for, the preferred one first, which also names the joint, with "left" and
+    "right" for ``*``. ``usable`` are the indices of the points to choose from, all by default.
+    ``exact`` compares full names only, as for markers; ``single`` ignores lines of several points.
 
     Examples
     --------

@@ -29,15 +29,10 @@ def forward_kinematics(
 ) -> Floats:
     """Return joint positions (frames, joints, 3) from local rotations.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-    rotations : array_like, shape (frames, joints, 4)
-        Unit quaternions (w, x, y, z), local to the parent; those of end sites are ignored.
-    root_positions : array_like, shape (frames, 3), optional
-        Positions of the root; its offset by default.
-    translations : array_like, shape (frames, joints, 3), optional
-        Replace the skeleton's offsets, for joints that also translate (for a root, its position).
+    ``rotations`` (frames, joints, 4) are unit quaternions (w, x, y, z), local to the parent; those
+    of end sites are ignored. ``root_positions`` (frames, 3) are the root's offset by default.
+    ``translations`` (frames, joints, 3) replace the skeleton's offsets, for joints that also
+    translate (for a root, its position).
 
     Examples
     --------

@@ -68,25 +68,24 @@ def resample(motion: Motion, fps: float) -> Motion:
     check_rates(motion.fps, fps)
     # The small number keeps the last frame despite rounding errors.
     n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
-    note = f"resampled from {motion.fps:g} to {fps:g} Hz"
-    # A whole ratio, up to rounding: select frames instead of interpolating.
-    if abs(ratio - round(ratio)) < 1e-9 * ratio:
-        return _choose_frames(motion, slice(0, motion.n_frames, round(ratio)), fps, note)
+    skeleton, positions, rotations = motion.skeleton, motion.positions, motion.rotations
     # Rounding must not lead beyond the last frame.
     at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
-    provenance = motion.provenance.noted(note)
-    gaps = _move_gaps(motion, 0, ratio, n)
-    if motion.rotations is None:
-        return Motion(
-            motion.skeleton, interpolate_frames(motion.positions, at), fps, None, provenance, gaps
+    # A whole ratio, up to rounding: select frames instead of interpolating.
+    if abs(ratio - round(ratio)) < 1e-9 * ratio:
+        positions = positions[:: round(ratio)]
+        rotations = None if rotations is None else rotations[:: round(ratio)]
+    elif rotations is None:
+        positions = interpolate_frames(positions, at)
+    else:
+        # Translations are interpolated in the parents' frames, so bones keep their length.
+        translations = compute_local_translations(skeleton, positions, rotations)
+        rotations = _interpolate_rotations(rotations, at)
+        positions = forward_kinematics(
+            skeleton, rotations, translations=interpolate_frames(translations, at)
         )
-    rotations = _interpolate_rotations(motion.rotations, at)
-    # Translations are interpolated in the parents' frames, so bones keep their length.
-    translations = interpolate_frames(
-        compute_local_translations(motion.skeleton, motion.positions, motion.rotations), at
-    )
-    positions = forward_kinematics(motion.skeleton, rotations, translations=translations)
-    return Motion(motion.skeleton, positions, fps, rotations, provenance, gaps)
+    provenance = motion.provenance.noted(f"resampled from {motion.fps:g} to {fps:g} Hz")
+    return Motion(skeleton, positions, fps, rotations, provenance, _move_gaps(motion, ratio, n))
 
 
 def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
@@ -264,24 +263,17 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     )
 
 
-def _choose_frames(motion: Motion, frames: slice, fps: float, note: str) -> Motion:
-    rotations = None if motion.rotations is None else motion.rotations[frames]
-    positions = motion.positions[frames]
-    gaps = _move_gaps(motion, frames.start, frames.step or 1, len(positions))
-    return Motion(motion.skeleton, positions, fps, rotations, motion.provenance.noted(note), gaps)
-
-
-def _move_gaps(motion: Motion, first: int, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
-    """Return the gaps of n frames sampled from ``first`` on, ``ratio`` frames apart.
+def _move_gaps(motion: Motion, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
+    """Return the gaps of n frames that are sampled ``ratio`` frames apart.
 
     A sample between a recorded frame and a gap belongs to the gap.
     """
     spans: list[tuple[int, int]] = []
     for start, stop in motion.gaps:
         # The first new frame after the last recorded one before the gap.
-        begin = max(0, floor((start - first - 1) / ratio + 1e-9) + 1)
+        begin = max(0, floor((start - 1) / ratio + 1e-9) + 1)
         # The first new frame at or after the end of the gap.
-        end = min(n, ceil((stop - first) / ratio - 1e-9))
+        end = min(n, ceil(stop / ratio - 1e-9))
         # Gaps that touch at the new rate become one.
         if spans and begin <= spans[-1][1]:
             begin = spans.pop()[0]

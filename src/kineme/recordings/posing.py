@@ -20,19 +20,11 @@ def get_rig(skeleton: Skeleton) -> Rig:
 
 
 def pose_rig(motion: Motion, rig: Rig) -> tuple[Floats, Floats]:
-    """Return the translations and rotations of the joints' nodes in a motion.
+    """Return translations (frames, joints, 3) and rotations (frames, joints, 4) of joints' nodes.
 
-    Parameters
-    ----------
-    motion : Motion
-        Must have rotations.
-    rig : Rig
-        The rig of its skeleton. Nodes above the joints are at rest.
-
-    Returns
-    -------
-    translations, rotations : ndarray of shape (frames, joints, 3), (frames, joints, 4)
-        In the parent's frame, in the units of the rig's file. End sites keep their rest rotation.
+    The motion must have rotations, and the rig be that of its skeleton. Nodes above the joints are
+    at rest, and end sites keep their rest rotation. All are in the parent's frame, in the units of
+    the rig's file.
     """
     skeleton, above, back = motion.skeleton, rig.above, rot.conjugate(rig.turn)
     # Invert G = turn * W * axes to get W, the node's rotation in the axes of the file.

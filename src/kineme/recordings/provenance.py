@@ -97,9 +97,8 @@ class Provenance:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "notes", _as_notes(self.notes))
-        object.__setattr__(self, "events", tuple(self.events))
-        object.__setattr__(self, "takes", tuple(self.takes))
-        object.__setattr__(self, "people", tuple(self.people))
+        for name in ("events", "takes", "people"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
 
     @property
     def warnings(self) -> tuple[Note, ...]:

@@ -17,7 +17,7 @@ at the first of them:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats, Ints, Masks
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import find_spans
+from kineme.recordings.arrays import find_spans, list_spans, mark_spans
 from kineme.recordings.provenance import Note
 from kineme.recordings.times import Clock, is_unix_time
 
@@ -48,45 +48,31 @@ _MOST_FRAMES_PER_ROW = 8  # limits the size of the grid
 _VALUES = 1_000_000  # additional values that the grid may always have
 _HOUR, _DAY = 3600.0, 86400.0
 
+FROZEN_S = 3.0
+"""Seconds without a change after which an otherwise changing channel counts as frozen."""
+_CHANGES = 0.5  # fraction of steps that change in a channel that is not frozen
+_CLIPPED = 3  # successive values at the limit of a sensor that count as clipped
+_CLIPS = 0.001  # fraction of clipped values from which on a warning is given
+_COARSE = 5  # sensor steps by which values jump to the limit if clipped
+_LEVELS = 50  # a sensor has at least so many different values
+
 
 @dataclass(frozen=True, eq=False)
 class Timing:
-    """Frame rate of rows, and their frames.
-
-    Attributes
-    ----------
-    fps : float
-        Frames per second.
-    order : (rows,) array of int, optional
-        Rows that have a time, sorted by time. None if rows are frames.
-    at : (rows,) array, optional
-        Frame of each of these rows, increasing from 0, possibly fractional.
-    n_frames : int
-        Number of frames of the grid; 0 if rows are frames.
-    gaps : tuple of (int, int)
-        Frames [start, stop) in which the clock was reset or paused for too long.
-    notes : tuple of Note
-        Remarks on the times.
-    clock : Clock, optional
-        None if the times are seconds from the start of the recording.
-    """
+    """Frame rate of rows, and their frames."""
 
     fps: float
-    order: Ints | None = None
-    at: Floats | None = None
-    n_frames: int = 0
-    gaps: tuple[tuple[int, int], ...] = ()
+    order: Ints | None = None  # (rows,) that have a time, sorted by time; None if rows are frames
+    at: Floats | None = None  # (rows,) frame of each, increasing from 0, possibly fractional
+    n_frames: int = 0  # of the grid; 0 if rows are frames
+    gaps: tuple[tuple[int, int], ...] = ()  # where the clock was reset or paused for too long
     notes: tuple[Note | str, ...] = ()
-    clock: Clock | None = None
+    clock: Clock | None = None  # None if the times are seconds from the start of the recording
 
     @property
     def row_seconds(self) -> Floats | None:
         """Return the second of each row in time order; None if rows are frames."""
         return None if self.at is None else self.at / self.fps
-
-    def noted(self, notes: Iterable[Note | str]) -> Timing:
-        """Return a copy with these notes instead of its own."""
-        return replace(self, notes=tuple(notes))
 
     def frames_of_rows(self, n_rows: int) -> Ints:
         """Return the nearest frame of each row in file order; 0 for a row without a time."""
@@ -99,10 +85,7 @@ class Timing:
     def resample(self, values: ArrayLike) -> Resampled:
         """Return the values of each frame, interpolated linearly between rows.
 
-        Parameters
-        ----------
-        values : (rows, channels) array_like
-            In file order; NaN or infinite if missing.
+        ``values`` (rows, channels) are in file order; NaN or infinite if missing.
         """
         rows = np.asarray(values, np.float64)
         if self.order is None or self.at is None:
@@ -127,9 +110,7 @@ class Timing:
                 continue
             for channel in channels:
                 found[:, channel] = np.interp(grid, known, frames[seen, channel])
-            hole = np.zeros(n_frames, np.bool_)
-            for start, stop in _find_holes(known, n_frames, self.fps).tolist():
-                hole[start:stop] = True
+            hole = mark_spans(_find_holes(known, n_frames, self.fps).tolist(), n_frames)
             missing[:, channels] = hole[:, None]
             filled += len(channels) * (n_frames - len(known) - int(hole.sum()))
         return Resampled(found, missing if missing.any() else None, filled if on_grid else 0)
@@ -137,39 +118,19 @@ class Timing:
 
 @dataclass(frozen=True, eq=False)
 class Resampled:
-    """Values of each frame.
+    """Values of each frame."""
 
-    Attributes
-    ----------
-    values : (frames, channels) array
-        NaN in channels that have no value at all.
-    missing : (frames, channels) array of bool, optional
-        Whether a value lies in a hole longer than `LONGEST_S`; None if there is no such hole.
-    filled : int
-        Number of missing values on the grid that were filled.
-    """
-
-    values: Floats
-    missing: Masks | None
-    filled: int
+    values: Floats  # (frames, channels), NaN in channels that have no value at all
+    missing: Masks | None  # (frames, channels), in holes longer than `LONGEST_S`, if there are any
+    filled: int  # number of missing values on the grid that were filled
 
 
 def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float = 0.0) -> Timing:
     """Return the rate of rows taken at these times, and the frame of each.
 
-    Parameters
-    ----------
-    times : (rows,) array_like
-        Seconds, in any order; NaN for a row without a time.
-    values : (rows, channels) array_like, optional
-        Used to tell apart sensors of several rates, and packets from duplicates.
-    fps : float, optional
-        Frames per second of the grid; inferred from the times by default.
-
-    Raises
-    ------
-    ParameterError
-        Times are too few, not numbers, or all equal.
+    ``times`` (rows,) are seconds in any order, NaN for a row without a time. ``values`` (rows,
+    channels) tell apart sensors of several rates, and packets from duplicates. ``fps`` is inferred
+    from the times unless given. Raise ParameterError if times are too few, equal, or no numbers.
 
     Examples
     --------
@@ -231,187 +192,6 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     )
 
 
-def _add_clock_and_gaps(
-    timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int
-) -> Timing:
-    """Return the timing with its clock and gaps; pauses are cut to fit into ``most`` frames.
-
-    ``at`` are the seconds of the rows in time order, ``ahead`` the clock's offset from them;
-    ``was_set`` marks the row after the clock went back.
-    """
-    assert timing.at is not None  # noqa: S101 (for mypy)
-    rate, notes = timing.fps, list(timing.notes)
-    frames, cut = _shorten_pauses(timing.at, most)
-    if cut.any():
-        k = int(cut.argmax())
-        text = (
-            f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} "
-            f"s after second {frames[k] / rate:.4g}: the recording is split there, and its "
-            "duration does not include pauses"
-        )
-        notes.append(Note(text, "warning"))
-    # rows at which the clock jumps relative to the seconds of the recording
-    turns = np.flatnonzero(cut | (np.abs(np.diff(ahead)) > LONGEST_S)) + 1
-    starts, clock = np.append(0, turns), None
-    begins, shown = frames[starts] / rate, (at + ahead)[starts]
-    if len(starts) > 1 or abs(shown[0]) > 0.5 / rate:
-        clock = Clock(begins.tolist(), shown.tolist())
-    split = cut if was_set is None else cut | was_set[1:]
-    ends = ((frames[k], frames[k + 1]) for k in np.flatnonzero(split).tolist())
-    # Whole frames strictly between the two rows at a split.
-    gaps = ((int(np.floor(a)) + 1, int(np.ceil(b))) for a, b in ends)
-    return replace(
-        timing,
-        at=frames,
-        n_frames=int(np.floor(frames[-1] + UNEVEN)) + 1,
-        gaps=tuple((start, stop) for start, stop in gaps if start < stop),
-        notes=tuple(notes),
-        clock=clock,
-    )
-
-
-def fill_gaps_in_channels(
-    timing: Timing, values: ArrayLike, names: Sequence[str]
-) -> tuple[Floats, list[tuple[int, int]], list[Note | str]]:
-    """Return finite values of each frame, the gaps, and notes.
-
-    A frame lies in a gap if any channel is missing for long. Raise ParameterError if a channel
-    has no number, or nothing is left between the gaps.
-    """
-    resampled = timing.resample(values)
-    doubts = find_faulty_channels(resampled, timing.fps, names)
-    notes: list[Note | str] = []
-    if resampled.filled:
-        values_filled = format_count(resampled.filled, "missing value")
-        notes.append(f"{values_filled} interpolated linearly")
-    if resampled.missing is None:
-        return resampled.values, list(timing.gaps), [*notes, *doubts]
-    jumps = np.zeros(len(resampled.values), np.bool_)
-    for start, stop in timing.gaps:
-        jumps[start:stop] = True
-    if resampled.missing.all(axis=0).any():
-        name = names[int(resampled.missing.all(axis=0).argmax())]
-        raise ParameterError(
-            f"column {name!r} contains no numbers: name the other columns (--columns)"
-        )
-    long = resampled.missing.any(axis=1)
-    if (long | jumps).all():
-        raise ParameterError(
-            "every frame lacks some channel for too long: choose columns with fewer gaps "
-            "(--columns)"
-        )
-    # gaps where the clock was reset are reported already
-    holes = find_spans(long & ~jumps)
-    if len(holes):
-        frames = format_count(int((long & ~jumps).sum()), "frame")
-        notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
-    gaps = [(start, stop) for start, stop in find_spans(long | jumps).tolist()]
-    return resampled.values, gaps, [*notes, *doubts]
-
-
-FROZEN_S = 3.0
-"""Seconds without a change after which an otherwise changing channel counts as frozen."""
-_CHANGES = 0.5  # fraction of steps that change in a channel that is not frozen
-_CLIPPED = 3  # successive values at the limit of a sensor that count as clipped
-_CLIPS = 0.001  # fraction of clipped values from which on a warning is given
-_COARSE = 5  # sensor steps by which values jump to the limit if clipped
-_LEVELS = 50  # a sensor has at least so many different values
-
-
-def find_faulty_channels(
-    resampled: Resampled, fps: float, names: Sequence[str]
-) -> list[Note | str]:
-    """Return warnings about channels that freeze for seconds or are clipped."""
-    frozen, clipped = [], []
-    least = max(2, round(FROZEN_S * fps))
-    for channel, name in enumerate(names):
-        track = resampled.values[:, channel]
-        if resampled.missing is not None:
-            track = track[~resampled.missing[:, channel]]
-        if len(track) < 2:
-            continue
-        same = np.diff(track) == 0
-        runs = find_spans(same)
-        lengths = runs[:, 1] - runs[:, 0]
-        long = lengths >= least
-        others = len(same) - int(lengths[long].sum())
-        if long.any() and others >= least and lengths[~long].sum() <= (1 - _CHANGES) * others:
-            first = runs[long][0]
-            lasts = int(lengths[long].max()) / fps
-            frozen.append(f"{name} ({lasts:.3g} s at {first[0] / fps:.4g} s)")
-        if _is_clipped(track, runs[~long]):
-            clipped.append(name)
-    remarks = {
-        "channels that stay constant for a while": frozen,
-        "channels clipped at their largest values": clipped,
-    }
-    return [Note(f"{remark}: {join_names(named, most=4)}", "warning")
-            for remark, named in remarks.items() if named]  # fmt: skip
-
-
-def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
-    """Return whether runs of successive values often equal the maximum or minimum."""
-    # a slower sensor repeats its values for some rows: these count once
-    held = round(len(track) / max(1, len(track) - int((runs[:, 1] - runs[:, 0]).sum())))
-    long = runs[runs[:, 1] - runs[:, 0] >= _CLIPPED * held - 1]
-    if len(long) < 2:
-        return False
-    firsts = long[:, 0]
-    ends, lengths = track[firsts], long[:, 1] - long[:, 0] + 1
-    # A smooth peak in coarse steps is flat, too, but values approach it step by step.
-    entries = np.abs(ends - track[np.maximum(firsts - 1, 0)])
-    moves = np.abs(np.diff(track))
-    coarse = _COARSE * float(moves[moves > 0].min(initial=np.inf))
-    low, middle, high = np.percentile(track, (25, 50, 75))
-    for limit in (track.min(), track.max()):
-        cut = ends == limit
-        often = int(lengths[cut].sum()) >= _CLIPS * len(track) and cut.sum() > 1
-        far = abs(limit - middle) > high - low > 0  # excludes resting values, such as zero force
-        if often and far and np.median(entries[cut]) >= coarse:
-            return len(np.unique(track)) >= _LEVELS
-    return False
-
-
-def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
-    """Yield groups of channels with values in the same rows, and a mask of these rows."""
-    found: dict[bytes, list[int]] = {}
-    for channel in range(present.shape[1]):
-        found.setdefault(np.packbits(present[:, channel]).tobytes(), []).append(channel)
-    for channels in found.values():
-        yield channels, present[:, channels[0]]
-
-
-def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Return each time once, and the mean values of rows with that time."""
-    # First row of each distinct time; `reduceat` sums the rows up to the next start.
-    starts = np.flatnonzero(np.diff(at, prepend=-np.inf) > 0)
-    if len(starts) == len(at):
-        return at, values
-    present = np.isfinite(values)
-    counts = np.add.reduceat(present, starts, axis=0, dtype=np.float64)
-    sums = np.add.reduceat(np.where(present, values, 0.0), starts, axis=0)
-    with np.errstate(invalid="ignore"):
-        return at[starts], sums / counts
-
-
-def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
-    """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
-    apart = np.diff(known_frames)
-    most = LONGEST_S * fps + 1e-9
-    # A channel may be slower than the others but regular.
-    usual = float(np.median(apart)) if len(apart) >= 10 else 1.0
-    even = np.abs(apart - usual) <= _ORDINARY * usual
-    if 1.5 < usual <= _SLOWEST_S * fps and even.mean() > _MOST:
-        most = max(most, 2.5 * usual)
-    # frames within half a frame of a known one count as known
-    ends = np.concatenate([[-1.0], known_frames, [float(n_frames)]])
-    starts = np.floor(ends[:-1] + 0.5).astype(np.int64) + 1
-    stops = np.minimum(np.ceil(ends[1:] - 0.5).astype(np.int64), n_frames)
-    long = np.diff(ends) - 1 > most
-    spans = np.column_stack([np.maximum(starts, 0), stops])[long]
-    return spans[spans[:, 0] < spans[:, 1]]
-
-
 def _is_even(times: Floats, steps: Floats) -> bool:
     """Return whether the times are even to a tenth of a period."""
     period = float(np.median(steps))
@@ -433,15 +213,11 @@ def _correct_clock(
     rising = steps[steps > 0]
     usual = float(np.median(rising)) if len(rising) else 0.0
     if back.sum() > max(1, _FEW * len(steps)):  # rows are shuffled; the clock was not reset
-        return (
-            shown,
-            None,
-            [Note("rows are not in order of time: sorted by their times", "warning")],
-        )
+        remark = "rows are not in order of time: sorted by their times"
+        return shown, None, [Note(remark, "warning")]
 
     def near(by: float) -> Masks:
-        found: Masks = np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S)
-        return found
+        return np.asarray(np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S))
 
     notes: list[Note | str] = []
     hours = near(-_HOUR) & back if usual < _HOUR / 10 else np.zeros_like(back)
@@ -456,8 +232,8 @@ def _correct_clock(
     steps = np.diff(at)
     reset = steps < -LONGEST_S
     if not reset.any():
-        if (steps < 0).any():
-            notes.append("1 step back in time" if (steps < 0).sum() == 1 else "steps back in time")
+        if n_back := int((steps < 0).sum()):
+            notes.append("1 step back in time" if n_back == 1 else "steps back in time")
         return at, None, notes
     if not _was_clock_set(at, usual, values):
         return at, None, [*notes, Note("rows are not in order of time: sorted", "warning")]
@@ -563,6 +339,65 @@ def _snap_to_grid(frames: Floats, fps: float) -> Floats:
     return np.asarray(snapped - snapped[0], np.float64)
 
 
+def _round_rate(fps: float, share: float) -> float:
+    """Return the rate rounded to hertz or thousandths if within this fraction of it."""
+    rounded_rates = (round(fps, digits) for digits in (0, 3))
+    return next(
+        (rate for rate in rounded_rates if rate > 0 and abs(fps - rate) <= share * fps), fps
+    )
+
+
+def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
+    """Return a note on uneven times; ``exact`` if all rows are at whole frames."""
+    counts = [
+        (doubled, "row", "with the same time as another"),
+        (int((steps * fps > 1.5).sum()), "step", "longer than a frame and a half"),
+    ]
+    parts = [f"{format_count(n, one)} {what}" for n, one, what in counts if n]
+    if exact and not parts:
+        return []
+    return [f"times are uneven ({', '.join(parts) or 'jitter'}): resampled to {fps:g} Hz"]
+
+
+def _add_clock_and_gaps(
+    timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int
+) -> Timing:
+    """Return the timing with its clock and gaps; pauses are cut to fit into ``most`` frames.
+
+    ``at`` are the seconds of the rows in time order, ``ahead`` the clock's offset from them;
+    ``was_set`` marks the row after the clock went back.
+    """
+    assert timing.at is not None  # noqa: S101 (for mypy)
+    rate, notes = timing.fps, list(timing.notes)
+    frames, cut = _shorten_pauses(timing.at, most)
+    if cut.any():
+        k = int(cut.argmax())
+        text = (
+            f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} "
+            f"s after second {frames[k] / rate:.4g}: the recording is split there, and its "
+            "duration does not include pauses"
+        )
+        notes.append(Note(text, "warning"))
+    # rows at which the clock jumps relative to the seconds of the recording
+    turns = np.flatnonzero(cut | (np.abs(np.diff(ahead)) > LONGEST_S)) + 1
+    starts, clock = np.append(0, turns), None
+    begins, shown = frames[starts] / rate, (at + ahead)[starts]
+    if len(starts) > 1 or abs(shown[0]) > 0.5 / rate:
+        clock = Clock(begins.tolist(), shown.tolist())
+    split = cut if was_set is None else cut | was_set[1:]
+    ends = ((frames[k], frames[k + 1]) for k in np.flatnonzero(split).tolist())
+    # Whole frames strictly between the two rows at a split.
+    gaps = ((int(np.floor(a)) + 1, int(np.ceil(b))) for a, b in ends)
+    return replace(
+        timing,
+        at=frames,
+        n_frames=int(np.floor(frames[-1] + UNEVEN)) + 1,
+        gaps=tuple((start, stop) for start, stop in gaps if start < stop),
+        notes=tuple(notes),
+        clock=clock,
+    )
+
+
 def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
     """Return frames with the longest pauses cut to fit into ``most``, and a mask of these."""
     steps = np.diff(frames)
@@ -583,21 +418,131 @@ def _shorten_pauses(frames: Floats, most: int) -> tuple[Floats, Masks]:
     return frames, cut
 
 
-def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) -> list[Note | str]:
-    """Return a note on uneven times; ``exact`` if all rows are at whole frames."""
-    counts = [
-        (doubled, "row", "with the same time as another"),
-        (int((steps * fps > 1.5).sum()), "step", "longer than a frame and a half"),
-    ]
-    parts = [f"{format_count(n, one)} {what}" for n, one, what in counts if n]
-    if exact and not parts:
-        return []
-    return [f"times are uneven ({', '.join(parts) or 'jitter'}): resampled to {fps:g} Hz"]
+def _average_duplicates(at: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """Return each time once, and the mean values of rows with that time."""
+    # First row of each distinct time; `reduceat` sums the rows up to the next start.
+    starts = np.flatnonzero(np.diff(at, prepend=-np.inf) > 0)
+    if len(starts) == len(at):
+        return at, values
+    present = np.isfinite(values)
+    counts = np.add.reduceat(present, starts, axis=0, dtype=np.float64)
+    sums = np.add.reduceat(np.where(present, values, 0.0), starts, axis=0)
+    with np.errstate(invalid="ignore"):
+        return at[starts], sums / counts
 
 
-def _round_rate(fps: float, share: float) -> float:
-    """Return the rate rounded to hertz or thousandths if within this fraction of it."""
-    rounded_rates = (round(fps, digits) for digits in (0, 3))
-    return next(
-        (rate for rate in rounded_rates if rate > 0 and abs(fps - rate) <= share * fps), fps
-    )
+def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
+    """Yield groups of channels with values in the same rows, and a mask of these rows."""
+    found: dict[bytes, list[int]] = {}
+    for channel in range(present.shape[1]):
+        found.setdefault(np.packbits(present[:, channel]).tobytes(), []).append(channel)
+    for channels in found.values():
+        yield channels, present[:, channels[0]]
+
+
+def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
+    """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
+    apart = np.diff(known_frames)
+    most = LONGEST_S * fps + 1e-9
+    # A channel may be slower than the others but regular.
+    usual = float(np.median(apart)) if len(apart) >= 10 else 1.0
+    even = np.abs(apart - usual) <= _ORDINARY * usual
+    if 1.5 < usual <= _SLOWEST_S * fps and even.mean() > _MOST:
+        most = max(most, 2.5 * usual)
+    # frames within half a frame of a known one count as known
+    ends = np.concatenate([[-1.0], known_frames, [float(n_frames)]])
+    starts = np.floor(ends[:-1] + 0.5).astype(np.int64) + 1
+    stops = np.minimum(np.ceil(ends[1:] - 0.5).astype(np.int64), n_frames)
+    long = np.diff(ends) - 1 > most
+    spans = np.column_stack([np.maximum(starts, 0), stops])[long]
+    return spans[spans[:, 0] < spans[:, 1]]
+
+
+def fill_gaps_in_channels(
+    timing: Timing, values: ArrayLike, names: Sequence[str]
+) -> tuple[Floats, tuple[tuple[int, int], ...], list[Note | str]]:
+    """Return finite values of each frame, the gaps, and notes.
+
+    A frame lies in a gap if any channel is missing for long. Raise ParameterError if a channel
+    has no number, or nothing is left between the gaps.
+    """
+    resampled = timing.resample(values)
+    doubts = find_faulty_channels(resampled, timing.fps, names)
+    notes: list[Note | str] = []
+    if resampled.filled:
+        values_filled = format_count(resampled.filled, "missing value")
+        notes.append(f"{values_filled} interpolated linearly")
+    if resampled.missing is None:
+        return resampled.values, timing.gaps, [*notes, *doubts]
+    jumps = mark_spans(timing.gaps, len(resampled.values))
+    for name, channel_missing in zip(names, resampled.missing.T, strict=True):
+        if channel_missing.all():
+            raise ParameterError(
+                f"column {name!r} contains no numbers: name the other columns (--columns)"
+            )
+    long = resampled.missing.any(axis=1)
+    if (long | jumps).all():
+        raise ParameterError(
+            "every frame lacks some channel for too long: choose columns with fewer gaps "
+            "(--columns)"
+        )
+    # Gaps where the clock was reset are reported already.
+    holes = find_spans(long & ~jumps)
+    if len(holes):
+        frames = format_count(int((long & ~jumps).sum()), "frame")
+        notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
+    return resampled.values, list_spans(long | jumps), [*notes, *doubts]
+
+
+def find_faulty_channels(
+    resampled: Resampled, fps: float, names: Sequence[str]
+) -> list[Note | str]:
+    """Return warnings about channels that freeze for seconds or are clipped."""
+    frozen, clipped = [], []
+    least = max(2, round(FROZEN_S * fps))
+    for channel, name in enumerate(names):
+        track = resampled.values[:, channel]
+        if resampled.missing is not None:
+            track = track[~resampled.missing[:, channel]]
+        if len(track) < 2:
+            continue
+        same = np.diff(track) == 0
+        runs = find_spans(same)
+        lengths = runs[:, 1] - runs[:, 0]
+        long = lengths >= least
+        others = len(same) - int(lengths[long].sum())
+        if long.any() and others >= least and lengths[~long].sum() <= (1 - _CHANGES) * others:
+            first = runs[long][0]
+            lasts = int(lengths[long].max()) / fps
+            frozen.append(f"{name} ({lasts:.3g} s at {first[0] / fps:.4g} s)")
+        if _is_clipped(track, runs[~long]):
+            clipped.append(name)
+    remarks = {
+        "channels that stay constant for a while": frozen,
+        "channels clipped at their largest values": clipped,
+    }
+    return [Note(f"{remark}: {join_names(named, most=4)}", "warning")
+            for remark, named in remarks.items() if named]  # fmt: skip
+
+
+def _is_clipped(track: Floats, runs: NDArray[np.intp]) -> bool:
+    """Return whether runs of successive values often equal the maximum or minimum."""
+    # a slower sensor repeats its values for some rows: these count once
+    held = round(len(track) / max(1, len(track) - int((runs[:, 1] - runs[:, 0]).sum())))
+    long = runs[runs[:, 1] - runs[:, 0] >= _CLIPPED * held - 1]
+    if len(long) < 2:
+        return False
+    firsts = long[:, 0]
+    ends, lengths = track[firsts], long[:, 1] - long[:, 0] + 1
+    # A smooth peak in coarse steps is flat, too, but values approach it step by step.
+    entries = np.abs(ends - track[np.maximum(firsts - 1, 0)])
+    moves = np.abs(np.diff(track))
+    coarse = _COARSE * float(moves[moves > 0].min(initial=np.inf))
+    low, middle, high = np.percentile(track, (25, 50, 75))
+    for limit in (track.min(), track.max()):
+        cut = ends == limit
+        often = int(lengths[cut].sum()) >= _CLIPS * len(track) and cut.sum() > 1
+        far = abs(limit - middle) > high - low > 0  # excludes resting values, such as zero force
+        if often and far and np.median(entries[cut]) >= coarse:
+            return len(np.unique(track)) >= _LEVELS
+    return False

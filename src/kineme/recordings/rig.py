@@ -34,42 +34,21 @@ UNIFORM = 1e-4
 class Rig:
     """Nodes at rest, in the units and axes of their file; the joints come last.
 
-    Parameters
-    ----------
-    names : tuple of str
-        One per node, as in the file.
-    parents : tuple of int
-        The index of each node's parent, which comes before it; -1 for none.
-    translations, rotations, scales : array_like, shape (nodes, 3), (nodes, 4), (nodes, 3)
-        In the parent's frame; rotations are unit quaternions (w, x, y, z).
-    axes : array_like, shape (joints, 4)
-        The rotation from the axes of each joint to those of its node.
-    unit : float
-        Metres in one unit of the file.
-    turn : array_like, shape (4,)
-        The rotation from the file's axes to those with y up.
-    numbers : tuple of int
-        Index of each node in the file; -1 for nodes that are not in it.
-    binds : array_like, shape (joints, 4, 4), optional
-        Bind pose of a skin, relative to the node above all joints, if it differs from the rest
-        pose. Blender uses it as the rest pose of a glTF.
-
-    Raises
-    ------
-    MotionError
-        Lengths differ, or a scale is not one positive number.
+    Raise MotionError if lengths differ, or a scale is not one positive number. ``binds`` is the
+    bind pose of a skin, relative to the node above all joints, if it differs from the rest pose;
+    Blender uses it as the rest pose of a glTF.
     """
 
-    names: tuple[str, ...]
-    parents: tuple[int, ...]
-    translations: Floats
-    rotations: Floats
-    scales: Floats
-    axes: Floats
-    unit: float = 1.0
-    turn: Floats = field(default_factory=rot.IDENTITY.copy)
-    numbers: tuple[int, ...] = ()
-    binds: Floats | None = None
+    names: tuple[str, ...]  # one per node, as in the file
+    parents: tuple[int, ...]  # index of each node's parent, which comes before it; -1 for none
+    translations: Floats  # (nodes, 3) in the parent's frame, as rotations and scales are
+    rotations: Floats  # (nodes, 4) unit quaternions (w, x, y, z)
+    scales: Floats  # (nodes, 3)
+    axes: Floats  # (joints, 4) rotations from the axes of each joint to those of its node
+    unit: float = 1.0  # metres in one unit of the file
+    turn: Floats = field(default_factory=rot.IDENTITY.copy)  # from the file's axes to y up
+    numbers: tuple[int, ...] = ()  # index of each node in the file; -1 if it is not in it
+    binds: Floats | None = None  # (joints, 4, 4)
 
     def __post_init__(self) -> None:
         for name in ("translations", "rotations", "scales", "axes", "turn"):

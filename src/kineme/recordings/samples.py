@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
-from kineme.recordings.arrays import as_rate, find_spans
+from kineme.recordings.arrays import as_rate, list_spans, mark_spans
 from kineme.recordings.column_names import is_channel_name
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
@@ -264,10 +264,9 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         for clock, sensor in zip(clocks, signals, strict=True)
     ]
     fps = max(sensor.fps for sensor in signals)
-    first = next(k for k, sensor in enumerate(signals) if sensor.fps == fps)
-    # frames of the fastest sensor are kept
-    # The first frame of the fastest sensor at which all have started.
-    start = begins[first] + np.ceil((max(begins) - begins[first]) * fps - 1e-3) / fps
+    # Keep the frames of the fastest sensor, from the first one at which all have started.
+    grid = next(at for at, sensor in zip(begins, signals, strict=True) if sensor.fps == fps)
+    start = grid + np.ceil((max(begins) - grid) * fps - 1e-3) / fps
     n_frames = int(np.floor((min(ends) - start) * fps + 1e-3)) + 1
     if n_frames < 1:
         raise ParameterError(
@@ -284,10 +283,8 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         seconds = clock.second(times)
         at = np.clip(seconds * sensor.fps, 0, sensor.n_frames - 1)
         columns.append(interpolate_frames(sensor.values, at))
-        # Mask of this sensor's gaps, which is looked up at the nearest frames.
-        hidden = np.zeros(sensor.n_frames + 1, np.bool_)
-        for begin, stop in sensor.gaps:
-            hidden[begin:stop] = True
+        # The gaps of this sensor are looked up at the nearest frames.
+        hidden = mark_spans(sensor.gaps, sensor.n_frames)
         missing |= hidden[np.rint(at).astype(np.intp)]
         missing |= np.abs(clock.time(seconds) - times) > LONGEST_S  # times within a pause
     names = _make_names_unique(signals)
@@ -295,21 +292,22 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     notes = [*(note for sensor in signals for note in sensor.provenance.notes), *notes]
     joined = Provenance(source.path, source.format, source.sha256).noted(*dict.fromkeys(notes))
     begun = Clock([0.0], [start]) if abs(start) > 0.5 / fps else None
-    gaps = [(begin, stop) for begin, stop in find_spans(missing).tolist()]
-    return Signals(np.concatenate(columns, axis=1), fps, names, gaps, joined.timed(begun))
+    values = np.concatenate(columns, axis=1)
+    return Signals(values, fps, names, list_spans(missing), joined.timed(begun))
 
 
 def _compare_clocks(
     signals: Sequence[Signals], offsets: Sequence[float] | None
 ) -> tuple[list[Clock], list[Note | str]]:
     """Return a clock for each, all with the same origin, and notes."""
+    clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
     if offsets is not None:
         if len(offsets) != len(signals) or not all(map(is_number, offsets)):
             raise ParameterError(f"offsets are {len(signals)} numbers, not {offsets!r:.60}")
-        clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
-        started = zip(clocks, offsets, strict=True)
-        return [_shift_clock(c.make_relative(), offset) for c, offset in started], []
-    clocks = [each.provenance.clock or Clock([0.0], [0.0]) for each in signals]
+        return [
+            Clock(clock.seconds, [time + offset for time in clock.make_relative().times])
+            for clock, offset in zip(clocks, offsets, strict=True)
+        ], []
     if all(clock.shows_dates for clock in clocks):
         return clocks, []
     lasts = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
@@ -319,10 +317,6 @@ def _compare_clocks(
     remark = "the sensors have no common clock: assumed to begin together; give offsets"
     warn(remark)
     return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
-
-
-def _shift_clock(clock: Clock, seconds: float) -> Clock:
-    return Clock(clock.seconds, [time + seconds for time in clock.times])
 
 
 def _make_names_unique(signals: Sequence[Signals]) -> tuple[str, ...]:

@@ -10,7 +10,6 @@ An end site is a leaf without a rotation of its own (a fingertip, the top of the
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
@@ -109,9 +108,8 @@ class Skeleton:
             return self._index[name]
         except (KeyError, TypeError):
             close = get_close_matches(str(name), self.names, n=3) or self.names[:5]
-            raise ParameterError(
-                f"no joint is called {name!r}; did you mean {_format_names(close)}?"
-            ) from None
+            names = ", ".join(map(repr, close))
+            raise ParameterError(f"no joint is called {name!r}; did you mean {names}?") from None
 
     @property
     def n_joints(self) -> int:
@@ -179,7 +177,3 @@ class Skeleton:
     @cached_property
     def _index(self) -> dict[str, int]:
         return {name: i for i, name in enumerate(self.names)}
-
-
-def _format_names(names: Iterable[str]) -> str:
-    return ", ".join(map(repr, names))

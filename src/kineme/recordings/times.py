@@ -1,4 +1,4 @@
-"""Recognise columns of times by name, and parse their values.
+"""Recognise columns of times, parse their values, and map seconds of a recording to them.
 
 Columns of times are called ``time``, ``t``, ``timestamp``, ``datetime``, ``elapsed`` or
 ``seconds``, with or without a unit as in ``time_ms``, ``Time (s)`` or ``epoch_ns``. Columns with
@@ -9,8 +9,6 @@ loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:0
 Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds. Their size tells the unit: a
 year from 2001 to 2100 in one unit lies outside these years in another. The unit of numbers with
 another origin, such as the start of a phone, is guessed from their steps.
-
-@@clock: Convert between seconds of a recording and the times in its file.
 
 Frame i is at second i / fps of the recording; pauses do not count. A `Clock` maps these seconds to
 the times in the file. It consists of spans, each with the second and the time at which it begins;
@@ -23,7 +21,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime, time
+from datetime import UTC, datetime
 from itertools import pairwise
 from typing import Any
 
@@ -46,7 +44,10 @@ RATE = "fps"
 NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
 """Error for a column that is named like times but holds none."""
 
-_EPOCH = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
+CLOSE_S = 0.05
+"""Seconds by which times may deviate from their span before a new span begins."""
+
+_DATES = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
 _SLOWEST = 4.0  # least rows per second in a guessed unit
 
 _TIME = re.compile(
@@ -72,7 +73,12 @@ _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 def is_timing(column: str) -> bool:
     """Return whether a column of this name holds times or rates."""
-    return any(pattern.fullmatch(column.strip()) for pattern in (_TIME, _RATE))
+    return is_time(column) or is_rate(column)
+
+
+def is_time(column: str) -> bool:
+    """Return whether a column of this name holds times."""
+    return _TIME.fullmatch(column.strip()) is not None
 
 
 def is_rate(column: str) -> bool:
@@ -87,7 +93,7 @@ def find_date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
     """
     dates = [i for i, (_, cell) in enumerate(zip(names, cells, strict=False)) if is_date(cell)]
     if any(map(is_timing, names)):
-        return [i for i in dates if _TIME.fullmatch(names[i].strip())]
+        return [i for i in dates if is_time(names[i])]
     return [i for i in dates if ":" in cells[i]][:1]
 
 
@@ -126,32 +132,13 @@ def find_time_unit(column: str) -> str | None:
     return match[2].lower() if match and match[2] else None
 
 
-def is_time(column: str) -> bool:
-    """Return whether a column of this name holds times."""
-    return _TIME.fullmatch(column.strip()) is not None
-
-
 def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str | None]:
-    """Return times in seconds, and the unit if it was guessed from their steps.
+    """Return times (rows,) in seconds, NaN if missing, and the unit if guessed from their steps.
 
-    Parameters
-    ----------
-    values : (rows,) array_like
-        Numbers, dates of numpy and pandas, or texts.
-    unit : str, optional
-        One of `UNITS_OF_TIME`. By default the unit in which the numbers are dates of this century;
-        else seconds, or the coarsest unit with at least four rows a second if steps are large.
-
-    Returns
-    -------
-    seconds : (rows,) array
-        NaN for missing times.
-    guessed : str or None
-
-    Raises
-    ------
-    ValueError, TypeError
-        The values are not times.
+    ``values`` (rows,) are numbers, dates of numpy and pandas, or texts; raise ValueError or
+    TypeError for others. ``unit`` is one of `UNITS_OF_TIME`. By default it is the one in which the
+    numbers are dates of this century; else seconds, or the coarsest unit with at least four rows a
+    second if steps are large.
 
     Examples
     --------
@@ -167,7 +154,8 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
         return np.where(np.isnat(stamps), np.nan, stamps.astype(np.int64) / 1e9), None
     if times.dtype.kind in "OUS":
         if any(isinstance(value, str) for value in times.ravel()[:9]):
-            return np.array([_parse_date_or_nan(value) for value in times.tolist()]), None
+            texts = [(value or "").strip() for value in times.tolist()]
+            return np.array([parse_date(text) if text else np.nan for text in texts]), None
         if any(isinstance(value, datetime) for value in times.ravel()[:9]):
             return np.array([_convert_date(value) for value in times.tolist()]), None
     numbers = np.asarray(times, np.float64)
@@ -200,10 +188,14 @@ def parse_date(text: str, *, day_first: bool | None = None) -> float:
     try:
         when = datetime.fromisoformat(text)
     except ValueError:
-        if written := _WRITTEN.fullmatch(text):
-            when = datetime.fromisoformat(_format_iso(written, day_first))
-        else:
-            when = datetime.combine(datetime(1970, 1, 1).date(), _parse_time_of_day(text))  # noqa: DTZ001
+        written = _WRITTEN.fullmatch(text)
+        iso = _format_iso(written, day_first) if written else f"1970-01-01T{text}"
+        try:
+            when = datetime.fromisoformat(iso)
+        except ValueError:
+            raise ValueError(
+                f"{text[:40]!r} is not an ISO date such as 2026-01-31T09:30:00.25"
+            ) from None
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
 
 
@@ -216,26 +208,21 @@ def is_day_first(texts: Sequence[str]) -> bool | None:
     --------
     >>> is_day_first(["5/6/2026 23:59:59", "13/6/2026 0:00:00"])
     True
-    >>> is_day_first(["5/6/2026 1:00"])
+    >>> is_day_first(["5/6/2026 1:00", "13-Jun-2026 1:00"])
     """
-    for text in texts:
-        match = _WRITTEN.fullmatch(text)
-        if match and max(int(match["first"]), int(match["second"])) > 12:
-            return int(match["first"]) > 12
+    for text in filter(is_ambiguous, texts):
+        first, second = map(int, re.findall(r"\d+", text)[:2])
+        if max(first, second) > 12:
+            return first > 12
     return None
 
 
 def is_ambiguous(text: str) -> bool:
-    """Return whether the order of day and month in a date is unknown."""
+    """Return whether a date alone does not state the order of day and month, as ``5/6/2026``."""
     match = _WRITTEN.fullmatch(text)
     if match is None or len(match["first"]) == 4 or match["mark"] == ".":
         return False
     return match["second"].isdigit()
-
-
-def _parse_date_or_nan(value: Any) -> float:
-    """Return the result of `parse_date`, or NaN for None and empty text."""
-    return parse_date(value.strip()) if value and value.strip() else np.nan
 
 
 def _format_iso(date: re.Match[str], day_first: bool | None) -> str:
@@ -257,15 +244,6 @@ def _format_iso(date: re.Match[str], day_first: bool | None) -> str:
     return f"{year}-{int(month):02}-{int(day):02}T{hour:02}{date['rest']}{zone}"
 
 
-def _parse_time_of_day(text: str) -> time:
-    try:
-        return time.fromisoformat(text)
-    except ValueError:
-        raise ValueError(
-            f"{text[:40]!r} is not an ISO date such as 2026-01-31T09:30:00.25"
-        ) from None
-
-
 def _convert_date(value: Any) -> float:
     """Return a datetime as seconds since 1970, in UTC if it has no zone; NaN for NaT."""
     if not isinstance(value, datetime) or value != value:  # noqa: PLR0124 (NaT)
@@ -278,7 +256,7 @@ def _find_unit_since_1970(numbers: Floats) -> str | None:
     finite = numbers[np.isfinite(numbers)]
     middle = float(np.median(finite)) if len(finite) else 0.0
     units = ("s", "ms", "us", "ns")
-    return next((u for u in units if _EPOCH[0] <= middle / UNITS_OF_TIME[u] < _EPOCH[1]), None)
+    return next((u for u in units if is_unix_time(middle / UNITS_OF_TIME[u])), None)
 
 
 def _find_unit_of_steps(numbers: Floats) -> str | None:
@@ -291,12 +269,6 @@ def _find_unit_of_steps(numbers: Floats) -> str | None:
     if step < 2:
         return None
     return next((u for u in ("ms", "us") if UNITS_OF_TIME[u] >= _SLOWEST * step), "ns")
-
-
-CLOSE_S = 0.05
-"""Seconds by which times may deviate from their span before a new span begins."""
-
-_DATES = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,6 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
-from itertools import islice
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -165,13 +164,17 @@ def make_channel_table(
     timing = {times[name]: column for name, column in values.items() if name in times}
     hints = [f"; {name!r} {NO_TIMES}" for name in times if name not in values]
     if not times:
-        clocks = (name for name in values if name_clock(name) and _is_mostly_rising(values[name]))
-        times = {name: name_clock(name) or "" for name in islice(clocks, 1)}
-        timing = {time_name: values[name] for name, time_name in times.items()}
+        # A clock may have gaps or jumps, but mostly rises.
+        for name, column in values.items():
+            clock, rises = name_clock(name), np.diff(column) > 0
+            if clock and len(column) >= MIN_CLOCK_ROWS and rises.mean() > 0.9:
+                times, timing = {name: clock}, {clock: column}
+                break
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in times and _may_be_channel(name)]
+        chosen = [name for name in values if name not in times and is_channel_name(name)]
+        chosen = [name for name in chosen if not name.startswith(NAMELESS)]
         chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
         rising = {name: None for name in chosen if _is_clock(values[name])}
         if len(rising) < len(chosen):
@@ -188,10 +191,6 @@ def make_channel_table(
     return ChannelTable(chosen, channels, timing, None, tuple(notes), "".join(hints[:1]))
 
 
-def _may_be_channel(name: str) -> bool:
-    return is_channel_name(name) and not name.startswith(NAMELESS)
-
-
 def _is_clock(values: Floats) -> bool:
     """Return whether a column always rises and deviates by at most one step from a straight line.
 
@@ -201,11 +200,6 @@ def _is_clock(values: Floats) -> bool:
         return False
     line = values[0] + _measure_step(values) * np.arange(len(values))
     return bool(np.abs(values - line).max() <= _measure_step(values))
-
-
-def _is_mostly_rising(values: Floats) -> bool:
-    """Return whether a column rises like a clock, possibly with gaps or jumps."""
-    return len(values) >= MIN_CLOCK_ROWS and bool((np.diff(values) > 0).mean() > 0.9)
 
 
 def _measure_step(values: Floats) -> float:

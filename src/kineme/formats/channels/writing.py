@@ -30,8 +30,8 @@ from kineme.formats.channels.reading import ChannelTable, read_text_channels
 from kineme.formats.delimited import as_text, make_unique_names, replace_decimal_comma
 from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
-from kineme.formats.plausibility import mark_spans
 from kineme.recordings import Signals
+from kineme.recordings.arrays import mark_spans
 from kineme.recordings.times import RATE, is_rate, is_timing
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}
@@ -80,11 +80,8 @@ def make_rows(signals: Signals, *, shortest: int | None = None) -> Rows:
         is_unchanged = content.digest == signals.provenance.sha256
         table = _find_source_table(content, signals) if is_unchanged else None
         if table is not None:
-            fps = (
-                None
-                if not may_be_single and _has_rate(table, content, signals.fps)
-                else signals.fps
-            )
+            needs_rate = may_be_single or not _has_rate(table, content, signals.fps)
+            fps = signals.fps if needs_rate else None
             if signals.provenance.format == PARQUET:
                 return _ParquetRows.from_file(content, fps)
             rows = _TextRows.from_file(content, signals.n_frames)
@@ -109,11 +106,8 @@ class _TextRows:
     def from_file(cls, content: FileContent, n_rows: int) -> _TextRows:
         """Return the first rows of a file, without blank lines."""
         table = find_table(content).number_columns()
-        text = (
-            content.text
-            if content.is_utf16
-            else content.data.decode("utf-8", errors="surrogateescape")  # keeps all bytes
-        )
+        # Surrogates keep all bytes of other encodings.
+        text = content.text if content.is_utf16 else content.data.decode(errors="surrogateescape")
         lines = text.splitlines(keepends=True)
         head, below = lines[: table.first_row], lines[table.first_row :]
         # A quoted cell may span several lines, which belong to one row.
@@ -126,16 +120,10 @@ class _TextRows:
             start = reader.line_num
         numbered = [str(i) for i in range(1, len(table.names) + 1)]
         names = None if table.names == numbered else table.names
-        suffix = content.path.suffix.lower()
         return cls(
-            suffix,
-            names,
-            "".join(head),
-            rows[:n_rows],
-            table.rows,
-            table.separator,
-            table.has_decimal_comma,
-        )
+            content.path.suffix.lower(), names, "".join(head), rows[:n_rows], table.rows,
+            table.separator, table.has_decimal_comma,
+        )  # fmt: skip
 
     def write(self, path: Path, start: int = 0, stop: int | None = None) -> None:
         """Write rows [start, stop) atomically to a file."""
@@ -148,12 +136,9 @@ class _TextRows:
     def cells(self) -> Iterator[Sequence[str]]:
         """Yield the cells of each row."""
         reader = csv.reader(self.records, delimiter=self.separator)
-        filled = (cells for cells in reader if any(map(str.strip, cells)))
-        converted = (
-            [*map(replace_decimal_comma, cells)] if self.has_decimal_comma else cells
-            for cells in filled
-        )
-        return islice(converted, len(self.lines))
+        filled = islice((row for row in reader if any(map(str.strip, row))), len(self.lines))
+        for cells in filled:
+            yield [*map(replace_decimal_comma, cells)] if self.has_decimal_comma else cells
 
 
 @dataclass(frozen=True)

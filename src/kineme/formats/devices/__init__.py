@@ -94,7 +94,13 @@ class Layout:
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
             cells, below = [*self.names, *numbered][: len(cells)], head
         names = make_unique_names(cells)
-        clocks = self._find_clocks(names)
+        matches = (
+            (name, unit)
+            for pattern, unit in self.clocks.items()
+            for name in names
+            if re.fullmatch(pattern, name)
+        )
+        clocks = dict(islice(matches, 1))
         hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
         passed = sum(map(is_text_line, lines[:head]))
         return DelimitedText(
@@ -115,13 +121,6 @@ class Layout:
             if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
                 return i
         raise text.content.error("has no line of column names where this device writes it")
-
-    def _find_clocks(self, names: Sequence[str]) -> dict[str, str]:
-        for pattern, unit in self.clocks.items():
-            for name in names:
-                if re.fullmatch(pattern, name):
-                    return {name: unit}
-        return {}
 
     def _find_rate(self, lines: Sequence[str]) -> float | None:
         matches = (re.search(self.rate, line) for line in lines if self.rate)

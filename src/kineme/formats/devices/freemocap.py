@@ -13,8 +13,9 @@ import numpy as np
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
-from kineme.formats.points import columns_to_motion, list_joints
+from kineme.formats.points import columns_to_motion
 from kineme.recordings import Motion
+from kineme.recordings.column_names import group_axes
 
 _BODY = "body_"
 _OTHERS = ("left_hand_", "right_hand_", "face_")
@@ -23,8 +24,7 @@ _MIN_NANOSECONDS = 1e5  # larger steps of a clock are nanoseconds, not seconds
 
 def recognises(names: Sequence[str], _: Sequence[str]) -> bool:
     """Return whether the columns are a time stamp and coordinates of ``body_`` joints."""
-    body = [name for name in list_joints(names) if name.startswith(_BODY)]
-    return "timestamp" in names and f"{_BODY}nose" in body
+    return "timestamp" in names and f"{_BODY}nose" in group_axes(names)
 
 
 def read(table: DelimitedText, options: ReadOptions) -> Motion:

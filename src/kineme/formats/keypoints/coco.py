@@ -22,7 +22,7 @@ from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
     Person,
-    Video,
+    name_people,
     split_groups,
     video_to_motion,
 )
@@ -66,22 +66,19 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
         if isinstance(entry, Mapping) and entry.get("keypoints")
     ]
     names = _find_names(data) if is_set else None
-    frames = _find_frames(content, data.get("images") if is_set else None, entries)
-    id_key = next((key for key in _IDS if all(entry.get(key) is not None for entry in entries)), "")
+    images = data.get("images") if is_set else None
+    frames = _find_frames(content, images, entries)
     people = []
-    for entry, frame in zip(entries, frames, strict=True):
+    for entry, frame, person in zip(entries, frames, name_people(entries, *_IDS), strict=True):
         groups = split_groups(content, entry["keypoints"], 3)
-        person = str(entry[id_key])[:40] if id_key else None
         people.append(Person(frame, groups[:, :2], groups[:, 2], person))
     count = len(people[0].points) if people else len(NAMES)
     if names is None or len(names) != count:
         names = list(NAMES)
     if count != len(names):
         raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
-    images = data.get("images") if is_set else None
     numbers = range(len(images)) if isinstance(images, list) else ()
-    video = Video("COCO", names, people, LIMIT, frames=numbers)
-    return video_to_motion(content, video, options)
+    return video_to_motion(content, options, "COCO", names, people, LIMIT, frames=numbers)
 
 
 def _find_names(data: Mapping[str, Any]) -> list[str] | None:

@@ -7,7 +7,7 @@ MediaPipe has no file format of its own. These forms are read:
   ``landmarks`` or the same in camel case: one list of 33, a list of these for each person, or
   landmarks by name. A landmark has ``x``, ``y``, ``z`` and ``visibility``, by name or in order.
 - CSV: columns ``x0 y0 z0 v0`` to 32 (or 1 to 33), ``nose_x`` and so on by name or number; or a row
-  for each landmark, with columns for frame, landmark, x, y and z.
+  for each landmark, with columns for frame, landmark, x, y and z. Rows may have times or a rate.
 
 World landmarks are metres from the middle of the hips, with y down. They are used if present, or if
 the middle of the hips stays at 0; the position in the room is then unknown. Image landmarks are
@@ -18,29 +18,25 @@ is correct. ``confidence`` leaves out those below it.
 FreeMoCap's tables of the same landmarks are in space, in millimetres with z up.
 
 Source: Google, MediaPipe's documentation of the Pose Landmarker.
-
-@@mediapipe_tables: Read MediaPipe's landmarks in tables with a row for each frame, or for each landmark.
-
-`kineme.formats.keypoints.mediapipe` describes the names of columns.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._util.arrays import Floats, Ints
 from kineme._util.checks import is_number
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
     Person,
-    Video,
     order_by_number,
     to_frame_numbers,
     video_to_motion,
@@ -69,6 +65,18 @@ _FRAMES = ("frames", "data", "results", "poses", "landmarks")
 _NUMBER = ("frame", "frameid", "frameidx", "frameindex", "framenumber", "framenum", "index")
 _HIPS = [NAMES.index("left_hip"), NAMES.index("right_hip")]
 _PLAIN = re.compile(r"[\s_-]")
+_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # three copies of four numbers
+
+_FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3, "presence": 3, "score": 3}
+_WORD = r"(?:pose|landmarks?|lm|kp|keypoint|point)?[\s_.-]*"
+_FIELD = r"(x|y|z|v|vis|visibility)"
+_FIELD_FIRST = re.compile(rf"{_WORD}{_FIELD}[\s_.-]*(\d{{1,2}})", re.IGNORECASE)
+_FIELD_LAST = re.compile(rf"{_WORD}(\d{{1,2}}|[a-z_ ]+?)[\s_.-]+{_FIELD}", re.IGNORECASE)
+_FRAME = re.compile(r"(frame|image)[\s_]*(id|idx|index|no|num|number)?", re.IGNORECASE)
+_LANDMARK = re.compile(
+    r"(landmark|keypoint|joint|point)([\s_]*(id|idx|index|name|no|num|number))?|name|id",
+    re.IGNORECASE,
+)
 
 
 def is_mediapipe(data: Any) -> bool:
@@ -121,35 +129,45 @@ def landmarks_to_motion(
         middles = np.array([np.mean([p.points[hip] for hip in _HIPS], axis=0) for p in people])
         # World landmarks have the middle of the hips at 0 in each frame.
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
-    notes = list(notes)
+    unit: str | None = "pixel"
+    up: str | None = "-y"
     if world:
-        notes.append(
+        unit = "m"
+        remark = (
             "world landmarks: metres from the middle of the hips, without the position in the room"
         )
-        video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, unit="m", notes=notes)
-        return video_to_motion(content, video, options)
-    if _are_in_space(people):
-        notes.append(
+        notes = [*notes, remark]
+    elif _are_in_space(people):
+        unit = up = None
+        remark = (
             "landmarks in space, since the body does not stand along the vertical axis of images"
         )
-        video = Video(
-            "MediaPipe", NAMES, people, LIMIT, fps, frames, unit=None, up=None, notes=notes
-        )
-        return video_to_motion(content, video, options)
+        notes = [*notes, remark]
+    else:
+        people = _scale_to_image(content, people, size)
+    return video_to_motion(
+        content, options, "MediaPipe", NAMES, people, LIMIT,
+        fps=fps, frames=frames, unit=unit, up=up, notes=notes,
+    )  # fmt: skip
+
+
+def _scale_to_image(
+    content: FileContent, people: Sequence[Person], size: Sequence[float | None]
+) -> Sequence[Person]:
+    """Return landmarks that are fractions of an image of this width and height in pixels."""
     hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
-    if np.nanmax(np.abs(hips), initial=0.0) < 4:  # fractions of the image, not pixels
-        width, height = size
-        if not (width and height):
-            width = height = 1.0
-            content.warn(
-                "landmarks are relative to an image of unknown size, assumed square: "
-                "otherwise multiply x and z by width / height"
-            )
-        # z is a fraction of the width, like x.
-        sides = np.array([width, height, width])
-        people = [replace(person, points=np.asarray(person.points) * sides) for person in people]
-    video = Video("MediaPipe", NAMES, people, LIMIT, fps, frames, notes=notes)
-    return video_to_motion(content, video, options)
+    if np.nanmax(np.abs(hips), initial=0.0) >= 4:  # pixels already
+        return people
+    width, height = size
+    if not (width and height):
+        width = height = 1.0
+        content.warn(
+            "landmarks are relative to an image of unknown size, assumed square: "
+            "otherwise multiply x and z by width / height"
+        )
+    # z is a fraction of the width, like x.
+    sides = np.array([width, height, width])
+    return [replace(person, points=np.asarray(person.points) * sides) for person in people]
 
 
 def _are_in_space(people: Sequence[Person]) -> bool:
@@ -253,113 +271,83 @@ def normalize_name(name: str) -> str:
     return _PLAIN.sub("", name).lower()
 
 
-_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # three copies of four numbers
-
-_FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3, "presence": 3, "score": 3}
-_WORD = r"(?:pose|landmarks?|lm|kp|keypoint|point)?[\s_.-]*"
-_FIELD = r"(x|y|z|v|vis|visibility)"
-_FIELD_FIRST = re.compile(rf"{_WORD}{_FIELD}[\s_.-]*(\d{{1,2}})", re.IGNORECASE)
-_FIELD_LAST = re.compile(rf"{_WORD}(\d{{1,2}}|[a-z_ ]+?)[\s_.-]+{_FIELD}", re.IGNORECASE)
-_FRAME = re.compile(r"(frame|image)[\s_]*(id|idx|index|no|num|number)?", re.IGNORECASE)
-_LANDMARK = re.compile(
-    r"(landmark|keypoint|joint|point)([\s_]*(id|idx|index|name|no|num|number))?|name|id",
-    re.IGNORECASE,
-)
 _PLACES = {normalize_name(name): i for i, name in enumerate(NAMES)}
 
 
-def is_long(names: Sequence[str]) -> bool:
+def is_long(names: Sequence[str], _: Sequence[str]) -> bool:
     """Return whether these are the columns of a table with a row for each landmark."""
-    lower = [name.lower() for name in names]
-    return {"x", "y"} <= set(lower) and None not in (
-        _find_column(names, _FRAME),
-        _find_column(names, _LANDMARK),
-    )
+    columns = (_find_column(names, _FRAME), _find_column(names, _LANDMARK))
+    return {"x", "y"} <= {name.lower() for name in names} and None not in columns
 
 
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
     """Return the motion of MediaPipe's landmarks from a table with a row for each frame."""
-    field_columns = _find_landmark_columns(table.names)
+    fields = _find_landmark_columns(table.names)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)]
     frame = _find_column(table.names, _FRAME)
-    extra = [*timing, *([frame] if frame is not None else [])]
-    rows = table.numbers([*field_columns.values(), *extra])
-    # x, y, z and visibility, which is 1 if there is no column for it.
-    poses = np.zeros((len(rows), len(NAMES), 4))
-    poses[..., 3] = 1.0
-    for (landmark, field), column in zip(
-        field_columns, rows[:, : len(field_columns)].T, strict=True
-    ):
+    rows = table.numbers([*fields.values(), *timing, *([] if frame is None else [frame])]).T
+    poses = _make_poses(rows.shape[1])
+    for (landmark, field), column in zip(fields, rows, strict=False):
         poses[:, landmark, field] = column
-    frames, clock = np.arange(len(rows)), Timing(options.fps or 0.0)
+    times = {table.names[i]: column for i, column in zip(timing, rows[len(fields) :], strict=False)}
+    numbers = None if frame is None else rows[-1]
+    return _poses_to_motion(table.content, poses, numbers, times, options)
+
+
+def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
+    """Return the motion of MediaPipe's landmarks from a table with a row for each landmark."""
+    lower = [name.lower() for name in table.names]
+    fields = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
+    landmark, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
+    timing = [i for i, name in enumerate(table.names) if is_timing(name)]
+    rows = table.numbers([frame or 0, *fields.values(), *timing]).T
+    landmarks = _parse_landmark_numbers(table.content, table.texts(landmark or 0)[: rows.shape[1]])
+    # Index of the frame of each row.
+    numbers, frame_index = np.unique(to_frame_numbers(table.content, rows[0]), return_inverse=True)
+    size = _BYTES_PER_POSE * len(numbers)
+    table.content.require_memory(size, f"{len(NAMES)} landmarks in {len(numbers)} frames")
+    poses = _make_poses(len(numbers))
+    for field, column in zip(fields, rows[1:], strict=False):
+        poses[frame_index, landmarks, field] = column
+    times = {table.names[i]: np.zeros(len(numbers)) for i in timing}
+    for column, row_times in zip(times.values(), rows[1 + len(fields) :], strict=True):
+        column[frame_index] = row_times
+    return _poses_to_motion(table.content, poses, numbers, times, options)
+
+
+def _make_poses(n: int) -> Floats:
+    """Return poses (n, 33, 4) without positions, with the default of z, 0, and visibility, 1."""
+    poses = np.full((n, len(NAMES), 4), np.nan)
+    poses[..., 2:] = (0.0, 1.0)
+    return poses
+
+
+def _poses_to_motion(
+    content: FileContent,
+    poses: Floats,
+    numbers: Floats | Ints | None,
+    times: Mapping[str, Floats],
+    options: ReadOptions,
+) -> Motion:
+    """Return the motion of poses (frames, 33, 4), with the frames' numbers and columns of times."""
+    clock = Timing(options.fps or 0.0)
     gaps = clock.gaps
-    if timing and not options.fps:
-        columns = {table.names[i]: rows[:, len(field_columns) + k] for k, i in enumerate(timing)}
-        clock = find_table_timing(table.content, columns)
+    if times and not options.fps:
+        clock = find_table_timing(content, times)
         poses, gaps = place_points(clock, poses)
-        frames = np.arange(len(poses))
-    # A rate takes precedence over times, so that rows are frames only by their number.
-    has_rate = any(is_rate(table.names[i]) for i in timing)
-    if frame is not None and (options.fps or has_rate or not timing):
-        frames = to_frame_numbers(table.content, rows[:, -1])
+    # Numbers count frames only if no times do; a rate takes precedence over times.
+    is_numbered = not times or options.fps or any(map(is_rate, times))
+    frames = np.arange(len(poses))
+    if numbers is not None and is_numbered:
+        frames = to_frame_numbers(content, numbers)
     people = [
         Person(frame, pose[:, :3], pose[:, 3])
         for frame, pose in zip(frames.tolist(), poses, strict=True)
         if np.isfinite(pose[:, :2]).any()
     ]
     motion = landmarks_to_motion(
-        table.content,
-        people,
-        options,
-        fps=clock.fps or None,
-        frames=frames.tolist(),
-        notes=clock.notes,
+        content, people, options, fps=clock.fps or None, frames=frames.tolist(), notes=clock.notes
     )
-    return _apply_clock(motion, clock, gaps)
-
-
-def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks from a table with a row for each landmark."""
-    lower = [name.lower() for name in table.names]
-    field_columns = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
-    landmark_column, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
-    timing = [i for i, name in enumerate(table.names) if is_timing(name)][:1]
-    rows = table.numbers([frame or 0, *field_columns.values(), *timing])
-    landmarks = _parse_landmark_numbers(
-        table.content, table.texts(landmark_column or 0)[: len(rows)]
-    )
-    # Index of the frame of each row.
-    frames, frame_index = np.unique(
-        to_frame_numbers(table.content, rows[:, 0]), return_inverse=True
-    )
-    size = _BYTES_PER_POSE * len(frames)
-    table.content.require_memory(size, f"{len(NAMES)} landmarks in {len(frames)} frames")
-    poses = np.full((len(frames), len(NAMES), 4), np.nan)
-    # Defaults of z and visibility.
-    poses[..., 2:] = (0.0, 1.0)
-    for k, field in enumerate(field_columns, 1):
-        poses[frame_index, landmarks, field] = rows[:, k]
-    clock = Timing(options.fps or 0.0)
-    gaps = clock.gaps
-    if timing and not options.fps:
-        times = np.zeros(len(frames))
-        times[frame_index] = rows[:, -1]
-        clock = find_table_timing(table.content, {table.names[timing[0]]: times})
-        poses, gaps = place_points(clock, poses)
-        if not is_rate(table.names[timing[0]]):
-            frames = np.arange(len(poses))
-    people = [
-        Person(frame, pose[:, :3], pose[:, 3])
-        for frame, pose in zip(frames.tolist(), poses, strict=True)
-    ]
-    motion = landmarks_to_motion(
-        table.content, people, options, fps=clock.fps or None, notes=clock.notes
-    )
-    return _apply_clock(motion, clock, gaps)
-
-
-def _apply_clock(motion: Motion, clock: Timing, gaps: Iterable[tuple[int, int]]) -> Motion:
-    """Return the motion with the times of its rows, split at the gaps."""
     provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
     return split_at(replace(motion, provenance=provenance), gaps)
 
@@ -404,10 +392,8 @@ def _find_column(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
 
 WIDE = Dialect(
     "MediaPipe",
-    lambda names, _: len(_find_landmark_columns(names)) >= 2 * len(NAMES),
+    lambda names, _: bool(_find_landmark_columns(names)),
     read_landmarks,
     motion=True,
 )
-LONG = Dialect(
-    "MediaPipe, a row per landmark", lambda names, _: is_long(names), read_long, motion=True
-)
+LONG = Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True)

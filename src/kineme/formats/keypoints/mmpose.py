@@ -20,7 +20,7 @@ from typing import Any
 from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.coco import LAYOUTS, LIMIT
-from kineme.formats.keypoints.video import Person, Video, video_to_motion
+from kineme.formats.keypoints.video import Person, name_people, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
@@ -45,22 +45,22 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
         ]
     if not instances_found:
         raise content.error("no person found in any frame")
-    width = max((len(_get_points(instance)) for _, instance in instances_found), default=0)
+    width = max(len(_get_points(instance)) for _, instance in instances_found)
     names = _find_names(data, width)
     if not names:
         raise content.error(f"a person has {width} keypoints, and 'meta_info' does not name them")
-    has_ids = all(instance.get("track_id") is not None for _, instance in instances_found)
+    ids = name_people([instance for _, instance in instances_found], "track_id")
     people = []
-    for number, instance in instances_found:
+    for (number, instance), person in zip(instances_found, ids, strict=True):
         scores = instance.get("keypoint_scores")
         confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
-        person = str(instance["track_id"])[:40] if has_ids else None
         people.append(Person(number, _get_points(instance)[: len(names)], confidence, person))
     first = next((person.points[0] for person in people if person.points), None)
     is_flat = isinstance(first, list) and len(first) == 2
     unit, up = ("pixel", "-y") if is_flat else (None, "z")
-    video = Video("MMPose", names, people, LIMIT, frames=numbers, unit=unit, up=up)
-    return video_to_motion(content, video, options)
+    return video_to_motion(
+        content, options, "MMPose", names, people, LIMIT, frames=numbers, unit=unit, up=up
+    )
 
 
 def _list_frames(data: Any) -> Sequence[Any]:

@@ -30,7 +30,6 @@ from kineme.formats.files import FileContent, load
 from kineme.formats.keypoints.coco import LAYOUTS
 from kineme.formats.keypoints.video import (
     Person,
-    Video,
     order_by_number,
     parse_json,
     split_groups,
@@ -162,15 +161,14 @@ def _to_motion(
     in_space = [person for person in people if np.shape(person.points)[1:] == (3,)]
     people = in_space or people  # flat ones were seen by one camera only, in pixels
     counts = {len(person.points) for person in people}
-    for count in counts:
-        if count not in NAMES:
-            layouts = ", ".join(map(str, sorted(NAMES)))
-            raise content.error(f"a person has {count} keypoints: {layouts} are known")
+    for count in counts - NAMES.keys():
+        layouts = ", ".join(map(str, sorted(NAMES)))
+        raise content.error(f"a person has {count} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
     n = len(names)  # leaves out hands and face of whole bodies
     people = [replace(person, points=person.points[:n], confidence=person.confidence[:n])
               for person in people]  # fmt: skip
-    video = Video("OpenPose", names, people, LIMIT, frames=frames)
-    if in_space:
-        video = replace(video, unit=None, up=None)
-    return video_to_motion(content, video, options)
+    unit, up = (None, None) if in_space else ("pixel", "-y")
+    return video_to_motion(
+        content, options, "OpenPose", names, people, LIMIT, frames=frames, unit=unit, up=up
+    )

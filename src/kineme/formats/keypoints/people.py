@@ -9,9 +9,7 @@ People seen in less than a tenth of the frames of the most frequent one are igno
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,32 +29,20 @@ _REMEMBERED = 50  # most recently seen people who may reappear
 _MOMENTUM = 0.8  # share of the previous velocity in the smoothed one
 
 
-@dataclass(frozen=True)
-class Detections:
-    """Detected people, one row for each person in a frame, in order of frames."""
-
-    frames: Rows
-    points: Floats  # (rows, keypoints, 3), NaN where not found
-    who: Sequence[str | None]  # name or number in the file
-
-
-class SelectedPerson(NamedTuple):
-    """Rows and name of a person, all people, and notes."""
-
-    rows: Rows
-    name: str
-    people: tuple[str, ...]
-    notes: list[str]
-
-
 def select_person(
-    content: FileContent, detections: Detections, person: str | None
-) -> SelectedPerson:
-    """Return the rows of the requested person, or of the only one.
+    content: FileContent,
+    frames: Rows,
+    points: Floats,
+    detected: Sequence[str | None],
+    person: str | None,
+) -> tuple[Rows, str, tuple[str, ...], list[str]]:
+    """Return the rows and the name of the requested or only person, all people, and notes.
 
-    Raise SeveralPeopleError if the person does not exist, or several exist and none is requested.
+    Each row is a person in a frame, in order of ``frames``, with ``points`` (rows, keypoints, 3),
+    NaN where not found, and the name or number in the file. Raise SeveralPeopleError if the person
+    does not exist, or several exist and none is requested.
     """
-    people = _group_by_person(detections)
+    people = _group_by_person(frames, points, detected)
     if not people:
         raise content.error("no person found in any frame")
     max_frames = max(map(len, people.values()))
@@ -64,7 +50,7 @@ def select_person(
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * max_frames}
     candidates = staying if person is None else people
     shown = [
-        f"{name} ({len(rows)} frames from {detections.frames[rows[0]]} on)"
+        f"{name} ({len(rows)} frames from {frames[rows[0]]} on)"
         for name, rows in candidates.items()
     ]
     name = choose_person(content.path, candidates, person, shown=shown)
@@ -72,46 +58,51 @@ def select_person(
     note = f"person {name} of {len(people)}"
     if person is None:
         note = f"person {name}; {len(people) - 1} seen only briefly are left out"
-    return SelectedPerson(people[name], name, all_people, [note] if len(people) > 1 else [])
+    return people[name], name, all_people, [note] if len(people) > 1 else []
 
 
-def _group_by_person(detections: Detections) -> dict[str, Rows]:
+def _group_by_person(
+    frames: Rows, points: Floats, detected: Sequence[str | None]
+) -> dict[str, Rows]:
     """Return the rows of each person, in order of appearance."""
-    if all(name is not None for name in detections.who):
-        numbers = [str(name) for name in detections.who]
-    elif len(np.unique(detections.frames)) == len(detections.frames):
+    if all(name is not None for name in detected):
+        numbers = list(map(str, detected))
+    elif len(np.unique(frames)) == len(frames):
         # One detection per frame: there is only one person.
-        numbers = ["0"] * len(detections.frames)
+        numbers = ["0"] * len(frames)
     else:
-        numbers = [str(number) for number in track_people(detections)]
+        numbers = list(map(str, track_people(frames, points)))
     rows: dict[str, list[int]] = {}
     for row, number in enumerate(numbers):
         rows.setdefault(number, []).append(row)
     return {
         # Use the first of several rows of a person in one frame.
-        name: np.array(person_rows)[np.unique(detections.frames[person_rows], return_index=True)[1]]
+        name: np.array(person_rows)[np.unique(frames[person_rows], return_index=True)[1]]
         for name, person_rows in rows.items()
     }
 
 
-def track_people(detections: Detections) -> list[int]:
-    """Return a person's number for each row: the nearest person of earlier frames, or a new one."""
+def track_people(frames: Rows, points: Floats) -> list[int]:
+    """Return a person's number for each row: the nearest person of earlier frames, or a new one.
+
+    ``points`` (rows, keypoints, 3) are in order of ``frames``; NaN where not found.
+    """
     from scipy.optimize import linear_sum_assignment
 
-    numbers = [0] * len(detections.frames)
+    numbers = [0] * len(frames)
     last: dict[int, int] = {}  # last row of each person
     drifts: dict[int, Floats] = {}  # movement of each person per frame
     count = 0
     # First row of each frame.
-    starts = np.flatnonzero(np.diff(detections.frames, prepend=-1))
-    for start, stop in pairwise([*starts.tolist(), len(detections.frames)]):
+    starts = np.flatnonzero(np.diff(frames, prepend=-1))
+    for start, stop in pairwise([*starts.tolist(), len(frames)]):
         tracks = list(last)
         before = np.array([last[person] for person in tracks], np.intp)
         drift = np.array([drifts[person] for person in tracks]).reshape(len(tracks), 3)
         cost = np.full((len(tracks), stop - start), np.inf)
         for column, row in enumerate(range(start, stop)):
             if tracks:
-                cost[:, column] = _measure_strides(detections, before, drift, row)
+                cost[:, column] = _measure_strides(frames, points, before, drift, row)
         # The assignment needs finite costs; pairs too far apart are dropped below.
         possible = np.where(np.isfinite(cost), cost, 1e6)
         pairs = zip(*linear_sum_assignment(possible), strict=True)
@@ -124,29 +115,28 @@ def track_people(detections: Detections) -> list[int]:
             person = numbers[row] = matched[column]
             # Reinsert the person: the order of `last` is that of the last detection.
             if (former := last.pop(person, None)) is not None:
-                drifts[person] = _MOMENTUM * drifts[person] + (1 - _MOMENTUM) * _measure_step(
-                    detections, former, row
-                )
+                step = _measure_step(frames, points, former, row)
+                drifts[person] = _MOMENTUM * drifts[person] + (1 - _MOMENTUM) * step
             last[person] = row
         for person in list(last)[:-_REMEMBERED]:
             del last[person], drifts[person]
     return numbers
 
 
-def _measure_step(detections: Detections, former: int, row: int) -> Floats:
+def _measure_step(frames: Rows, points: Floats, former: int, row: int) -> Floats:
     """Return the mean movement of a person per frame between two rows, 0 if unknown."""
-    steps = detections.points[row] - detections.points[former]
+    steps = points[row] - points[former]
     seen = np.isfinite(steps).all(axis=1)
-    passed = detections.frames[row] - detections.frames[former]
+    passed = frames[row] - frames[former]
     return steps[seen].mean(axis=0) / passed if seen.any() else np.zeros(3)
 
 
-def _measure_strides(detections: Detections, before: Rows, drift: Floats, row: int) -> Floats:
+def _measure_strides(frames: Rows, points: Floats, before: Rows, drift: Floats, row: int) -> Floats:
     """Return distances of a row to expected people, as multiples of the allowed one, or inf."""
-    now = detections.points[row]
-    passed = detections.frames[row] - detections.frames[before]
+    now = points[row]
+    passed = frames[row] - frames[before]
     with np.errstate(all="ignore"):
-        expected = detections.points[before] + (drift * passed[:, None])[:, None]
+        expected = points[before] + (drift * passed[:, None])[:, None]
         # Distance of each keypoint (people, keypoints), NaN where not seen.
         distances = np.linalg.norm(expected - now, axis=2)
         visible = np.isfinite(distances)

@@ -62,25 +62,25 @@ def begins_coco(head: bytes) -> bool:
     return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
 
 
-def begins_mmpose(head: bytes) -> bool:
-    """Return whether JSON starts like MMPose's predictions."""
-    return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
-
-
-def begins_mediapipe(head: bytes) -> bool:
-    """Return whether JSON starts like landmarks."""
-    return b'landmarks":' in head.lower().replace(b" ", b"")
-
-
-def begins_ultralytics(head: bytes) -> bool:
-    """Return whether JSON starts like a list of frames with lists of people with boxes."""
-    return _FRAMES.match(head) is not None and b'"box"' in head
-
-
 OPENPOSE = Format(
     "OpenPose", (".json",), begins_openpose, read_pose_json, read_folder=read_openpose_folder
 )
-MMPOSE = Format("MMPose", (".json",), begins_mmpose, read_pose_json)
 COCO = Format("COCO", (".json",), begins_coco, read_pose_json)
-MEDIAPIPE = Format("MediaPipe", (".json",), begins_mediapipe, read_pose_json)
-ULTRALYTICS = Format("Ultralytics", (".json",), begins_ultralytics, read_pose_json)
+MMPOSE = Format(
+    "MMPose",
+    (".json",),
+    lambda head: b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head),
+    read_pose_json,
+)
+MEDIAPIPE = Format(
+    "MediaPipe",
+    (".json",),
+    lambda head: b'landmarks":' in head.lower().replace(b" ", b""),
+    read_pose_json,
+)
+ULTRALYTICS = Format(
+    "Ultralytics",
+    (".json",),
+    lambda head: b'"box"' in head and _FRAMES.match(head) is not None,  # lists of people with boxes
+    read_pose_json,
+)

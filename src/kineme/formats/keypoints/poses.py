@@ -42,12 +42,11 @@ from kineme._util.parallel import find_user_cache
 from kineme.features.filters import filter_low
 from kineme.formats.channels.parquet import open_parquet, read_parquet_columns
 from kineme.formats.files import FileContent, load
-from kineme.formats.keypoints.people import Detections, track_people
-from kineme.formats.keypoints.video import MAX_FRAMES_RATIO, Person, Video, video_to_motion
+from kineme.formats.keypoints.people import track_people
+from kineme.formats.keypoints.video import MAX_FRAMES_RATIO, Person, video_to_motion
 from kineme.formats.options import ReadOptions
-from kineme.formats.plausibility import mark_gaps, split_at
+from kineme.formats.plausibility import split_at
 from kineme.recordings import Motion, Note
-from kineme.recordings.arrays import find_spans
 from kineme.recordings.regular import place_rows
 
 KEY = b"kineme.poses"
@@ -121,7 +120,7 @@ def write_poses(path: Path, head: Head, rows: Rows) -> None:
     points = np.pad(person_rows["image"].astype(np.float64), ((0, 0), (0, 0), (0, 1)))
     person = [0] * len(person_rows)
     if len(np.unique(frames)) < len(frames):
-        person = track_people(Detections(frames, points, [None] * len(person_rows)))
+        person = track_people(frames, points)
     columns: dict[str, Any] = {
         "time": person_rows["time"] - times[0],
         "person": pa.array(person, "int32"),
@@ -219,11 +218,11 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     ]
     frames = range(round(float(head["duration"]) * float(head["fps"])) + 1)
     notes = ["metres from the middle of the hips, without the position in the room"]
-    video = Video(
-        f"video poses ({head['estimator']})", head["keypoints"], people, float(head["limit"]), fps,
-        frames, unit, up, notes if head["depth"] else (),
+    motion = video_to_motion(
+        content, options, f"video poses ({head['estimator']})", head["keypoints"], people,
+        float(head["limit"]), fps=fps, frames=frames, unit=unit, up=up,
+        notes=notes if head["depth"] else (),
     )  # fmt: skip
-    motion = video_to_motion(content, video, options)
     cuts = find_cuts(rows[rows["person"] == int(motion.provenance.person or 0)], head)
     frames_cut = [round(cut * float(head["fps"])) for cut in cuts]
     motion = split_at(motion, [(n, n + 1) for n in frames_cut if 0 < n < motion.n_frames - 1])
@@ -306,7 +305,7 @@ def _smooth(motion: Motion) -> Motion:
             f"not smoothed: {motion.fps:g} Hz is too low for a filter of {CUTOFF:g} Hz"
         )
     positions = motion.positions.copy()
-    for start, stop in find_spans(~np.array(mark_gaps(motion))).tolist():
+    for start, stop in motion.spans():
         # The filter needs fewer padding frames than the span has.
         padding = min(round(motion.fps), stop - start - 2)
         if padding > 0:

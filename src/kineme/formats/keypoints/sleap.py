@@ -20,7 +20,7 @@ from kineme.formats.arrays.mat import SIGNATURE, collect_texts, parse_hdf5
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import Person, Video, to_frame_numbers, video_to_motion
+from kineme.formats.keypoints.video import Person, to_frame_numbers, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
@@ -54,8 +54,7 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
         for track, frame in np.argwhere(visible).tolist()
     ]
     frames = range(positions.shape[1])
-    video = Video("SLEAP", nodes, people, LIMIT, frames=frames)
-    return video_to_motion(content, video, options)
+    return video_to_motion(content, options, "SLEAP", nodes, people, LIMIT, frames=frames)
 
 
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -78,7 +77,7 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
         for i, frame in enumerate(frames)
     ]
     start = [0] if 0 <= min(frames) < len(frames) else []  # include the start of the video
-    return video_to_motion(content, Video("SLEAP", nodes, people, LIMIT, frames=start), options)
+    return video_to_motion(content, options, "SLEAP", nodes, people, LIMIT, frames=start)
 
 
 def _arrange(content: FileContent, tracks: Any, scores: Any, *, old: bool) -> tuple[Floats, Floats]:

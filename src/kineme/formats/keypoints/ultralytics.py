@@ -14,7 +14,7 @@ from typing import Any
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.coco import LIMIT
 from kineme.formats.keypoints.coco import NAMES as COCO
-from kineme.formats.keypoints.video import Person, Video, video_to_motion
+from kineme.formats.keypoints.video import Person, name_people, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
@@ -33,20 +33,19 @@ def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> M
     ]
     width = max(len(detection["keypoints"]["x"]) for _, detection in people_found)
     names = COCO if width == len(COCO) else tuple(f"point{i + 1}" for i in range(width))
-    has_ids = all(detection.get("track_id") is not None for _, detection in people_found)
+    ids = name_people([detection for _, detection in people_found], "track_id")
     people = []
-    for number, detection in people_found:
+    for (number, detection), person in zip(people_found, ids, strict=True):
         points = detection["keypoints"]
         x, y = points["x"], points["y"]
         if len(x) != len(y):
             raise content.error(f"frame {number} has {len(x)} x and {len(y)} y of keypoints")
-        person = str(detection["track_id"])[:40] if has_ids else None
         pairs = list(zip(x, y, strict=True))
         # Keypoints that were not found are at the corner of the image.
         confidence = points.get("visible") or [float(any(pair)) for pair in pairs]
         people.append(Person(number, pairs, confidence, person))
-    video = Video("Ultralytics", names, people, LIMIT, frames=range(len(data)))
-    return video_to_motion(content, video, options)
+    frames = range(len(data))
+    return video_to_motion(content, options, "Ultralytics", names, people, LIMIT, frames=frames)
 
 
 def _list_people(frame: Any) -> list[Mapping[str, Any]]:

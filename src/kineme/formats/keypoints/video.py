@@ -11,16 +11,16 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.arrays import Floats
+from kineme._util.arrays import Floats, Ints
 from kineme._util.checks import format_count
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.people import Detections, select_person
+from kineme.formats.keypoints.people import select_person
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.recordings import Motion
@@ -39,56 +39,64 @@ class Person:
     who: str | None = None  # name or number in the file
 
 
-@dataclass(frozen=True)
-class Video:
-    """The result of a pose estimator; unit and axis as in `Points`."""
+def video_to_motion(
+    content: FileContent,
+    options: ReadOptions,
+    program: str,
+    names: Sequence[str],
+    people: Sequence[Person],
+    limit: float,
+    *,
+    fps: float | None = None,
+    frames: Sequence[int] = (),
+    unit: str | float | None = "pixel",
+    up: str | None = "-y",
+    notes: Sequence[str] = (),
+) -> Motion:
+    """Return the motion of one person among those that a program found in a video, in any order.
 
-    format: str
-    names: Sequence[str]  # keypoints
-    people: Sequence[Person]  # in any order
-    limit: float  # confidence from which a keypoint counts as seen
-    fps: float | None = None  # if stated in the file
-    frames: Sequence[int] = ()  # numbers of all frames, also of those without people
-    unit: str | float | None = "pixel"
-    up: str | None = "-y"
-    notes: Sequence[str] = ()
-
-
-def video_to_motion(content: FileContent, video: Video, options: ReadOptions) -> Motion:
-    """Return the motion of one person in a video.
-
-    Raise ReadError if the person or the frame rate is unknown.
+    ``names`` are those of the keypoints, ``limit`` is the confidence from which one counts as seen,
+    ``fps`` the rate stated in the file, and ``frames`` the numbers of all frames, also of those
+    without people. Unit and axis are those of `Points`. Raise ReadError if the person or the frame
+    rate is unknown.
     """
-    fps = options.fps or video.fps
+    fps = options.fps or fps
     if not fps:
         raise content.error(
             "keypoints have no frame rate: give that of the video with fps= (--fps)"
         )
-    people = sorted(video.people, key=lambda person: person.frame)
     if not people:
         raise content.error("no person found in any frame")
-    frames, n_frames = _number_frames(content, video, [person.frame for person in people])
-    size = 8 * 4 * len(video.names) * max(n_frames, len(people))
-    content.require_memory(size, f"{len(video.names)} keypoints in {n_frames} frames")
-    points, confidence = _stack_people(content, people, len(video.names))
-    limit = video.limit if options.confidence is None else options.confidence
+    people = sorted(people, key=attrgetter("frame"))
+    rows_frames, n_frames = _number_frames(content, frames, [person.frame for person in people])
+    size = 8 * 4 * len(names) * max(n_frames, len(people))
+    content.require_memory(size, f"{len(names)} keypoints in {n_frames} frames")
+    points, confidence = _stack_people(content, people, len(names))
+    limit = limit if options.confidence is None else options.confidence
     # Not `<`, so that NaN counts as not seen.
     is_unsure = ~(confidence >= limit)
     points[is_unsure] = np.nan
     points[~np.isfinite(points).all(axis=2)] = np.nan
-    detections = Detections(frames, points, [person.who for person in people])
-    rows, name, all_people, notes = select_person(content, detections, options.person)
-    positions = np.full((n_frames, len(video.names), 3), np.nan)
-    positions[frames[rows]] = points[rows]
-    if is_unsure[rows].any():
-        n_unsure = int(is_unsure[rows].sum())
-        notes.append(f"{format_count(n_unsure, 'position')} below confidence {limit:g} not used")
-    notes += [*video.notes, *_note_flatness(points, video.unit)]
-    unit, up = options.unit or video.unit, options.up or video.up
-    named_points = Points(video.names, positions, fps, unit, up)
-    return to_motion(
-        named_points, content.provenance(video.format, notes).of_person(name, all_people)
+    detected = [person.who for person in people]
+    rows, name, all_people, remarks = select_person(
+        content, rows_frames, points, detected, options.person
     )
+    positions = np.full((n_frames, len(names), 3), np.nan)
+    positions[rows_frames[rows]] = points[rows]
+    if n_unsure := int(is_unsure[rows].sum()):
+        remarks.append(f"{format_count(n_unsure, 'position')} below confidence {limit:g} not used")
+    remarks += notes
+    if unit == "pixel" and np.nanmax(np.abs(points[..., 2]), initial=0.0) == 0:
+        remarks.append("two-dimensional: z is 0, and image rows count downwards")
+    provenance = content.provenance(program, remarks).of_person(name, all_people)
+    named_points = Points(names, positions, fps, options.unit or unit, options.up or up)
+    return to_motion(named_points, provenance)
+
+
+def name_people(entries: Sequence[Mapping[str, Any]], *keys: str) -> list[str | None]:
+    """Return the person of each entry by the first of the keys that all entries have, or None."""
+    key = next((key for key in keys if all(each.get(key) is not None for each in entries)), None)
+    return [str(each[key])[:40] if key else None for each in entries]
 
 
 def parse_json(content: FileContent) -> Any:
@@ -120,7 +128,7 @@ def split_groups(content: FileContent, values: Any, width: int) -> Floats:
     return flat.reshape(-1, width)
 
 
-def to_frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
+def to_frame_numbers(content: FileContent, frames: Floats | Ints) -> NDArray[np.int64]:
     """Return frame numbers as integers; raise ReadError if they are not."""
     if not np.isfinite(frames).all() or np.abs(frames).max(initial=0) > 2**53:
         raise content.error("the frame numbers are not whole numbers")
@@ -128,10 +136,10 @@ def to_frame_numbers(content: FileContent, frames: Floats) -> NDArray[np.int64]:
 
 
 def _number_frames(
-    content: FileContent, video: Video, frames: list[int]
+    content: FileContent, all_frames: Sequence[int], frames: list[int]
 ) -> tuple[NDArray[np.intp], int]:
     """Return frames counted from 0, and the number of frames."""
-    numbers = {*frames, *video.frames}
+    numbers = {*frames, *all_frames}
     first, last = min(numbers), max(numbers)
     if last - first >= MAX_FRAMES_RATIO * (len(numbers) + 1):
         raise content.error(
@@ -160,10 +168,3 @@ def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tup
         points.append(np.pad(pose, ((0, 0), (0, 3 - pose.shape[1]))))
         confidence.append(scores.ravel())
     return np.stack(points), np.stack(confidence)
-
-
-def _note_flatness(points: Floats, unit: str | float | None) -> list[str]:
-    """Return a note if the points are two-dimensional."""
-    if unit == "pixel" and np.nanmax(np.abs(points[..., 2]), initial=0.0) == 0:
-        return ["two-dimensional: z is 0, and image rows count downwards"]
-    return []
