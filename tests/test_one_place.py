@@ -174,7 +174,7 @@ STUDIO = """
 import json, sys, time
 from pathlib import Path
 from starlette.testclient import TestClient
-from kineme.studio.server import create_app
+from kineme.studio.routes import create_app
 from kineme.studio.http.events import Hub
 from kineme.studio.folder import Folder
 from kineme.studio.open_recordings import OpenRecordings

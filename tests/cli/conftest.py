@@ -18,7 +18,15 @@ from typer.testing import CliRunner
 from kineme.cli.app import app
 from kineme.datasets import bundled_recording
 
-Kineme = Callable[..., subprocess.CompletedProcess[str]]
+Done = subprocess.CompletedProcess[str]
+Kineme = Callable[..., Done]
+"""Runs ``kineme ARGUMENTS``; checks the exit ``code`` and, if given, what standard error says."""
+
+
+def checked(done: Done, code: int | None, errors: str | None) -> Done:
+    assert code in (None, done.returncode), done.stderr
+    assert errors in (None, done.stderr)
+    return done
 
 
 @pytest.fixture(scope="session")
@@ -26,9 +34,13 @@ def kineme_in() -> Kineme:
     """Run ``kineme ARGUMENTS`` in the folder that comes first."""
 
     def run(
-        folder: Path, *arguments: object, **environment: str
-    ) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
+        folder: Path,
+        *arguments: object,
+        code: int | None = 0,
+        errors: str | None = None,
+        **environment: str,
+    ) -> Done:
+        done = subprocess.run(
             [sys.executable, "-m", "kineme", *map(str, arguments)],
             capture_output=True,
             text=True,
@@ -38,6 +50,7 @@ def kineme_in() -> Kineme:
             timeout=600,
             check=False,
         )
+        return checked(done, code, errors)
 
     return run
 
@@ -85,10 +98,13 @@ def kineme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Kineme:
     """Run ``kineme ARGUMENTS`` in an empty folder, sooner: without a process of its own."""
     monkeypatch.chdir(tmp_path)
 
-    def run(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    def run(
+        *arguments: object, code: int | None = 0, errors: str | None = None, **environment: str
+    ) -> Done:
         given = [*map(str, arguments)]
         runner = CliRunner(env={"COLUMNS": "120", "NO_COLOR": "1", **environment})
         done = runner.invoke(app, given)
-        return subprocess.CompletedProcess(given, done.exit_code, done.stdout, done.stderr)
+        shown = subprocess.CompletedProcess(given, done.exit_code, done.stdout, done.stderr)
+        return checked(shown, code, errors)
 
     return run

@@ -24,8 +24,7 @@ from kineme.methods.presets import PRESETS
 
 
 def test_info_says_what_the_file_is(kineme) -> None:
-    done = kineme("info", bundled_recording(), "--joints")
-    assert (done.returncode, done.stderr) == (0, "")
+    done = kineme("info", bundled_recording(), "--joints", errors="")
     assert "2898 frames at 60 Hz, 48.30 s" in done.stdout
     assert "left wrist LeftHand" in done.stdout
     assert "unit cm inferred" in done.stdout
@@ -45,7 +44,6 @@ def test_info_of_a_body_without_hands_is_no_failure(kineme, tmp_path: Path) -> N
         "End Site\n{\nOFFSET 0 90 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.01\n0 0 0\n"
     )
     done = kineme("info", "stick.bvh", "--unit", "cm")
-    assert done.returncode == 0
     assert "not found" in done.stdout
 
 
@@ -112,7 +110,7 @@ def test_options_stand_in_named_groups() -> None:
 )  # fmt: skip
 def test_all_commands_which_segment_take_the_same_options(kineme, words: str) -> None:
     given = ["--detail", "4", "--set", "min_action=2", "--effectors", "head=Top", "--unit", "cmm"]
-    done = kineme(*words.split(), "x.bvh", *given)
+    done = kineme(*words.split(), "x.bvh", *given, code=2)
     assert "unit is 'cmm'" in done.stderr
 
 
@@ -163,8 +161,7 @@ def test_on_a_terminal_they_are_a_table_for_people(tmp_path: Path) -> None:
 
 def test_a_preset_that_is_none_is_answered_with_the_nearest(kineme) -> None:
     for given in (["presets", "kineem"], ["segment", "x.bvh", "--preset", "kineem"]):
-        done = kineme(*given)
-        assert done.returncode == 2
+        done = kineme(*given, code=2)
         assert "no preset 'kineem'; did you mean kineme?" in " ".join(done.stderr.split())
 
 
@@ -191,8 +188,7 @@ def test_constants_given_one_by_one_make_the_preset(preset: Preset) -> None:
 )
 def test_a_constant_that_cannot_be_is_answered(kineme, command, given, told) -> None:
     to = ["--into", "lib"] if command == "library build" else ["-o", "out"]
-    done = kineme(*command.split(), "x.bvh", *to, "--set", given)
-    assert done.returncode == 2
+    done = kineme(*command.split(), "x.bvh", *to, "--set", given, code=2)
     assert told in " ".join(done.stderr.split())
     assert "--set" in done.stderr
 
@@ -202,8 +198,7 @@ def test_a_choice_that_is_none_is_told_the_others(kineme) -> None:
         ("interpolate=perhaps", "interpolate must be one of yes, no, not 'perhaps'"),
         ("growth=circles", "growth must be one of squares, scan_lines, not 'circles'"),
     ):
-        done = kineme("segment", "x.bvh", "--preset", "krueger2017", "--set", given)
-        assert done.returncode == 2
+        done = kineme("segment", "x.bvh", "--preset", "krueger2017", "--set", given, code=2)
         assert told in " ".join(done.stderr.split())
 
 
@@ -216,8 +211,7 @@ def test_a_choice_that_is_none_is_told_the_others(kineme) -> None:
     ],
 )
 def test_a_constant_as_an_option_is_told_how_it_is_set(kineme, given, told) -> None:
-    done = kineme("segment", "x.bvh", *given)
-    assert done.returncode == 2
+    done = kineme("segment", "x.bvh", *given, code=2)
     assert told in done.stderr
 
 

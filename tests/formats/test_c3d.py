@@ -16,8 +16,7 @@ from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings.operations import split_at_gaps
-from kineme.studio.loading import LoadedRecording
-from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]

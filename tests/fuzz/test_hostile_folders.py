@@ -30,7 +30,7 @@ from kineme.library import build
 from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.server import create_app
+from kineme.studio.routes import create_app
 from kineme.studio.storage.sidecars import make_file_id
 
 pytestmark = [

@@ -14,7 +14,7 @@ from kineme.library import Library
 from kineme.studio.http.events import Hub
 from kineme.studio.library import Searches, StudioLibrary
 from kineme.studio.open_recordings import OpenRecordings, SupersededError
-from kineme.studio.server import create_app
+from kineme.studio.routes import create_app
 from kineme.web.library_messages import SearchRequest, Span
 
 TOKEN, PORT = "the token", 8750

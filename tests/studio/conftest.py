@@ -15,7 +15,7 @@ from kineme.datasets import bundled_recording
 from kineme.studio.folder import Folder
 from kineme.studio.http.events import Hub
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.server import create_app
+from kineme.studio.routes import create_app
 
 FRAMES = 240
 

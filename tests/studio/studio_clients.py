@@ -25,13 +25,29 @@ class Studio:
         self.table = folder / "take.segments.json"
         self.id = make_file_id(self.path)
 
+    @property
+    def one(self) -> str:
+        """The address of the recording."""
+        return f"/api/recordings/{self.id}"
+
     def get(self, address: str, **options: Any) -> Answer:
         return self.client.get(address, **options)
+
+    def post(self, address: str, sent: object, **options: Any) -> Answer:
+        return self.client.post(address, json=sent, **options)
+
+    def state(self) -> dict[str, Any]:
+        state: dict[str, Any] = self.get("/api/state").json()
+        return state
+
+    def ids(self) -> dict[str, str]:
+        """The recordings of the folder by name."""
+        return {listed["name"]: listed["id"] for listed in self.state()["recordings"]}
 
     def recording(self) -> dict[str, Any]:
         """The recording with its segments, which a busy machine may find later."""
         while True:
-            answer = self.get(f"/api/recordings/{self.id}")
+            answer = self.get(self.one)
             assert answer.status_code == 200, answer.text
             message: dict[str, Any] = answer.json()
             if not message.get("finding"):
@@ -40,7 +56,7 @@ class Studio:
 
     def edit(self, revision: int, kind: str, **rest: Any) -> Answer:
         sent = {"revision": revision, "edit": {"kind": kind, **rest}}
-        return self.client.post(f"/api/recordings/{self.id}/edits", json=sent)
+        return self.post(f"{self.one}/edits", sent)
 
     def done(self, revision: int, kind: str, **rest: Any) -> dict[str, Any]:
         """What an edit made, and the table that it left."""

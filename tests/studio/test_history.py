@@ -34,12 +34,10 @@ def labels(message: dict[str, Any]) -> set[str]:
 def test_a_preview_changes_nothing_and_says_what_would_become_of_the_corrections(studio) -> None:
     before = named(studio)
     wanted = {"preset": "voegele2014", "parameters": {}, "keep": True}
-    shown = studio.client.post(f"/api/recordings/{studio.id}/preview", json=wanted).json()
+    shown = studio.post(f"{studio.one}/preview", wanted).json()
     assert labels(shown) == {"hop"}
     assert (shown["corrections"] > 0, shown["names"], shown["lost"]) == (True, 1, [])
-    anew = studio.client.post(
-        f"/api/recordings/{studio.id}/preview", json={**wanted, "keep": False}
-    ).json()
+    anew = studio.post(f"{studio.one}/preview", {**wanted, "keep": False}).json()
     assert labels(anew) == set()
     assert anew["lost"] == [f"{shown['corrections']} corrections and 1 names"]
     assert studio.recording()["segmentation"] == before["segmentation"]
@@ -54,16 +52,16 @@ def test_every_table_that_was_replaced_can_be_looked_at_and_restored(make_studio
     anew = {"preset": "voegele2014", "parameters": {}, "keep": False}
     studio.done(before["revision"], "segment", **anew)
     again = make_studio()
-    versions = again.get(f"/api/recordings/{again.id}/versions").json()["versions"]
+    versions = again.get(f"{again.one}/versions").json()["versions"]
     assert [(v["edit"]["kind"], v["names"]) for v in versions] == [("name_segment", 1)]
-    address = f"/api/recordings/{again.id}/versions/{versions[0]['number']}"
+    address = f"{again.one}/versions/{versions[0]['number']}"
     looked_at = again.get(address).json()
     assert looked_at["segmentation"] == before["segmentation"]
     state = again.done(again.recording()["revision"], "restore", version=versions[0]["number"])
     assert state["segmentation"] == before["segmentation"]
-    versions = again.get(f"/api/recordings/{again.id}/versions").json()["versions"]
+    versions = again.get(f"{again.one}/versions").json()["versions"]
     assert [v["edit"]["kind"] for v in versions] == ["segment", "name_segment"]
-    assert again.get(f"/api/recordings/{again.id}/versions/999").status_code == 400
+    assert again.get(f"{again.one}/versions/999").status_code == 400
     assert again.edit(state["revision"], "restore", version=999).status_code == 400
 
 
@@ -93,8 +91,8 @@ def test_what_was_taken_back_and_cannot_be_redone_is_kept(studio) -> None:
     before = named(studio)
     state = studio.done(before["revision"], "undo")
     studio.done(state["revision"], "split", level="activity", frame=90)
-    versions = studio.get(f"/api/recordings/{studio.id}/versions").json()["versions"]
-    table = studio.get(f"/api/recordings/{studio.id}/versions/{versions[0]['number']}").json()
+    versions = studio.get(f"{studio.one}/versions").json()["versions"]
+    table = studio.get(f"{studio.one}/versions/{versions[0]['number']}").json()
     assert table["segmentation"] == before["segmentation"]
 
 
@@ -105,12 +103,12 @@ def test_an_edit_that_is_sent_twice_is_made_once(make_studio) -> None:
         "edit": {"kind": "split", "level": "activity", "frame": 50},
         "name": "an edit of its own",
     }
-    address = f"/api/recordings/{studio.id}/edits"
-    first = studio.client.post(address, json=sent).json()
-    assert studio.client.post(address, json=sent).json()["revision"] == first["revision"]
+    address = f"{studio.one}/edits"
+    first = studio.post(address, sent).json()
+    assert studio.post(address, sent).json()["revision"] == first["revision"]
     table = studio.recording()["segmentation"]
     again = make_studio()
-    assert again.client.post(address, json=sent).json()["segmentation"] == table
+    assert again.post(address, sent).json()["segmentation"] == table
 
 
 @pytest.mark.parametrize("cut", ["table", "history"])
@@ -119,7 +117,7 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
 ) -> None:
     studio = make_studio()
     before = named(studio)
-    places = {"table": "tables.TableFile.write", "history": "journal.write_record"}
+    places = {"table": "tables.TableFile.write", "history": "tables.write_record"}
 
     def fail(*_: Any) -> None:
         raise RuntimeError("the end")
@@ -131,13 +129,13 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
             "edit": {"kind": "split", "level": "activity", "frame": 90},
             "name": "has no answer",
         }
-        address = f"/api/recordings/{studio.id}/edits"
-        assert studio.client.post(address, json=sent).status_code == 500
+        address = f"{studio.one}/edits"
+        assert studio.post(address, sent).status_code == 500
     again = make_studio()
     message = again.recording()
     assert message["segmentation"] == before["segmentation"]
     assert message["revision"] == before["revision"]
-    made = again.client.post(address, json=sent).json()
+    made = again.post(address, sent).json()
     assert 90 in again.starts()
     state = again.done(made["revision"], "undo")
     assert state["segmentation"] == before["segmentation"]
@@ -178,7 +176,7 @@ def test_the_history_is_plain_and_bounded(studio, folder: Path, monkeypatch) -> 
     written = sorted(place.glob("[0-9]*.json"))
     assert len(written) == LONGEST + 1 + 3
     assert all(kineme.read_segments(path) is not None for path in written)
-    assert [f["name"] for f in studio.get("/api/state").json()["annotations"]] == []
+    assert [f["name"] for f in studio.state()["annotations"]] == []
 
 
 def test_a_folder_that_leads_elsewhere_is_not_written_to(studio, folder: Path, tmp_path) -> None:

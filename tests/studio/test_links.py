@@ -10,12 +10,10 @@ import pytest
 from kineme.studio.storage.sidecars import read_video_offset
 
 ACTS: dict[str, Callable[..., object]] = {
-    "labels.json": lambda studio: studio.client.post("/api/labels", json={"labels": ["walk"]}),
-    "take.bvh.video.json": lambda studio: studio.client.post(
-        f"/api/recordings/{studio.id}/video", json={"offset_s": 2.0}
-    ),
-    "take.bvh.reading.json": lambda studio: studio.client.post(
-        f"/api/recordings/{studio.id}/reading", json={"options": {"fps": 30.0}}
+    "labels.json": lambda studio: studio.post("/api/labels", {"labels": ["walk"]}),
+    "take.bvh.video.json": lambda studio: studio.post(f"{studio.one}/video", {"offset_s": 2.0}),
+    "take.bvh.reading.json": lambda studio: studio.post(
+        f"{studio.one}/reading", {"options": {"fps": 30.0}}
     ),
     "take.segments/history.json": lambda studio: studio.edit(
         1, "split", level="activity", frame=50

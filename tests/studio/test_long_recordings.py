@@ -23,9 +23,8 @@ from kineme.segments import editing
 from kineme.studio.downloads import export_download
 from kineme.studio.folder import Folder
 from kineme.studio.jobs import STAGE_SHARES, Run
-from kineme.studio.loading import LoadedRecording
+from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.open_recordings import OpenRecordings
-from kineme.studio.recording_cache import RecordingCache
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
 from kineme.web.tables import make_table_change
@@ -225,10 +224,10 @@ def test_what_is_drawn_of_recordings_left_long_ago_is_not_kept(tmp_path, monkeyp
 
 def test_an_edit_is_answered_by_the_rows_that_differ_or_by_another_table(studio):
     before = studio.recording()
-    address = f"/api/recordings/{studio.id}/edits"
+    address = f"{studio.one}/edits"
     edit = {"kind": "name_segment", "level": "activity", "frame": 0, "label": "hop"}
     sent = {"revision": before["revision"], "edit": edit, "name": "a name"}
-    made = studio.client.post(address, json=sent).json()
+    made = studio.post(address, sent).json()
     now = studio.recording()["segmentation"]
     assert made["segmentation"] is None
     assert made["change"] == {
@@ -237,16 +236,16 @@ def test_an_edit_is_answered_by_the_rows_that_differ_or_by_another_table(studio)
         "rows": now["segments"][:1],
         "cluster_names": now["cluster_names"],
     }
-    again = studio.client.post(address, json=sent).json()  # nobody knows what the asker has by now
+    again = studio.post(address, sent).json()  # nobody knows what the asker has by now
     assert (again["change"], again["segmentation"]) == (None, now)
     anew = {"kind": "segment", "preset": "voegele2014", "parameters": {}}
-    other = studio.client.post(address, json={"revision": made["revision"], "edit": anew}).json()
+    other = studio.post(address, {"revision": made["revision"], "edit": anew}).json()
     assert (other["change"], other["segmentation"]) == (None, studio.recording()["segmentation"])
 
 
 def test_each_edit_changes_the_rows_that_an_answer_has_of_it(studio):
     state = studio.recording()
-    address = f"/api/recordings/{studio.id}/edits"
+    address = f"{studio.one}/edits"
     level, primitive = {"level": "activity"}, {"level": "primitive"}
     for edit in (
         {"kind": "split", **level, "frame": 50},
@@ -263,7 +262,7 @@ def test_each_edit_changes_the_rows_that_an_answer_has_of_it(studio):
         {"kind": "redo"},
     ):
         sent = {"revision": state["revision"], "edit": edit}
-        change = studio.client.post(address, json=sent).json()["change"]
+        change = studio.post(address, sent).json()["change"]
         rows = change_rows(state["segmentation"]["segments"], change)
         assert change["rows"], edit
         state = studio.recording()
@@ -310,7 +309,7 @@ def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event
 def test_a_first_segmentation_that_is_cancelled_leaves_a_table_to_work_on(studio, monkeypatch):
     monkeypatch.setattr("kineme.studio.loading.LONG_S", 1.0)
     there, wanted = held_at(monkeypatch, "views")
-    one = f"/api/recordings/{studio.id}"
+    one = studio.one
     assert studio.get(f"{one}/progress").json() == {"stage": "", "share": None}
     assert studio.get(one).json()["finding"]
     assert there.wait(60)
@@ -325,7 +324,7 @@ def test_a_first_segmentation_that_is_cancelled_leaves_a_table_to_work_on(studio
     assert "not segmented: it was cancelled" in left["warnings"]
     assert studio.get(f"{one}/progress").json()["stage"] == ""
     asked = {"preset": "kineme", "parameters": {}, "keep": True}
-    preview = studio.client.post(f"{one}/preview", json=asked).json()
+    preview = studio.post(f"{one}/preview", asked).json()
     made = studio.done(left["revision"], "segment", preset="kineme", parameters={})
     assert made["segmentation"]["segments"] == preview["segmentation"]["segments"]
     assert len(made["segmentation"]["segments"]) > 1
@@ -338,7 +337,7 @@ def test_a_segmentation_that_is_cancelled_leaves_what_stood(studio, monkeypatch)
     with ThreadPoolExecutor() as pool:
         answer = pool.submit(studio.edit, before["revision"], "segment", **again)
         assert there.wait(60)
-        studio.client.post(f"/api/recordings/{studio.id}/cancel")
+        studio.client.post(f"{studio.one}/cancel")
         wanted.set()
         refused = answer.result()
     assert (refused.status_code, refused.json()["error"]) == (400, "it was cancelled")
@@ -366,7 +365,7 @@ def test_a_segmentation_that_is_cancelled_ends_within_its_stage(studio, monkeypa
     with ThreadPoolExecutor() as pool:
         answer = pool.submit(studio.edit, before["revision"], "segment", **again)
         assert there.wait(60)
-        studio.client.post(f"/api/recordings/{studio.id}/cancel")
+        studio.client.post(f"{studio.one}/cancel")
         wanted.set()
         assert answer.result().json()["error"] == "it was cancelled"
     assert stages[-1] == "repetitions"
@@ -377,7 +376,7 @@ def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
     there, wanted = held_at(monkeypatch, "features")
     ended, cancel = threading.Event(), Run.cancel
     monkeypatch.setattr(Run, "cancel", lambda run: cancel(run) or ended.set())
-    address = f"/api/recordings/{studio.id}/preview"
+    address = f"{studio.one}/preview"
     asked = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}, "keep": True}
     with ThreadPoolExecutor() as pool:
         first = pool.submit(studio.client.post, address, json=asked)

@@ -38,13 +38,13 @@ def of(duet: Studio, person: str) -> Studio:
 
 
 def ids_of(duet: Studio) -> dict[str, str]:
-    listed = duet.get("/api/state").json()["recordings"]
+    listed = duet.state()["recordings"]
     return {each["name"]: each["id"] for each in listed if each["name"].startswith("duet")}
 
 
 def choose(duet: Studio, *, everybody: bool = False, **options: Any) -> list[str]:
     wanted = {"options": options, "everybody": everybody}
-    answer = duet.client.post(f"/api/recordings/{duet.id}/reading", json=wanted)
+    answer = duet.post(f"{duet.one}/reading", wanted)
     assert answer.status_code == 200, answer.text
     return answer.json()
 
@@ -54,7 +54,7 @@ def labels(duet: Studio) -> set[str]:
 
 
 def test_it_asks_once_and_each_has_a_table_of_its_own(duet: Studio) -> None:
-    asked = duet.get(f"/api/recordings/{duet.id}")
+    asked = duet.get(duet.one)
     assert (asked.status_code, asked.json()["people"]) == (400, ["Anna", "Bob"])
     assert "2 people found" in asked.json()["error"]
     assert ids_of(duet) == {"duet.trc": duet.id}
@@ -77,10 +77,10 @@ def test_it_asks_once_and_each_has_a_table_of_its_own(duet: Studio) -> None:
     assert tables == ["duet_Anna.segments.json", "duet_Bob.segments.json"]
     table = kineme.read_segments(duet.folder / "duet_Anna.segments.json")
     assert table.provenance["input"]["person"] == "Anna"
-    state = duet.get("/api/state").json()
+    state = duet.state()
     assert {each["name"] for each in state["recordings"] if each["corrected"]} == {*ids_of(duet)}
     assert not any(each["name"].startswith("duet") for each in state["annotations"])
-    exported = duet.get(f"/api/recordings/{anna.id}/export/csv").headers["content-disposition"]
+    exported = duet.get(f"{anna.one}/export/csv").headers["content-disposition"]
     assert "duet_Anna.segments.csv" in exported
 
 
@@ -96,10 +96,10 @@ def test_reading_the_file_otherwise_makes_the_tables_of_all_anew(duet: Studio) -
         message = studio.recording()
         assert message["fps"] == message["segmentation"]["fps"] == 15.0
         assert labels(studio) == set()
-        versions = duet.get(f"/api/recordings/{studio.id}/versions").json()["versions"]
+        versions = duet.get(f"{studio.one}/versions").json()["versions"]
         assert [each["names"] for each in versions] == [1]
     wanted = {"options": {"person": "Eve"}}
-    refused = duet.client.post(f"/api/recordings/{bob.id}/reading", json=wanted)
+    refused = duet.post(f"{bob.one}/reading", wanted)
     assert (refused.status_code, refused.json()["people"]) == (400, ["Anna", "Bob"])
     assert bob.recording()["fps"] == 15.0
 
@@ -147,7 +147,7 @@ def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch)
         one.done(one.recording()["revision"], "name_cluster", **call)
     ids = [*ids_of(duet).values()]
     sent = {"name": "known", "recordings": ids}
-    assert duet.client.post("/api/knowledge", json=sent).status_code == 200
+    assert duet.post("/api/knowledge", sent).status_code == 200
     known = kineme.KnowledgeBase.load(duet.folder / "known.npz")
     assert {*known.labels} == {"by Anna", "by Bob"}
     monkeypatch.chdir(duet.folder)

@@ -24,7 +24,7 @@ import kineme
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
-from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.loading import RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
@@ -58,7 +58,7 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
     (folder / "take.asf").write_text(":version 1.10")
     (folder / "package.json").write_text('{"name": "other"}')
     (folder / ".hidden.bvh").write_text("HIERARCHY")
-    state = studio.get("/api/state").json()
+    state = studio.state()
     names = {
         what: [file["name"] for file in state[what]]
         for what in ("recordings", "knowledge_bases", "annotations")
@@ -76,14 +76,14 @@ def test_what_there_is_to_open(studio, folder: Path) -> None:
 
 def test_what_the_pages_address_names_is_opened_ahead(studio, monkeypatch) -> None:
     studio.get(f"/?token={TOKEN}&open=none&open={studio.id}")
-    monkeypatch.setattr("kineme.studio.recording_cache.read_quietly", _unread)
+    monkeypatch.setattr("kineme.studio.loading.read_quietly", _unread)
     assert studio.recording()["segmentation"]["segments"]
 
 
 @pytest.mark.parametrize("token", ["", "wrong"])
 def test_nothing_is_opened_ahead_without_the_token(studio, token, monkeypatch) -> None:
     studio.client.headers.pop("x-kineme-token")
-    monkeypatch.setattr("kineme.studio.recording_cache.read_quietly", _unread)
+    monkeypatch.setattr("kineme.studio.loading.read_quietly", _unread)
     assert studio.get(f"/?token={token}&open={studio.id}").status_code == 200
 
 
@@ -92,7 +92,7 @@ def _unread(*_: object) -> None:
 
 
 def test_each_preset_offers_its_own_constants_with_their_help(studio) -> None:
-    for choice in studio.get("/api/state").json()["presets"]:
+    for choice in studio.state()["presets"]:
         preset = PRESETS[choice["name"]]
         assert choice["help"] == preset.help
         for signals, which in ((False, "parameters"), (True, "signal_parameters")):
@@ -111,7 +111,7 @@ def test_lengths_of_signals_are_in_their_own_unit_however_often_they_are_sent(
     studio, folder: Path
 ) -> None:
     write_imu(folder / "imu.csv")
-    state = studio.get("/api/state").json()
+    state = studio.state()
     studio.id = next(f["id"] for f in state["recordings"] if f["name"] == "imu.csv")
     choice = next(each for each in state["presets"] if each["name"] == "voegele2014")
     values = {each["name"]: each["value"] for each in choice["signal_parameters"]}
@@ -133,13 +133,13 @@ def test_a_recording_is_what_segment_finds(studio) -> None:
     assert [row["cluster"] for row in rows] == found.table.cluster.tolist()
     assert (message["revision"], message["saved"], message["can_undo"]) == (1, "", False)
     assert not studio.table.exists()
-    data = studio.get(f"/api/recordings/{studio.id}/motion").content
+    data = studio.get(f"{studio.one}/motion").content
     assert len(data) > 1000
     assert message["motion"]["n_samples"] == message["n_frames"] // 2
-    tile = studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0")
+    tile = studio.get(f"{studio.one}/matrix/0/0/0")
     assert tile.content.startswith(b"\x89PNG")
     for place in ("0/1/0", "9/0/0", "0/-1/0", "0/x/0", "0/" + "9" * 5000 + "/0"):
-        assert studio.get(f"/api/recordings/{studio.id}/matrix/{place}").status_code == 404
+        assert studio.get(f"{studio.one}/matrix/{place}").status_code == 404
 
 
 def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
@@ -170,7 +170,7 @@ def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
         state = studio.done(state["revision"], "redo")
     assert state["segmentation"] == named["segmentation"]
     assert studio.recording()["segmentation"] == named["segmentation"]
-    assert studio.get("/api/state").json()["recordings"][0]["corrected"]
+    assert studio.state()["recordings"][0]["corrected"]
 
 
 @pytest.mark.parametrize(
@@ -217,7 +217,7 @@ def test_labels_come_from_a_knowledge_base_of_the_folder(studio, folder: Path) -
     table = kineme.segments.editing.set_cluster(kineme.segment(motion), "activity", 0, 0)
     table = kineme.segments.editing.name_segment(table, "activity", 0, "walk")
     KnowledgeBase.from_recording(motion, table).save(folder / "base.npz")
-    base = studio.get("/api/state").json()["knowledge_bases"][0]["id"]
+    base = studio.state()["knowledge_bases"][0]["id"]
     revision = studio.recording()["revision"]
     named = studio.done(revision, "transfer", knowledge_base=base, threshold=0.2, spread=True)
     assert "labelled" in named["notes"][0]
@@ -229,38 +229,38 @@ def test_labels_come_from_a_knowledge_base_of_the_folder(studio, folder: Path) -
 
 def test_another_result_beside_the_one_shown(studio, folder: Path) -> None:
     studio.recording()
-    compare = f"/api/recordings/{studio.id}/compare"
-    same = studio.client.post(compare, json={"preset": "kineme"}).json()
+    compare = f"{studio.one}/compare"
+    same = studio.post(compare, {"preset": "kineme"}).json()
     assert conforms(messages.Comparison, same)
     assert same["name"] == "kineme"
     assert same["segmentation"]["segments"] == studio.recording()["segmentation"]["segments"]
     (folder / "said.csv").write_text("start_s,stop_s,label\n0,2,walk\n2,4,hop\n")
     kineme.write_segments(kineme.segment(kineme.read(studio.path)), folder / "said.eaf")
     (folder / "other.csv").write_text("start_s,stop_s,label\n0,9,walk\n")
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["annotations"]}
-    said = studio.client.post(compare, json={"annotation": files["said.csv"]}).json()
+    files = {f["name"]: f["id"] for f in studio.state()["annotations"]}
+    said = studio.post(compare, {"annotation": files["said.csv"]}).json()
     rows = said["segmentation"]["segments"]
     assert [(row["start_frame"], row["label"]) for row in rows] == [(0, "walk"), (120, "hop")]
     assert 0 <= said["scores"]["one_to_one"] <= 1
     assert said["meanings"].keys() == said["scores"].keys()
     assert all(0 <= start < stop <= 4 for start, stop in said["differences"])
-    elan = studio.client.post(compare, json={"annotation": files["said.eaf"]})
+    elan = studio.post(compare, {"annotation": files["said.eaf"]})
     assert elan.status_code == 200
-    long = studio.client.post(compare, json={"annotation": files["other.csv"]})
+    long = studio.post(compare, {"annotation": files["other.csv"]})
     assert long.status_code == 400
     assert "9.000 s" in long.json()["error"]
     for wrong in ({}, {"preset": "kineme", "annotation": "x"}, {"annotation": "../secret.bvh"}):
-        assert studio.client.post(compare, json=wrong).status_code in (400, 404)
+        assert studio.post(compare, wrong).status_code in (400, 404)
 
 
 def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     message = studio.recording()
-    formats = studio.get("/api/state").json()["export_formats"]
+    formats = studio.state()["export_formats"]
     writers = {name for name, known in label_formats().items() if known.write}
     assert {known["name"] for known in formats} == writers | {"motions", "report"}
     before, names = sorted(studio.folder.iterdir()), set[str]()
     for known in formats:
-        address = f"/api/recordings/{studio.id}/export/{known['name']}?level=activity"
+        address = f"{studio.one}/export/{known['name']}?level=activity"
         answer = studio.get(address)
         assert answer.status_code == 200, answer.text
         said = answer.headers["content-disposition"]
@@ -283,8 +283,8 @@ def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
         )
         assert read.cuts().tolist() == studio.starts()[1:]
     assert sorted(studio.folder.iterdir()) == before
-    assert studio.get(f"/api/recordings/{studio.id}/export/exe").status_code == 400
-    assert studio.get(f"/api/recordings/{studio.id}/export/json?level=both").status_code == 400
+    assert studio.get(f"{studio.one}/export/exe").status_code == 400
+    assert studio.get(f"{studio.one}/export/json?level=both").status_code == 400
 
 
 def test_a_body_without_hands_is_segmented_by_the_distances_between_its_points(
@@ -294,7 +294,7 @@ def test_a_body_without_hands_is_segmented_by_the_distances_between_its_points(
         "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
         "End Site\n{\nOFFSET 0 90 0\n}\n}\nMOTION\nFrames: 40\nFrame Time: 0.1\n" + "0 0 0\n" * 40
     )
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    files = studio.ids()
     message = studio.get(f"/api/recordings/{files['stick.bvh']}").json()
     assert {row["stop_frame"] for row in message["segmentation"]["segments"]} == {40}
     notes = message["segmentation"]["provenance"]["notes"]
@@ -305,7 +305,7 @@ def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
     (folder / "point.csv").write_text(
         "p_x,p_y,p_z,time\n" + "".join(f"{i},1,0,{i / 10}\n" for i in range(40))
     )
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    files = studio.ids()
     message = studio.get(f"/api/recordings/{files['point.csv']}").json()
     assert [row["stop_frame"] for row in message["segmentation"]["segments"]] == [40]
     assert "not segmented: a single point" in message["warnings"][-1]
@@ -313,12 +313,12 @@ def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
 
 def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> None:
     write_imu(folder / "imu.csv")
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    files = studio.ids()
     studio.id = files["imu.csv"]
     message = studio.recording()
     assert (message["motion"], message["n_frames"], message["fps"]) == (None, 1000, 50.0)
-    assert studio.get(f"/api/recordings/{studio.id}/motion").content == b""
-    assert studio.get(f"/api/recordings/{studio.id}/matrix/0/0/0").status_code == 200
+    assert studio.get(f"{studio.one}/motion").content == b""
+    assert studio.get(f"{studio.one}/matrix/0/0/0").status_code == 200
     again = studio.done(
         message["revision"], "segment", preset="kineme", parameters={"min_action": 1.2}
     )
@@ -328,7 +328,7 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
     assert stored.provenance["preset"] == "sensors"
     studio.done(again["revision"], "split", level="activity", frame=500)
     assert 500 in kineme.read_segments(folder / "imu.segments.json").cuts()
-    clips = studio.get(f"/api/recordings/{studio.id}/export/motions")
+    clips = studio.get(f"{studio.one}/export/motions")
     assert clips.status_code == 400
     assert "holds signals" in clips.json()["error"]
 
@@ -336,7 +336,7 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
 def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
     (folder / "bad.bvh").write_text("HIERARCHY <script>alert(1)</script>")
     (folder / "empty.c3d").write_bytes(b"")
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    files = studio.ids()
     for name in ("bad.bvh", "empty.c3d"):
         answer = studio.get(f"/api/recordings/{files[name]}")
         assert answer.status_code == 400
@@ -354,7 +354,7 @@ def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None
         both.wait()
         return path.name
 
-    monkeypatch.setattr("kineme.studio.recording_cache.read_quietly", read_together)
+    monkeypatch.setattr("kineme.studio.loading.read_quietly", read_together)
     cache = RecordingCache()
     with ThreadPoolExecutor(2) as threads:
         found = threads.map(cache.read, [ListedRecording(folder / each) for each in NAMES])
@@ -364,10 +364,10 @@ def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None
 def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> None:
     shutil.copy(folder / "take.bvh", folder / "other.bvh")
     studio = make_studio([folder / "take.bvh"])
-    assert [f["name"] for f in studio.get("/api/state").json()["recordings"]] == ["take.bvh"]
+    assert [f["name"] for f in studio.state()["recordings"]] == ["take.bvh"]
     data = (folder / "take.bvh").read_bytes() + b"\n"
     studio.client.post("/api/recordings?name=new.bvh", content=data)
-    names = [f["name"] for f in studio.get("/api/state").json()["recordings"]]
+    names = [f["name"] for f in studio.state()["recordings"]]
     assert names == ["take.bvh", "new.bvh"]
 
 
@@ -401,7 +401,7 @@ def test_rows_of_a_message_tile_and_are_of_its_type(studio) -> None:
 def test_what_a_reader_warns_of_reaches_the_page(studio, folder: Path) -> None:
     text = (folder / "take.bvh").read_text().replace("Frames: 240", "Frames: 250")
     (folder / "short.bvh").write_text(text)
-    files = {f["name"]: f["id"] for f in studio.get("/api/state").json()["recordings"]}
+    files = studio.ids()
     message = studio.get(f"/api/recordings/{files['short.bvh']}").json()
     assert any("250 frames declared" in warning for warning in message["warnings"])
     report = studio.get(f"/api/recordings/{files['short.bvh']}/export/report").text
@@ -425,37 +425,36 @@ def test_the_list_of_recordings_says_how_far_each_is(studio) -> None:
             for row in rows[:2]
         ],
     )
-    listing = studio.get("/api/state").json()["recordings"][0]
+    listing = studio.state()["recordings"][0]
     named = sum(row["label"] != "" for row in rows)
     counts = (listing["corrected"], listing["segments"], listing["checked"], listing["named"])
     assert counts == (True, len(rows), 2, named)
 
 
-def test_the_labels_of_another_program_become_the_table(studio, folder: Path) -> None:
-    (folder / "said.csv").write_text("start_s,stop_s,label\n0,2,walk\n2,4,hop\n")
-    chosen = studio.get("/api/state").json()["annotations"][0]["id"]
-    taken = studio.done(studio.recording()["revision"], "take_labels", annotation=chosen)
-    rows = [row for row in taken["segmentation"]["segments"] if row["level"] == "activity"]
-    assert [(row["start_frame"], row["label"]) for row in rows] == [(0, "walk"), (120, "hop")]
-    assert studio.edit(taken["revision"], "take_labels", annotation="x").status_code == 404
-
-
-@pytest.mark.parametrize("name", ["take", "take.bvh"])
-def test_of_a_table_of_many_recordings_its_own_rows_are_taken(studio, folder: Path, name) -> None:
-    rows = f"run,0,90,run\n{name},0,2,walk\n{name},2,4,hop\n"
-    (folder / "labels.csv").write_text(f"recording,start_s,stop_s,label\n{rows}")
-    chosen = studio.get("/api/state").json()["annotations"][0]["id"]
+@pytest.mark.parametrize(
+    "table",
+    [
+        "start_s,stop_s,label\n0,2,walk\n2,4,hop\n",
+        "recording,start_s,stop_s,label\nrun,0,90,run\ntake,0,2,walk\ntake,2,4,hop\n",
+        "recording,start_s,stop_s,label\nrun,0,90,run\ntake.bvh,0,2,walk\ntake.bvh,2,4,hop\n",
+    ],
+)
+def test_labels_of_another_program_become_the_table(studio, folder: Path, table: str) -> None:
+    """Of a table of many recordings, its own rows are taken."""
+    (folder / "labels.csv").write_text(table)
+    chosen = studio.state()["annotations"][0]["id"]
     sent = {"annotation": chosen}
-    compared = studio.client.post(f"/api/recordings/{studio.id}/compare", json=sent).json()
+    compared = studio.post(f"{studio.one}/compare", sent).json()
     taken = studio.done(studio.recording()["revision"], "take_labels", **sent)
     for message in (compared, taken):
         found = [row for row in message["segmentation"]["segments"] if row["level"] == "activity"]
         assert [(row["start_frame"], row["label"]) for row in found] == [(0, "walk"), (120, "hop")]
+    assert studio.edit(taken["revision"], "take_labels", annotation="x").status_code == 404
 
 
 def test_a_table_of_other_recordings_is_refused_by_name(studio, folder: Path) -> None:
     (folder / "labels.csv").write_text("recording,start_s,stop_s,label\nrun,0,2,a\njog,0,2,b\n")
-    chosen = studio.get("/api/state").json()["annotations"][0]["id"]
+    chosen = studio.state()["annotations"][0]["id"]
     refused = studio.edit(studio.recording()["revision"], "take_labels", annotation=chosen)
     assert refused.status_code == 400
     assert "has no labels of 'take', but of 'run', 'jog'" in refused.json()["error"]

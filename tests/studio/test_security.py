@@ -1,17 +1,20 @@
-"""Requests that never end: a connection on which one has begun is closed after a while."""
+"""Requests that come slowly, break off or never end: an answer or none, and no traceback."""
 
 from __future__ import annotations
 
+import asyncio
 import socket
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import suppress
+from typing import Any
 
 import pytest
 import uvicorn
+from starlette.requests import Request
 
-from kineme.studio.http import security
+from kineme.studio.http import bodies, security
 
 HEAD = b"GET / HTTP/1.1\r\nHost: x\r\n"
 
@@ -73,3 +76,16 @@ def _all_of(client: socket.socket) -> bytes:
         told += client.recv(1000)
     client.settimeout(10)
     return told
+
+
+def test_a_request_that_does_not_go_on_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bodies, "CHUNK_TIMEOUT_S", 0.05)
+    pieces: list[dict[str, Any]] = [{"type": "http.request", "body": b"{", "more_body": True}]
+
+    async def receive() -> dict[str, Any]:
+        if not pieces:
+            await asyncio.sleep(60)
+        return pieces.pop()
+
+    with pytest.raises(bodies.TooSlowError, match="no data arrived for 0.05 s"):
+        asyncio.run(bodies.read_body(Request({"type": "http"}, receive)))

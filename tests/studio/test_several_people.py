@@ -38,7 +38,7 @@ def test_people_are_found_and_compared(labelled: Path, make_studio) -> None:
         "cleo": 1,
     }
     sent = {"annotators": [people[name]["id"] for name in ("anna", "ben", "cleo")]}
-    found = studio.client.post("/api/agreement", json=sent).json()
+    found = studio.post("/api/agreement", sent).json()
     assert (found["annotators"], found["by_names"]) == (["anna", "ben", "cleo"], True)
     kappas = {tuple(pair["annotators"]): pair["cohen_kappa"] for pair in found["pairs"]}
     assert kappas["anna", "cleo"] == pytest.approx(1)
@@ -47,7 +47,7 @@ def test_people_are_found_and_compared(labelled: Path, make_studio) -> None:
     assert found["recordings"][1]["differences"] == [
         {"start_s": 2.0, "stop_s": 3.0, "labels": ["squat", "Walk", "squat"]}
     ]
-    lanes = studio.client.post(f"/api/recordings/{studio.id}/lanes", json=sent).json()
+    lanes = studio.post(f"{studio.one}/lanes", sent).json()
     assert [lane["name"] for lane in lanes] == ["anna", "ben", "cleo"]
     assert lanes[1]["segmentation"]["segments"][0]["label"] == "Walk"
 
@@ -68,11 +68,9 @@ def test_nobody_to_compare_is_said(labelled: Path, make_studio) -> None:
         (["nobody"], 404, "has no labels any more"),
         ([], 400, "no recording has labels by two"),
     ):
-        answer = studio.client.post("/api/agreement", json={"annotators": sent})
+        answer = studio.post("/api/agreement", {"annotators": sent})
         assert (answer.status_code, text in answer.text) == (status, True), answer.text
     (labelled / "ben" / "take.csv").write_text("start_s,stop_s,label\n0,9999,walk\n")
     (labelled / "ben" / "second.csv").write_text("start_s,stop_s,label\nx,y,walk\n")
-    answer = studio.client.post(
-        "/api/agreement", json={"annotators": [people["anna"], people["ben"]]}
-    )
+    answer = studio.post("/api/agreement", {"annotators": [people["anna"], people["ben"]]})
     assert "second.bvh, ben: " in answer.text

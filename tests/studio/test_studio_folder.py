@@ -17,24 +17,24 @@ import kineme
 from kineme.clips.loops import Carry
 from kineme.formats.scenes.gltf_writer import write_animations
 from kineme.recordings.operations import turn
-from kineme.studio.overview import read_brief, summarize_table
+from kineme.studio.folder import read_brief, summarize_table
 from kineme.studio.storage.sidecars import make_file_id
 from kineme.web.encoding import to_json
 
 
 def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
-    address = f"/api/recordings/{studio.id}/preview"
+    address = f"{studio.one}/preview"
     sent = {"preset": "kineme", "parameters": {}, "keep": True, "detail": 0.125}
     revision = studio.recording()["revision"]
-    preview = studio.client.post(address, json=sent).json()
+    preview = studio.post(address, sent).json()
     assert preview["detail"] == preview["details"][0]
     made = studio.done(revision, "segment", preset="kineme", parameters={}, detail=0.125)
     assert made["segmentation"]["segments"] == preview["segmentation"]["segments"]
-    assert studio.client.post(address, json={**sent, "detail": -1}).status_code == 400
+    assert studio.post(address, {**sent, "detail": -1}).status_code == 400
 
 
 def test_repetitions_are_measured_as_by_the_command(studio: Studio) -> None:
-    one = f"/api/recordings/{studio.id}"
+    one = studio.one
     channels = studio.get(f"{one}/cycles").json()["channels"]
     assert channels[0]["name"] == "knee_l"
     revision = studio.recording()["revision"]
@@ -54,11 +54,11 @@ def test_repetitions_are_measured_as_by_the_command(studio: Studio) -> None:
 
 
 def test_curves_come_in_pieces(studio: Studio) -> None:
-    head = studio.get(f"/api/recordings/{studio.id}/curves").json()
+    head = studio.get(f"{studio.one}/curves").json()
     assert {each["group"] for each in head["curves"]} >= {"height", "speed"}
-    piece = studio.get(f"/api/recordings/{studio.id}/curves/0/0/0").content
+    piece = studio.get(f"{studio.one}/curves/0/0/0").content
     assert np.frombuffer(piece, "<f4").size == 2 * studio.recording()["n_frames"]
-    assert studio.get(f"/api/recordings/{studio.id}/curves/0/9/0").status_code == 404
+    assert studio.get(f"{studio.one}/curves/0/9/0").status_code == 404
 
 
 def test_checked_recordings_are_written_together_and_known_by_their_names(studio: Studio) -> None:
@@ -81,11 +81,11 @@ def test_checked_recordings_are_written_together_and_known_by_their_names(studio
     one, together = (files.read(name).decode().splitlines() for name in files.namelist())
     assert together == [f"recording,{one[0]}", *(f"take.bvh,{row}" for row in one[1:])]
     wanted = {"name": "../moves", "recordings": [studio.id]}
-    made = studio.client.post("/api/knowledge", json=wanted).json()
+    made = studio.post("/api/knowledge", wanted).json()
     assert made["name"] == "moves.npz"
     assert (studio.folder / "moves.npz").exists()
-    assert studio.client.post("/api/knowledge", json=wanted).status_code == 400  # there already
-    assert studio.get("/api/state").json()["recordings"][0]["named"] >= 1
+    assert studio.post("/api/knowledge", wanted).status_code == 400  # there already
+    assert studio.state()["recordings"][0]["named"] >= 1
 
 
 def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -> None:
@@ -132,31 +132,31 @@ def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> 
     address = f"/api/recordings/{make_file_id(other)}"
     edit = {"kind": "name_cluster", "cluster": cluster, "label": "walk"}
     revision = studio.get(address).json()["revision"]
-    studio.client.post(f"{address}/edits", json={"revision": revision, "edit": edit})
+    studio.post(f"{address}/edits", {"revision": revision, "edit": edit})
     sent = {"recording": studio.id, "cluster": cluster, "before": "walk", "label": "stride"}
-    told = studio.client.post("/api/names", json=sent).json()
+    told = studio.post("/api/names", sent).json()
     assert told == {"tables": 1, "others": 0, "left": []}
     assert studio.get(address).json()["segmentation"]["cluster_names"][str(cluster)] == "stride"
     revision = studio.get(address).json()["revision"]
     undo = {"revision": revision, "edit": {"kind": "undo"}}
-    undone = studio.client.post(f"{address}/edits", json=undo).json()
+    undone = studio.post(f"{address}/edits", undo).json()
     assert undone["change"]["cluster_names"][str(cluster)] == "walk"
-    assert studio.client.post("/api/names", json={**sent, "before": ""}).status_code == 400
+    assert studio.post("/api/names", {**sent, "before": ""}).status_code == 400
 
 
 def test_labels_are_shared_and_clips_are_of_chosen_rows(studio: Studio) -> None:
-    studio.client.post("/api/labels", json={"labels": ["walk", " walk ", "", "jump"]})
-    assert studio.get("/api/state").json()["labels"] == ["walk", "jump"]
-    address = f"/api/recordings/{studio.id}/clips"
-    clips = studio.client.post(address, json={"rows": [0], "loops": True})
+    studio.post("/api/labels", {"labels": ["walk", " walk ", "", "jump"]})
+    assert studio.state()["labels"] == ["walk", "jump"]
+    address = f"{studio.one}/clips"
+    clips = studio.post(address, {"rows": [0], "loops": True})
     names = zipfile.ZipFile(io.BytesIO(clips.content)).namelist()
     assert sum(name.endswith(".bvh") for name in names) == 1
-    assert studio.client.post(address, json={"rows": [10_000], "loops": False}).status_code == 400
+    assert studio.post(address, {"rows": [10_000], "loops": False}).status_code == 400
 
 
 def test_repetitions_are_ranked_as_loops(studio: Studio) -> None:
     rows = studio.recording()["segmentation"]["segments"]
-    loops = studio.get(f"/api/recordings/{studio.id}/loops").json()["loops"]
+    loops = studio.get(f"{studio.one}/loops").json()["loops"]
     candidates = [
         number
         for number, row in enumerate(rows)
@@ -172,16 +172,16 @@ def test_repetitions_are_ranked_as_loops(studio: Studio) -> None:
 
 
 def test_a_loop_plays_as_it_is_written(studio: Studio) -> None:
-    number = studio.get(f"/api/recordings/{studio.id}/loops").json()["loops"][0]["number"]
-    sent = studio.get(f"/api/recordings/{studio.id}/loops/{number}").json()
+    number = studio.get(f"{studio.one}/loops").json()["loops"][0]["number"]
+    sent = studio.get(f"{studio.one}/loops/{number}").json()
     head, row = sent["motion"], studio.recording()["segmentation"]["segments"][number]
     n, joints = head["n_samples"], len(head["joints"])
     assert n == row["stop_frame"] - row["start_frame"] + 1
     steps = np.frombuffer(zlib.decompress(base64.b64decode(sent["numbers"])), "<i2")
     steps = np.cumsum(steps.reshape(3 * joints, n), axis=1, dtype=np.int16)
     positions = head["origin"] + head["step"] * steps.T.reshape(n, joints, 3)
-    address = f"/api/recordings/{studio.id}/clips"
-    clips = studio.client.post(address, json={"rows": [number], "loops": True})
+    address = f"{studio.one}/clips"
+    clips = studio.post(address, {"rows": [number], "loops": True})
     with zipfile.ZipFile(io.BytesIO(clips.content)) as files:
         (name,) = (name for name in files.namelist() if name.endswith(".bvh"))
         files.extract(name, studio.folder.parent)
@@ -189,17 +189,17 @@ def test_a_loop_plays_as_it_is_written(studio: Studio) -> None:
     assert np.abs(positions[:-1] - written).max() < 1e-3
     carried = Carry(sent["turn"], sent["x"], sent["z"]).apply(positions[:1])
     assert np.abs(positions[-1:] - carried).max() < 1e-3
-    assert studio.get(f"/api/recordings/{studio.id}/loops/9999").status_code == 400
+    assert studio.get(f"{studio.one}/loops/9999").status_code == 400
 
 
 def test_a_video_lies_beside_and_keeps_its_offset(studio: Studio) -> None:
-    address = f"/api/recordings/{studio.id}/video"
+    address = f"{studio.one}/video"
     assert studio.recording()["video"] is None
     assert studio.get(address).status_code == 404
     (studio.folder / "take.mp4").write_bytes(b"0123456789")
     part = studio.get(address, headers={"range": "bytes=2-4"})
     assert (part.status_code, part.content) == (206, b"234")
-    studio.client.post(address, json={"offset_s": 1.5})
+    studio.post(address, {"offset_s": 1.5})
     assert studio.recording()["video"] == {"name": "take.mp4", "offset_s": 1.5}
 
 
@@ -220,10 +220,10 @@ def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
     message = studio.recording()
     chosen = {"preset": "voegele2014", "parameters": {"radius": 0.5}}
     studio.done(message["revision"], "segment", **chosen)
-    address = f"/api/recordings/{studio.id}/reading"
-    assert studio.client.post(address, json={"options": {"unit": "parsec"}}).status_code == 400
+    address = f"{studio.one}/reading"
+    assert studio.post(address, {"options": {"unit": "parsec"}}).status_code == 400
     assert studio.recording()["fps"] == message["fps"]
-    assert studio.client.post(address, json={"options": {"fps": 30.0}}).status_code == 200
+    assert studio.post(address, {"options": {"fps": 30.0}}).status_code == 200
     after = studio.recording()
     assert (after["fps"], after["read_options"]) == (30.0, {"fps": 30.0})
     assert after["segmentation"]["fps"] == 30.0
@@ -263,11 +263,11 @@ def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
     said = studio.get(address).json()
     assert said["reading"] is True
     assert said["people"] == ["ann", "bob"]
-    refused = studio.client.post(f"{address}/reading", json={"options": {"person": "bob"}})
+    refused = studio.post(f"{address}/reading", {"options": {"person": "bob"}})
     assert (refused.status_code, refused.json()["people"]) == (400, [])
     assert "fps" in refused.json()["error"]
     chosen = {"options": {"fps": 30.0, "person": "bob"}}
-    answered = studio.client.post(f"{address}/reading", json=chosen)
+    answered = studio.post(f"{address}/reading", chosen)
     assert answered.status_code == 200
     (bob,) = answered.json()
     shown = studio.get(f"/api/recordings/{bob}").json()
@@ -282,11 +282,11 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     write_animations(motions, path)
     takes = Studio(studio.client, studio.folder)
     takes.id = make_file_id(path)
-    address = f"/api/recordings/{takes.id}/reading"
+    address = f"{takes.one}/reading"
 
     def named(take: str) -> tuple[str | None, set[str]]:
         """The take that is shown once it is asked for, and the names in its table."""
-        assert studio.client.post(address, json={"options": {"take": take}}).status_code == 200
+        assert studio.post(address, {"options": {"take": take}}).status_code == 200
         shown = takes.recording()
         return shown["take"], {row["label"] for row in shown["segmentation"]["segments"]} - {""}
 
@@ -305,6 +305,6 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     ]
     assert named("short") == ("short", set())
     assert not any("was not used" in each for each in takes.recording()["warnings"])
-    refused = studio.client.post(address, json={"options": {"take": "run"}})
+    refused = studio.post(address, {"options": {"take": "run"}})
     assert (refused.status_code, refused.json()["reading"]) == (400, True)
     assert takes.recording()["take"] == "short"

@@ -9,32 +9,20 @@ import typer
 from kineme._version import __version__
 from kineme.cli.help import make_lazy_group
 
+# fmt: off
 COMMANDS = (
-    "segment",
-    "live",
-    "pose",
-    "presets",
-    "cycles",
-    "events",
-    "split",
-    "report",
-    "studio",
-    "convert",
-    "info",
-    "demo",
-    "evaluate",
-    "data",
-    "label",
-    "transfer",
-    "library",
-    "graph",
+    "segment", "live", "pose", "presets", "cycles", "events", "split", "report", "studio",
+    "convert", "info", "demo", "evaluate", "data", "label", "transfer", "library", "graph",
     "synthesize",
 )
+# fmt: on
 """Commands in the order of the help; each is a function in the module of its name."""
+OTHER_MODULES = {"demo": "segment", "label": "transfer", "synthesize": "graph"}
+"""Modules of commands that share one."""
 
 app = typer.Typer(
     name="kineme",
-    cls=make_lazy_group({name: f"kineme.cli.{name}" for name in COMMANDS}),
+    cls=make_lazy_group({name: f"kineme.cli.{OTHER_MODULES.get(name, name)}" for name in COMMANDS}),
     help="Cut recordings of human motion into activities, transitions and repeated primitives.\n\n"
     "Begin with `kineme demo`, then `kineme segment FILE` on your own.",
     no_args_is_help=True,

@@ -15,7 +15,6 @@ from kineme.cli.files import Batch, Files, Recursive, SegmentTable
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment
-from kineme.cli.terminal import Failures
 from kineme.errors import ParameterError
 from kineme.formats import read_analog
 from kineme.formats.options import ReadOptions
@@ -23,6 +22,7 @@ from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from rich.table import Table
 
     from kineme.cycles import Cycles
     from kineme.recordings import Motion, Signals
@@ -139,9 +139,8 @@ def cycles(
         batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
     parts = _keep_common_channels(parts, batch)
     recordings, tables = [part.recording for part in parts], [part.segments for part in parts]
-    failures = Failures()
     if recordings:
-        with failures.catch_errors(""):
+        with batch.catch_result_errors():
             analog = _read_analog_channels(batch.paths, recordings, read_options) if names else []
             if sides is not None:
                 names = _choose_channels(recordings, names)
@@ -163,16 +162,10 @@ def cycles(
             if sides is not None:
                 write_table(compare_sides(result, ends=ends), sides)
             if not quiet:
-                _show(
-                    result,
-                    sessions,
-                    has_channels=channels is not None,
-                    ends=ends,
-                    has_table=segments is not None,
-                )
+                given = {"has_channels": channels is not None, "has_table": segments is not None}
+                _show(result, sessions, ends=ends, **given)
                 show_written(Console(highlight=False), [output, plot, compare, sides])
     batch.exit()
-    failures.exit()
 
 
 class _SegmentedRecording(NamedTuple):
@@ -191,10 +184,8 @@ def _keep_common_channels(
     for part in parts:
         if part.channels != most_common:
             differences = ", ".join(sorted({*most_common} ^ {*part.channels})[:4])
-            reason = (
-                f"does not have the channels of the others ({differences}): choose with --channels"
-            )
-            batch.leave_out(part.path, reason)
+            reason = f"does not have the channels of the others ({differences})"
+            batch.leave_out(part.path, f"{reason}: choose with --channels")
     return [part for part in parts if part.channels == most_common]
 
 
@@ -324,27 +315,48 @@ def _show(
     """Print a line per group (per session and group for two sessions), and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import (
-        CONFIDENCE,
-        CONFIDENCE_NOTE,
-        format_per_cent,
-        keep_if_filled,
-        make_table,
-    )
+    from kineme.cli.tables import CONFIDENCE, CONFIDENCE_NOTE, keep_if_filled
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
-    shown_channels = (
-        cycles.channels[:MAX_CHANNELS]
-        if has_channels
-        else _choose_shown_channels(cycles, ends=ends)
-    )
+    channels = [*cycles.channels[:MAX_CHANNELS]]
+    if not has_channels:
+        channels = _choose_shown_channels(cycles, ends=ends)
+    table, without_inner = _tabulate_groups(cycles, sessions, channels, ends=ends)
+    has_confidence = keep_if_filled(table, CONFIDENCE)
+    console.print(table)
+    if has_confidence:
+        console.print(f"{CONFIDENCE_NOTE}, of the least sure activity.")
+    inner = "inner repetitions: the first and last of each are left out"
+    console.print(f"n, means: over {'all repetitions' if ends else inner}.")
+    if len(cycles.channels) > len(channels) > 0:
+        more = format_count(len(cycles.channels) - len(channels), "more channel")
+        console.print(f"{more} measured: --output writes all, --channels chooses.")
+    reasons = Counter(reason for reason in cycles.columns["excluded"].tolist() if reason)
+    for reason, count in reasons.items():
+        console.print(f"{format_count(count, 'cycle')} left out: {reason}.")
+    if without_inner and not ends:
+        groups = ", ".join(without_inner)
+        console.print(f"{groups}: no inner repetitions; --ends includes the first and last.")
+    if len(cycles) == 0:
+        no_primitives = "the segments given have no primitives"
+        why = no_primitives if has_table else "nothing repeats in this recording"
+        console.print(f"no repetitions: {why}.")
+    for note in cycles.provenance["notes"]:
+        console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
+
+
+def _tabulate_groups(
+    cycles: Cycles, sessions: list[Cycles], channels: list[str], *, ends: bool
+) -> tuple[Table, list[str]]:
+    """Return the table of the groups, and the groups without inner repetitions."""
+    from kineme.cli.tables import CONFIDENCE, format_per_cent, make_table
+
     units = dict(zip(cycles.channels, cycles.units, strict=True))
-    ranges = [f"{name} range {units[name]}".strip() for name in shown_channels]
-    session_column = ["recording"] if sessions else []
+    ranges = [f"{name} range {units[name]}".strip() for name in channels]
     names = "label", "cycles", CONFIDENCE, "n", "duration s", "sd", "cv %", "per min"
-    table = make_table(*session_column, *names, *ranges)
-    without_inner: list[str] = []
+    table = make_table(*["recording"] * bool(sessions), *names, *ranges)
+    without_inner: dict[str, None] = {}
     for session in sessions or [cycles]:
         values = _tabulate_measures(session, ends=ends)
         name = [str(session.columns["recording"][0])] if sessions else []
@@ -352,40 +364,13 @@ def _show(
             n, mean, sd, cv = values[group, "duration_s"]
             per_min = values[group, "cadence_per_min"][1]
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
-            cells += [
-                _format_mean(*values[group, f"{channel}.range"][1:3]) for channel in shown_channels
-            ]
+            cells += [_format_mean(*values[group, f"{each}.range"][1:3]) for each in channels]
             count = int((session.columns["group"] == group).sum())
             head = group, str(count), format_per_cent(session.count_confidence(group)), str(n)
             table.add_row(*name, *head, *(_format_cell(cell) for cell in cells))
             if n == 0:
-                without_inner.append(group)
-    has_confidence = keep_if_filled(table, CONFIDENCE)
-    console.print(table)
-    if has_confidence:
-        console.print(f"{CONFIDENCE_NOTE}, of the least sure activity.")
-    kind = (
-        "all repetitions" if ends else "inner repetitions: the first and last of each are left out"
-    )
-    console.print(f"n, means: over {kind}.")
-    if len(cycles.channels) > len(shown_channels) > 0:
-        more = format_count(len(cycles.channels) - len(shown_channels), "more channel")
-        console.print(f"{more} measured: --output writes all, --channels chooses.")
-    reasons = [reason for reason in cycles.columns["excluded"].tolist() if reason]
-    for reason in dict.fromkeys(reasons):
-        console.print(f"{format_count(reasons.count(reason), 'cycle')} left out: {reason}.")
-    if without_inner and not ends:
-        groups = ", ".join(dict.fromkeys(without_inner))
-        console.print(f"{groups}: no inner repetitions; --ends includes the first and last.")
-    if len(cycles) == 0:
-        why = (
-            "the segments given have no primitives"
-            if has_table
-            else "nothing repeats in this recording"
-        )
-        console.print(f"no repetitions: {why}.")
-    for note in cycles.provenance["notes"]:
-        console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
+                without_inner[group] = None
+    return table, [*without_inner]
 
 
 def _tabulate_measures(

@@ -13,7 +13,7 @@ import typer
 from kineme._util.checks import format_count
 from kineme.cli.help import INPUT, OUTPUT, option
 from kineme.cli.options import Quiet
-from kineme.cli.terminal import Failures
+from kineme.cli.terminal import exit_on_error
 
 if TYPE_CHECKING:
     from kineme.datasets.cmu import Fetched
@@ -62,24 +62,25 @@ def data(
     numbers = _parse_numbers(trials)
     from kineme.datasets.cmu import ANNOTATIONS, SITE, fetch_subject
 
-    failures = Failures()
     start = time.perf_counter()
     files: list[Fetched] = []
-    with failures.catch_errors(f"subject {subject}"), _show_progress(quiet=quiet) as (shown, say):
-        for file in fetch_subject(
-            subject,
-            numbers,
-            folder=output,
-            progress=shown,
-            site=site or SITE,
-            annotations=annotations or ANNOTATIONS,
-            timeout_s=timeout,
-        ):
-            files.append(file)
-            say(_describe_file(file))
-    if files and not quiet:
-        typer.echo(_summarize(files, time.perf_counter() - start))
-    failures.exit()
+    with exit_on_error(f"subject {subject}"):
+        try:
+            with _show_progress(quiet=quiet) as (shown, say):
+                for file in fetch_subject(
+                    subject,
+                    numbers,
+                    folder=output,
+                    progress=shown,
+                    site=site or SITE,
+                    annotations=annotations or ANNOTATIONS,
+                    timeout_s=timeout,
+                ):
+                    files.append(file)
+                    say(_describe_file(file))
+        finally:
+            if files and not quiet:
+                typer.echo(_summarize(files, time.perf_counter() - start))
 
 
 def _parse_numbers(text: str | None) -> list[int] | None:

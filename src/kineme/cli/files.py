@@ -1,17 +1,14 @@
-"""Process FILES: recordings or folders of recordings, one after another.
+"""Process FILES, recordings or folders of recordings, and choose the paths of their results.
 
 The rules are the same for every command. An error with one recording does not stop the others and
 is reported at the end, with name and reason. The exit code is 1 if a file or folder named by the
 user gave no result, or if a result could not be written.
 
-@@targets: Paths of results: a file, a folder, or a pattern with ``{name}`` and ``{parent}``.
-
-The rules are the same for every command. A folder (an existing one, or a path without suffix) gets
-one file per recording, named after it. ``{name}`` is replaced by the recording's name, ``{parent}``
-by the name of its folder. Recordings with the same name are distinguished by their folders:
-``a/take.bvh`` and ``b/take.bvh`` become ``a_take`` and ``b_take``.
-
-Folders are created, but the parent of the topmost new one must exist.
+A result goes to a file, a folder, or a pattern with ``{name}`` and ``{parent}``. A folder (an
+existing one, or a path without suffix) gets one file per recording, named after it. ``{name}`` is
+replaced by the recording's name, ``{parent}`` by the name of its folder. Recordings with the same
+name are distinguished by their folders: ``a/take.bvh`` and ``b/take.bvh`` become ``a_take`` and
+``b_take``. Folders are created, but the parent of the topmost new one must exist.
 """
 
 from __future__ import annotations
@@ -58,6 +55,10 @@ SegmentTable = Annotated[
 
 SKELETON, MOTION = ".asf", ".amc"
 """Suffixes of motions in two files; ``*`` in a shell gives both."""
+NAME, PARENT = "{name}", "{parent}"
+PICTURES = (".png", ".pdf", ".svg")
+PAGES = (".html", ".htm")
+_FIELD = re.compile(r"\{(name|parent)\}")
 
 
 class Batch:
@@ -176,6 +177,15 @@ class Batch:
         else:
             self._missing -= self._origins[make_absolute(path)]
 
+    @contextmanager
+    def catch_result_errors(self, subject: object = "") -> Iterator[None]:
+        """Keep an error with the common result of all recordings for the report at the end."""
+        try:
+            yield
+        except KinemeError as error:
+            self._unwritten = True
+            self._messages.append((print_error, format_line(error, subject=subject)))
+
     def leave_out(self, path: Path, reason: str) -> None:
         """Report why a readable recording is not part of the result."""
         is_named = self._is_named(path)
@@ -231,13 +241,6 @@ class Batch:
             self._messages.append((print_error, format_line(error)))
             self._missing.add(Path(error.path))
             self.exit()
-
-
-NAME, PARENT = "{name}", "{parent}"
-PICTURES = (".png", ".pdf", ".svg")
-PAGES = (".html", ".htm")
-
-_FIELD = re.compile(r"\{(name|parent)\}")
 
 
 def choose_files(option: str, target: Path, inputs: list[Path], suffix: str = "") -> list[Path]:

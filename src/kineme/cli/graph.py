@@ -1,4 +1,4 @@
-"""``kineme graph``: build a motion graph from recordings."""
+"""Motion graphs: ``kineme graph`` builds one, ``kineme synthesize`` makes new motion from it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ from kineme.cli.files import (
 from kineme.cli.help import METHOD, OUTPUT, option
 from kineme.cli.options import BODY, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import load_or_find_segments
-from kineme.cli.terminal import Failures, show_progress
+from kineme.cli.terminal import exit_on_error, show_progress
+from kineme.errors import ParameterError
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from kineme.recordings import Motion
     from kineme.segments.segmentation import Segmentation
     from kineme.synthesis import MotionGraph
+
+CONTENT = "New motion"
 
 
 @add_options(BODY | SEGMENTING)
@@ -54,12 +57,7 @@ def graph(
         ),
     ] = 1 / 3,
     keep_dead_ends: Annotated[
-        bool,
-        option(
-            METHOD,
-            "Keep primitives that lead to a dead end.",
-            "--keep-dead-ends",
-        ),
+        bool, option(METHOD, "Keep primitives that lead to a dead end.", "--keep-dead-ends")
     ] = False,
     recursive: Recursive = False,
     quiet: Quiet = False,
@@ -71,11 +69,9 @@ def graph(
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments, read_options.person or "")
-    failures = Failures()
-    with failures.catch_errors(output):
+    with exit_on_error(output):
         check_target_folder(output)
         check_writable(output, plot)
-    failures.exit()
     motions: list[Motion] = []
     segmentations: list[Segmentation] = []
     for path, table in zip(batch.paths, tables, strict=True):
@@ -90,7 +86,7 @@ def graph(
             motions.append(motion)
     if not motions:
         batch.exit()
-    with failures.catch_errors(output), show_progress(output.name, quiet=quiet) as stage:
+    with batch.catch_result_errors(output), show_progress(output.name, quiet=quiet) as stage:
         from kineme.synthesis import motion_graph, write_graph
 
         stage("jumps")
@@ -107,7 +103,6 @@ def graph(
         if not quiet:
             _show(result)
     batch.exit()
-    failures.exit()
 
 
 def _show(graph: MotionGraph) -> None:
@@ -122,3 +117,80 @@ def _show(graph: MotionGraph) -> None:
         f"{format_count(len(graph.nodes), 'node')}, {format_count(len(graph.edges), 'edge')}, "
         f"{format_count(jumps, 'jump')} among them."
     )
+
+
+def synthesize(
+    graph: Annotated[
+        Path, typer.Argument(metavar="GRAPH", help="Motion graph that `kineme graph` made.")
+    ],
+    output: Annotated[Path, option(OUTPUT, "The new motion: a .bvh file.", "--output", "-o")],
+    actions: Annotated[
+        str | None,
+        option(
+            CONTENT,
+            "Labels or cluster numbers in order, as in walk,run*3,jump; with --path, the "
+            "allowed ones without counts.",
+            metavar="NAME*COUNT,…",
+        ),
+    ] = None,
+    path: Annotated[
+        str | None,
+        option(
+            CONTENT,
+            "Line on the floor to follow, as x,z in metres, such as 0,0;3,0;3,3.",
+            metavar="X,Z;X,Z;…",
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float, option(CONTENT, "Largest distance from that line in metres.")
+    ] = 0.5,
+    duration: Annotated[
+        float | None,
+        option(CONTENT, "Seconds of motion from randomly drawn primitives, instead of actions."),
+    ] = None,
+    seed: Annotated[int, option(CONTENT, "Seed of the random draw.", min=0)] = 0,
+    quiet: Quiet = False,
+) -> None:
+    """Make new motion from a motion graph.
+
+    The actions are named, follow a line on the floor, or are drawn at random.
+    """
+    if (actions is None and path is None) == (duration is None):
+        raise typer.BadParameter("give --actions, --path or both, or --duration")
+    with exit_on_error(graph), show_progress(output.name, quiet=quiet) as stage:
+        stage("reading")
+        from kineme import synthesis
+        from kineme.formats import write
+
+        motion_graph = synthesis.read_graph(graph)
+        motions = synthesis.load_sources(motion_graph)
+        stage("searching")
+        start = None
+        named = synthesis.parse_actions(actions) if actions is not None else []
+        if path is not None:
+            route, start = synthesis.line_route(
+                motion_graph,
+                motions,
+                synthesis.parse_line(path),
+                actions=_drop_counts(named),
+                tolerance=tolerance,
+            )
+        elif named:
+            route = synthesis.action_route(motion_graph, named)
+        else:
+            route = synthesis.random_route(motion_graph, duration or 0, seed)
+        stage("blending")
+        motion = synthesis.synthesize(motion_graph, motions, route, start=start)
+        write(motion, output)
+        if not quiet:
+            typer.echo(f"{motion.duration:.2f} s, {motion.provenance.notes[0]}: {output}")
+
+
+def _drop_counts(actions: list[tuple[str, int]]) -> list[str]:
+    for name, count in actions:
+        if count > 1:
+            raise ParameterError(
+                f"{name}*{count}: with --path the line sets the length, so give {name} "
+                "without a count"
+            )
+    return [name for name, _ in actions]

@@ -80,15 +80,9 @@ def _list_measures(path: Path, recording: Motion | Signals, options: ReadOptions
     from kineme.recordings import Motion
 
     analog = read_analog(path, options) if isinstance(recording, Motion) else None
-    return [
-        {
-            "name": channel.name,
-            "unit": channel.unit,
-            "group": channel.group,
-            "source": channel.source,
-        }
-        for channel in channels_of(recording, ["*"], beside=[] if analog is None else [analog])
-    ]
+    channels = channels_of(recording, ["*"], beside=[] if analog is None else [analog])
+    names = ("name", "unit", "group", "source")
+    return [{name: getattr(channel, name) for name in names} for channel in channels]
 
 
 def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:

@@ -17,8 +17,7 @@ import typer
 from kineme.cli.files import check_writable
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
-from kineme.cli.terminal import format_line, print_error, print_skipped
-from kineme.errors import KinemeError
+from kineme.cli.terminal import exit_on_error, print_skipped
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
@@ -49,12 +48,10 @@ def live(
     replay: Annotated[Path | None, option(INPUT, "Replay this recording.")] = None,
     speed: Annotated[float, option(INPUT, "Speed factor of --replay; 0: no delay.")] = 1.0,
     lsl: Annotated[
-        str | None,
-        option(INPUT, "Read an LSL stream, by name or type.", metavar="NAME"),
+        str | None, option(INPUT, "Read an LSL stream, by name or type.", metavar="NAME")
     ] = None,
     osc: Annotated[
-        int | None,
-        option(INPUT, "Receive OSC, such as VMC, on this UDP port.", metavar="PORT"),
+        int | None, option(INPUT, "Receive OSC, such as VMC, on this UDP port.", metavar="PORT")
     ] = None,
     osc_host: Annotated[
         str, option(INPUT, "Local address for --osc; 0.0.0.0 for any.")
@@ -64,16 +61,14 @@ def live(
     ] = 5.0,
     interval: Annotated[float, option(METHOD, "Seconds between analyses.", min=0.1)] = 2.0,
     output: Annotated[
-        Path | None,
-        option(OUTPUT, f"Write the segments at the end: {TABLES}.", "--output", "-o"),
+        Path | None, option(OUTPUT, f"Write the segments at the end: {TABLES}.", "--output", "-o")
     ] = None,
     record: Annotated[
         Path | None,
         option(OUTPUT, "Save the rows in NAME.journal.csv, converted to NAME.parquet at the end."),
     ] = None,
     recover: Annotated[
-        Path | None,
-        option(OUTPUT, "Convert the journal of a killed run to Parquet, then exit."),
+        Path | None, option(OUTPUT, "Convert the journal of a killed run to Parquet, then exit.")
     ] = None,
     page: Annotated[
         bool, option(OUTPUT, "Show the stream in the browser until Ctrl+C.", "--page")
@@ -94,7 +89,7 @@ def live(
     given_sources = [name for name, value in sources.items() if value is not None]
     if len(given_sources) > 1:
         raise typer.BadParameter("give one source only", param_hint=" / ".join(given_sources))
-    try:
+    with exit_on_error():
         if recover is not None:
             typer.echo(f"wrote {recover_journal(recover)}")
             return
@@ -114,9 +109,6 @@ def live(
             _write(stream, output, journal, quiet=json or quiet)
             if page and not is_stopped:
                 _wait_for_interrupt()
-    except KinemeError as error:
-        print_error(format_line(error))
-        raise typer.Exit(1) from error
 
 
 def _push_all(

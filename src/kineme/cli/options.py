@@ -1,21 +1,10 @@
-"""Options that several commands share: recordings, reading, outputs, constants.
+"""Options that several commands share: reading, segmenting, outputs, clips.
 
-@@declare: Add groups of options to commands: reading, segmenting, clips.
-
-@@reading: Reading options: properties of recordings that their files do not state.
-
-`BODY` and `READING` are keywords of `kineme.read`; `kineme.cli.options.add_options` adds
-them to a command.
-
-@@method: Segmentation options: ``--preset``, ``--set NAME=VALUE``, ``--detail``, ``--effectors``.
-
-They are derived from the registered presets and their `Constant` objects, so a preset or constant
-added by another package works with every command. Values are typed as they are printed: ``0.5``,
-``none``, ``yes``, ``1,1 2,1``.
-
-@@clips: Options for the shape, names and format of clips, for ``split`` and ``library split``.
-
-`kineme.cli.options.add_options` adds them to a command.
+`add_options` adds a group of them to a command. `BODY` and `READING` are keywords of `kineme.read`:
+properties of recordings that their files do not state. Options of segmenting are derived from the
+registered presets and their `Constant` objects, so a preset or constant added by another package
+works with every command. Values are typed as they are printed: ``0.5``, ``none``, ``yes``,
+``1,1 2,1``.
 """
 
 from __future__ import annotations
@@ -41,6 +30,142 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL
 
 if TYPE_CHECKING:
     from kineme.methods.base import Constant
+
+Quiet = Annotated[bool, option(OUTPUT, "Print warnings and errors only.", "--quiet", "-q")]
+Json = Annotated[bool, option(OUTPUT, "Print JSON, one line per recording.", "--json")]
+BODY: dict[str, Any] = {
+    "skeleton": Annotated[
+        Path | None, option(READING_OPTIONS, "ASF skeleton of an AMC file.", metavar="FILE")
+    ],
+    "fps": Annotated[
+        float | None, option(READING_OPTIONS, "Frames per second; overrides the file.")
+    ],
+    "unit": Annotated[
+        str | None,
+        option(
+            READING_OPTIONS, "Unit: m, cm, mm, inch, cmu, or its length in metres, such as 0.0254."
+        ),
+    ],
+    "up": Annotated[
+        str | None,
+        option(READING_OPTIONS, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS"),
+    ],
+    "person": Annotated[
+        str | None, option(READING_OPTIONS, "Person to read: name or number.", metavar="NAME")
+    ],
+    "confidence": Annotated[
+        float | None, option(READING_OPTIONS, "Least confidence of points, such as 0.5.")
+    ],
+    "take": Annotated[
+        str | None,
+        option(READING_OPTIONS, "Animation to read: name, number or all.", metavar="NAME"),
+    ],
+}
+"""Options of `kineme.read` for a motion."""
+READING: dict[str, Any] = {
+    **BODY,
+    "columns": Annotated[
+        str | None,
+        option(
+            INPUT,
+            "Read these columns or channels, not joints; with wildcards * and ?.",
+            metavar="NAME,NAME,…",
+        ),
+    ],
+    "emg": Annotated[
+        bool,
+        option(
+            INPUT, "Columns are muscle signals: use envelopes. Of a C3D, only muscles.", "--emg"
+        ),
+    ],
+}
+"""Options of `kineme.read` for motions and signals."""
+ALL = "all"
+"""Value of --person and --take that selects each of them."""
+SET = "--set"
+Constants = Annotated[
+    list[str] | None,
+    option(
+        METHOD,
+        "Change a constant of the preset, such as min_action=2; may be repeated. `kineme "
+        "presets NAME` lists them.",
+        SET,
+        metavar="NAME=VALUE",
+    ),
+]
+Effectors = Annotated[
+    str | None,
+    option(
+        READING_OPTIONS,
+        "Joints of left and right ankle, head, left and right wrist; or only some, as in "
+        "head=NAME,left_wrist=NAME.",
+        metavar="NAME,NAME,…",
+    ),
+]
+SEGMENTING: dict[str, Any] = {
+    "preset": Annotated[
+        str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", "--preset", metavar="NAME")
+    ],
+    "detail": Annotated[
+        float | None,
+        option(
+            METHOD,
+            "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as "
+            "0.5.",
+            "--detail",
+            metavar="NUMBER",
+        ),
+    ],
+    "constants": Constants,
+    "effectors": Effectors,
+}
+"""Options of `kineme.segment`."""
+CLIPS: dict[str, Any] = {
+    "root_motion": Annotated[
+        RootMotionMode | None,
+        option(OUTPUT, "keep, extract (root bone), in-place.", metavar="HOW", show_default="keep"),
+    ],
+    "close": Annotated[bool, option(OUTPUT, "Repeat the first frame at the end.", "--close")],
+    "to_format": Annotated[
+        str | None,
+        option(OUTPUT, "Format, such as glb; by default bvh or csv.", "--format", metavar="SUFFIX"),
+    ],
+    "to_fps": Annotated[
+        float | None, option(OUTPUT, "Frame rate of clips, such as 30.", "--to-fps", metavar="HZ")
+    ],
+    "name": Annotated[
+        str | None,
+        option(
+            OUTPUT,
+            "Pattern of names, such as {label}_{n:02}; also {name}, {take}, {direction} and "
+            "others.",
+            "--name",
+            metavar="TEMPLATE",
+        ),
+    ],
+    "target": Annotated[
+        TargetName | None,
+        option(
+            OUTPUT,
+            "Program that the clips are for: unreal, unity, blender or godot.",
+            "--for",
+            metavar="PROGRAM",
+        ),
+    ],
+    "sheet": Annotated[
+        Path | None, option(OUTPUT, "Picture of all clips to write.", "--sheet", metavar="PNG")
+    ],
+    "motion_matching": Annotated[
+        Path | None,
+        option(
+            OUTPUT,
+            "Motion matching database to write: .npz or .bin.",
+            "--motion-matching",
+            metavar="FILE",
+        ),
+    ],
+}
+"""Options by keyword of `kineme.clips.split.split`, except format and rate of clips."""
 
 
 def add_options(
@@ -97,67 +222,6 @@ def are_given(context: typer.Context, options: Iterable[str]) -> bool:
     return any(source is not None and source.name == "COMMANDLINE" for source in sources)
 
 
-Skeleton = Annotated[
-    Path | None, option(READING_OPTIONS, "ASF skeleton of an AMC file.", metavar="FILE")
-]
-Fps = Annotated[float | None, option(READING_OPTIONS, "Frames per second; overrides the file.")]
-Unit = Annotated[
-    str | None,
-    option(READING_OPTIONS, "Unit: m, cm, mm, inch, cmu, or its length in metres, such as 0.0254."),
-]
-Up = Annotated[
-    str | None, option(READING_OPTIONS, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS")
-]
-Person = Annotated[
-    str | None,
-    option(READING_OPTIONS, "Person to read: name or number.", metavar="NAME"),
-]
-Confidence = Annotated[
-    float | None, option(READING_OPTIONS, "Least confidence of points, such as 0.5.")
-]
-Take = Annotated[
-    str | None,
-    option(
-        READING_OPTIONS,
-        "Animation to read: name, number or all.",
-        metavar="NAME",
-    ),
-]
-Columns = Annotated[
-    str | None,
-    option(
-        INPUT,
-        "Read these columns or channels, not joints; with wildcards * and ?.",
-        metavar="NAME,NAME,…",
-    ),
-]
-Emg = Annotated[
-    bool,
-    option(
-        INPUT,
-        "Columns are muscle signals: use envelopes. Of a C3D, only muscles.",
-        "--emg",
-    ),
-]
-Quiet = Annotated[bool, option(OUTPUT, "Print warnings and errors only.", "--quiet", "-q")]
-Json = Annotated[bool, option(OUTPUT, "Print JSON, one line per recording.", "--json")]
-
-BODY: dict[str, Any] = {
-    "skeleton": Skeleton,
-    "fps": Fps,
-    "unit": Unit,
-    "up": Up,
-    "person": Person,
-    "confidence": Confidence,
-    "take": Take,
-}
-"""Options of `kineme.read` for a motion."""
-READING: dict[str, Any] = {**BODY, "columns": Columns, "emg": Emg}
-"""Options of `kineme.read` for motions and signals."""
-ALL = "all"
-"""Value of --person and --take that selects each of them."""
-
-
 def make_read_options(*, emg: bool | None = None, **options: Any) -> ReadOptions:
     """Return the options from texts; typer.BadParameter if one is invalid."""
     with suppress(KeyError, TypeError, ValueError):
@@ -198,48 +262,6 @@ def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, Rea
 
     people = list_people(path, options) or (None,)
     return [(who or "", replace(options, person=who)) for who in people]
-
-
-SET = "--set"
-PresetName = Annotated[
-    str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", "--preset", metavar="NAME")
-]
-Constants = Annotated[
-    list[str] | None,
-    option(
-        METHOD,
-        "Change a constant of the preset, such as min_action=2; may be repeated. `kineme "
-        "presets NAME` lists them.",
-        SET,
-        metavar="NAME=VALUE",
-    ),
-]
-Detail = Annotated[
-    float | None,
-    option(
-        METHOD,
-        "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as 0.5.",
-        "--detail",
-        metavar="NUMBER",
-    ),
-]
-Effectors = Annotated[
-    str | None,
-    option(
-        READING_OPTIONS,
-        "Joints of left and right ankle, head, left and right wrist; or only some, as in "
-        "head=NAME,left_wrist=NAME.",
-        metavar="NAME,NAME,…",
-    ),
-]
-
-SEGMENTING: dict[str, Any] = {
-    "preset": PresetName,
-    "detail": Detail,
-    "constants": Constants,
-    "effectors": Effectors,
-}
-"""Options of `kineme.segment`."""
 
 
 def make_segment_options(
@@ -382,63 +404,6 @@ def _convert_text(hint: Any, text: str) -> Any:
 
 def _drop_none(hint: Any) -> Any:
     return next(member for member in get_args(hint) if member is not NoneType)
-
-
-RootMotion = Annotated[
-    RootMotionMode | None,
-    option(OUTPUT, "keep, extract (root bone), in-place.", metavar="HOW", show_default="keep"),
-]
-Close = Annotated[bool, option(OUTPUT, "Repeat the first frame at the end.", "--close")]
-ToFormat = Annotated[
-    str | None,
-    option(OUTPUT, "Format, such as glb; by default bvh or csv.", "--format", metavar="SUFFIX"),
-]
-ToFps = Annotated[
-    float | None,
-    option(OUTPUT, "Frame rate of clips, such as 30.", "--to-fps", metavar="HZ"),
-]
-Name = Annotated[
-    str | None,
-    option(
-        OUTPUT,
-        "Pattern of names, such as {label}_{n:02}; also {name}, {take}, {direction} and others.",
-        "--name",
-        metavar="TEMPLATE",
-    ),
-]
-ForTarget = Annotated[
-    TargetName | None,
-    option(
-        OUTPUT,
-        "Program that the clips are for: unreal, unity, blender or godot.",
-        "--for",
-        metavar="PROGRAM",
-    ),
-]
-Sheet = Annotated[
-    Path | None, option(OUTPUT, "Picture of all clips to write.", "--sheet", metavar="PNG")
-]
-MotionMatching = Annotated[
-    Path | None,
-    option(
-        OUTPUT,
-        "Motion matching database to write: .npz or .bin.",
-        "--motion-matching",
-        metavar="FILE",
-    ),
-]
-
-CLIPS: dict[str, Any] = {
-    "root_motion": RootMotion,
-    "close": Close,
-    "to_format": ToFormat,
-    "to_fps": ToFps,
-    "name": Name,
-    "target": ForTarget,
-    "sheet": Sheet,
-    "motion_matching": MotionMatching,
-}
-"""Options by keyword of `kineme.clips.split.split`, except format and rate of clips."""
 
 
 def make_clip_options(

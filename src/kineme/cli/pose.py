@@ -86,11 +86,7 @@ def pose(
 
 
 def _estimate(
-    path: Path,
-    table: Path | None,
-    estimator: str | None,
-    model: Path | None,
-    rate: float | None,
+    path: Path, table: Path | None, estimator: str | None, model: Path | None, rate: float | None
 ) -> dict[str, Any]:
     """Estimate the poses of a video, write them, and return the facts to print."""
     from kineme.errors import ReadError

@@ -1,4 +1,4 @@
-"""``kineme segment``: segment recordings; write tables and plots."""
+"""``kineme segment`` and ``demo``: segment recordings; write tables, plots and pages."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.parallel import announce_compilation
-from kineme.cli.files import Batch, FilesOfFormats, Recursive, check_writable
+from kineme.cli.files import Batch, FilesOfFormats, Recursive, check_target_folder, check_writable
 from kineme.cli.help import INPUT, OUTPUT, TABLES, option
 from kineme.cli.options import READING, SEGMENTING, Json, Quiet, add_options
+from kineme.cli.terminal import exit_on_error, show_progress
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
@@ -64,9 +65,7 @@ def segment(
     join: Annotated[
         bool,
         option(
-            INPUT,
-            "Treat the files as sensors of one recording and join them by time.",
-            "--join",
+            INPUT, "Treat the files as sensors of one recording and join them by time.", "--join"
         ),
     ] = False,
     recursive: Recursive = False,
@@ -100,6 +99,44 @@ def segment(
     for path, *targets in zip(batch.paths, tables, pictures, pages, strict=True):
         batch.run_each_person(path, read_options, work, *targets)
     batch.exit()
+
+
+def demo(
+    output: Annotated[
+        Path,
+        option(
+            OUTPUT,
+            "Folder for the table and the picture.",
+            "--output",
+            "-o",
+            metavar="FOLDER",
+            show_default="current folder",
+        ),
+    ] = Path(),
+    quiet: Quiet = False,
+) -> None:
+    """Segment the bundled recording; write a table and a picture."""
+    from kineme.datasets import bundled_recording
+
+    path = bundled_recording()
+    table, picture = (output / f"{path.stem}{suffix}" for suffix in (".csv", ".png"))
+    with exit_on_error(path):
+        check_target_folder(table)
+        check_writable(table, picture)
+        options = SegmentOptions()
+        with show_progress(path.name, quiet=quiet) as stage:
+            recording, result = read_and_segment(path, ReadOptions(), None, options, stage)
+        write_results(result, recording, options, table, picture)
+        if not quiet:
+            from kineme.cli.tables import show_segments
+
+            show_segments(result, "activity")
+            typer.echo(f"Read     {path}")
+            typer.echo(f"Table    {table}")
+            typer.echo(f"Picture  {picture}")
+            typer.echo(
+                "\nThe same on your own: kineme segment FILE --output cuts.csv --plot cuts.png"
+            )
 
 
 def _read_joined(paths: Sequence[Path], options: ReadOptions) -> Signals:

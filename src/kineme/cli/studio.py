@@ -10,7 +10,7 @@ import typer
 
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options import ALL, BODY, Effectors, add_options, are_given
-from kineme.cli.terminal import Failures
+from kineme.cli.terminal import exit_on_error
 from kineme.errors import ParameterError
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
@@ -60,8 +60,7 @@ def studio(
     The page is served on this machine only; presets and constants are selected there. Corrections
     are saved in NAME.segments.json beside each recording after every edit. Ctrl+C stops the server.
     """
-    failures = Failures()
-    with failures.catch_errors("studio"):
+    with exit_on_error("studio"):
         root, recordings = _choose_folder(files or [Path()])
         from kineme.library.storage.layout import HEAD
         from kineme.studio.server import serve
@@ -81,14 +80,11 @@ def studio(
             library = StudioLibrary(root)
             read_options, segment_options = library.options()
 
-        def announce(address: str) -> None:
-            typer.echo(f"kineme studio: {address} (Ctrl+C ends it)")
-
         serve(
             root, recordings, read_options=read_options, segment_options=segment_options,
-            port=port, browser=browser, announce=announce, library=library, development=dev,
+            port=port, browser=browser, library=library, development=dev,
+            announce=lambda address: typer.echo(f"kineme studio: {address} (Ctrl+C ends it)"),
         )  # fmt: skip
-    failures.exit()
 
 
 def _split_people(recordings: list[Path] | None, options: ReadOptions) -> None:

@@ -122,15 +122,7 @@ def _tabulate_activities(segmentation: Segmentation) -> Table:
     from kineme.cycles.table import compute_count_confidence
 
     table = make_table(
-        "#",
-        "kind",
-        "start s",
-        "stop s",
-        "frames",
-        "repetitions",
-        CONFIDENCE,
-        "cluster",
-        "label",
+        "#", "kind", "start s", "stop s", "frames", "repetitions", CONFIDENCE, "cluster", "label"
     )
     primitives, captions = segmentation.primitives, []
     for number, row in enumerate(segmentation.activities):

@@ -1,9 +1,7 @@
-"""Console output to a terminal, a file or a pipe.
+"""Console output to a terminal, a file or a pipe: tables, and messages on standard error.
 
 Names of files, joints and labels may contain control codes for terminals, which are escaped. Only
 on a terminal are lines wrapped.
-
-@@messages: Messages on standard error: errors, warnings, progress.
 """
 
 from __future__ import annotations
@@ -27,6 +25,8 @@ _CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]
 """Control characters except tab and line feed, and characters that change text direction."""
 UNLIMITED_WIDTH = 10_000
 """Width for files and pipes, so that lines are never wrapped."""
+PROGRESS_DELAY_S = 1.0
+"""Time before progress is shown."""
 
 
 class Console(rich.console.Console):
@@ -63,43 +63,12 @@ def escape_controls(text: str) -> str:
     return _CONTROLS.sub(lambda match: match[0].encode("unicode_escape").decode(), text)
 
 
-PROGRESS_DELAY_S = 1.0
-"""Time before progress is shown."""
-
-
-class Failures:
-    """Count and print failures, so that the command can end with an exit code."""
-
-    def __init__(self) -> None:
-        self.count = 0
-
-    @contextmanager
-    def catch_errors(self, subject: object) -> Iterator[None]:
-        """Print an error in the block as one line that names ``subject``."""
-        try:
-            yield
-        except KinemeError as error:
-            self.count += 1
-            print_error(format_line(error, subject=subject))
-
-    def exit(self) -> None:
-        """Exit with code 1 if anything failed."""
-        if self.count:
-            raise typer.Exit(1)
-
-
-def shorten_warnings() -> None:
-    """Show every KinemeWarning, and print any warning as one line without its source."""
-    warnings.simplefilter("always", KinemeWarning)
-    warnings.showwarning = _show_warning
-
-
 @contextmanager
 def show_progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """Yield a function that shows the current stage on a terminal, after a second."""
     status = Console(stderr=True).status(str(what))
     if quiet or not status.console.is_terminal:
-        yield _ignore_stage
+        yield lambda _: None
         return
     timer = threading.Timer(PROGRESS_DELAY_S, status.start)
     timer.daemon = True
@@ -113,8 +82,24 @@ def show_progress(what: object, *, quiet: bool) -> Iterator[Callable[[str], None
         status.stop()
 
 
-def _ignore_stage(_: str) -> None:
-    """Ignore the stage."""
+def shorten_warnings() -> None:
+    """Show every KinemeWarning, and print any warning as one line without its source."""
+    warnings.simplefilter("always", KinemeWarning)
+    warnings.showwarning = _show_warning
+
+
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
+    _print_message("warning", format_line(message), typer.colors.YELLOW)
+
+
+@contextmanager
+def exit_on_error(subject: object = "") -> Iterator[None]:
+    """Print an error in the block as one line that names ``subject``, and exit with code 1."""
+    try:
+        yield
+    except KinemeError as error:
+        print_error(format_line(error, subject=subject))
+        raise typer.Exit(1) from error
 
 
 def print_error(text: str) -> None:
@@ -127,17 +112,12 @@ def print_skipped(text: str) -> None:
     _print_message("skipped", text, typer.colors.YELLOW)
 
 
+def _print_message(what: str, text: str, color: str) -> None:
+    typer.secho(f"{what}: ", fg=color, bold=True, err=True, nl=False)
+    typer.echo(escape_controls(text), err=True)
+
+
 def format_line(message: object, *, subject: object = "") -> str:
     """Return a message on one line, with its subject if the message does not contain it."""
     text = " ".join(str(message).split())
     return text if str(subject) in text else f"{subject}: {text}"
-
-
-def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    _print_message("warning", format_line(message), typer.colors.YELLOW)
-
-
-def _print_message(what: str, text: str, color: str) -> None:
-
-    typer.secho(f"{what}: ", fg=color, bold=True, err=True, nl=False)
-    typer.echo(escape_controls(text), err=True)

@@ -91,7 +91,7 @@ def write_report(
     others = [segmentation.at_detail(level.detail) for level in message.levels]
     with atomic_write(path) as draft:
         page = fill_template(
-            _read_template(),
+            (files("kineme") / "web" / "static" / "report.html").read_text(encoding="utf-8"),
             message,
             data.binary,
             tiles,
@@ -177,7 +177,3 @@ def _encode_json(value: object) -> str:
 
 def _encode_base64(data: bytes) -> str:
     return b64encode(data).decode("ascii")
-
-
-def _read_template() -> str:
-    return (files("kineme") / "web" / "static" / "report.html").read_text(encoding="utf-8")

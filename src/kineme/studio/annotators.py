@@ -60,9 +60,8 @@ def find_annotators(recordings: OpenRecordings) -> dict[str, Annotator]:
         annotators[make_file_id(label_file)] = Annotator(name, sources)
     beside: dict[str, dict[Path, LabelSource]] = {}
     for label_file in files:
-        if make_file_id(label_file) in annotators:
-            continue
-        if parsed := _parse_label_name(label_file, paths):
+        parsed = _parse_label_name(label_file, paths)
+        if parsed and make_file_id(label_file) not in annotators:
             person, recording_path = parsed
             beside.setdefault(person, {})[recording_path] = LabelSource(label_file)
     annotators |= {f"beside {name}": Annotator(name, sources) for name, sources in beside.items()}
@@ -87,7 +86,6 @@ def list_annotators(recordings: OpenRecordings) -> list[AnnotatorChoice]:
 def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agreement:
     """Return how well people agree, over all recordings that at least two of them labelled."""
     from kineme.evaluation.annotators import annotator_agreement, gather_labels
-    from kineme.evaluation.score import to_finite
 
     people = _select_annotators(recordings, chosen)
     listed = _index_by_file(recordings)
@@ -105,12 +103,12 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
     return Agreement(
         annotators=list(result.annotators),
         by_names=result.by == "names",
-        fleiss_kappa=to_finite(result.fleiss_kappa),
+        fleiss_kappa=result.fleiss_kappa,
         pairs=[
             AgreementPair(
                 annotators=(pair.first, pair.second),
-                cohen_kappa=to_finite(pair.cohen_kappa),
-                border_f1=to_finite(pair.border_f1),
+                cohen_kappa=pair.cohen_kappa,
+                border_f1=pair.border_f1,
                 recordings=pair.recordings,
             )
             for pair in result.pairs
@@ -120,7 +118,7 @@ def measure_agreement(recordings: OpenRecordings, chosen: Sequence[str]) -> Agre
                 id=ids[one.recording],
                 name=one.recording,
                 annotators=list(one.annotators),
-                fleiss_kappa=to_finite(one.fleiss_kappa),
+                fleiss_kappa=one.fleiss_kappa,
                 differences=[Difference(**each._asdict()) for each in one.differences],
             )
             for one in result.recordings

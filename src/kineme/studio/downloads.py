@@ -1,7 +1,8 @@
-"""Downloads of segments, clips and reports; each is written to a temporary folder.
+"""Downloads of segments, clips and reports, and the repetitions of a recording played as loops.
 
-The name holds the recording and the content, so that downloads do not overwrite each other:
-``walk.segments.csv``, ``walk.activities.boris.csv``, ``walk.loops.zip``.
+Each download is written to a temporary folder. Its name holds the recording and the content, so
+that downloads do not overwrite each other: ``walk.segments.csv``, ``walk.activities.boris.csv``,
+``walk.loops.zip``.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import csv
 import tempfile
 import zipfile
+from base64 import b64encode
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -17,6 +19,7 @@ from pathlib import Path
 
 from kineme._util.checks import is_text
 from kineme._util.files import find_video
+from kineme.clips.shaping import list_ranked_loops, make_preview_loop
 from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.formats.delimited import as_text
@@ -29,6 +32,8 @@ from kineme.studio.http.bodies import make_safe_name
 from kineme.studio.loading import drop_other_people
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.storage.sidecars import read_video_offset
+from kineme.web.display import display_motion
+from kineme.web.messages import LoopRow, Loops, PlayedLoop
 
 LEVEL_NAMES: Mapping[Level | None, str] = {
     None: "segments",
@@ -47,17 +52,19 @@ def export_download(opened: OpenRecording, kind: str, level: Level | None) -> tu
     loaded, table, stem = opened.loaded, opened.table, _choose_stem(opened)
     if kind == CLIPS:
         motion, clip_level = loaded.motion, level or "activity"
-        file = _write_to_bytes(stem, lambda to: split(motion, table, to / stem, level=clip_level))
-        return _name_download(stem, _describe_content(kind, clip_level), file)
+        what = _describe_content(kind, clip_level)
+        return _write_download(
+            stem, what, lambda to: split(motion, table, to / stem, level=clip_level)
+        )
     if kind == REPORT:
-        name = opened.listed.name
-        own_recording = drop_other_people(loaded.recording)
         write_page = partial(
-            write_report, own_recording, table, name=name, effectors=loaded.effectors
+            write_report,
+            drop_other_people(loaded.recording),
+            table,
+            name=opened.listed.name,
+            effectors=loaded.effectors,
         )
-        return _name_download(
-            stem, kind, _write_to_bytes(stem, lambda to: write_page(to / f"{stem}.html"))
-        )
+        return _write_download(stem, kind, lambda to: write_page(to / f"{stem}.html"))
     return make_table_file(_add_video(opened), stem, kind, level)
 
 
@@ -106,12 +113,10 @@ def make_table_file(
         folder.mkdir(exist_ok=True)
         write_segments(segmentation, folder / file, format=name, level=written_level)
 
+    default_level: Level | None = "activity" if label_format.holds == "level" else None
+    what = _describe_content(name, written_level or default_level)
     # A format of one file may write its provenance to a second one, which is left out.
-    content = _write_to_bytes(stem, write, None if label_format.several else file)
-    shown_level = (
-        "activity" if label_format.holds == "level" and written_level is None else written_level
-    )
-    return _name_download(stem, _describe_content(name, shown_level), content)
+    return _write_download(stem, what, write, None if label_format.several else file)
 
 
 def make_clip_archive(
@@ -122,8 +127,8 @@ def make_clip_archive(
     if not rows or not all(0 <= row < len(table) for row in rows):
         raise ParameterError("choose the segments to export: some of these are not in the table")
     clips = [(opened.loaded.recording, [table.table[row] for row in rows])]
-    archive = _write_to_bytes(stem, lambda to: write_clips(clips, to / stem, loops=loops))
-    return _name_download(stem, "loops" if loops else "clips", archive)
+    what = "loops" if loops else "clips"
+    return _write_download(stem, what, lambda to: write_clips(clips, to / stem, loops=loops))
 
 
 def make_archive(files: Iterable[tuple[str, bytes]], stem: str) -> tuple[str, bytes]:
@@ -164,24 +169,50 @@ def _describe_content(kind: str, level: Level | None) -> str:
     return LEVEL_NAMES[level] if is_clear else f"{LEVEL_NAMES[level]}.{kind}"
 
 
-def _name_download(stem: str, what: str, file: tuple[str, bytes]) -> tuple[str, bytes]:
-    """Return the file with the name of a download."""
-    name, content = file
-    return f"{stem}.{what}{Path(name).suffix}", content
-
-
-def _write_to_bytes(
-    stem: str, write: Callable[[Path], object], name: str | None = None
+def _write_download(
+    stem: str, what: str, write: Callable[[Path], object], name: str | None = None
 ) -> tuple[str, bytes]:
-    """Write to a temporary folder; return name and bytes of the file of that name, or of all files.
+    """Write to a temporary folder; return name and bytes of the download.
 
-    Several files are packed into a ZIP.
+    It is the file of that ``name``, or all files; several are packed into a ZIP.
     """
     with tempfile.TemporaryDirectory(prefix="kineme-") as folder:
         write(Path(folder))
         all_files = [path for path in sorted(Path(folder).rglob("*")) if path.is_file()]
         paths = [path for path in all_files if name in (None, path.name)]
         if len(paths) == 1:
-            return paths[0].name, paths[0].read_bytes()
+            return f"{stem}.{what}{paths[0].suffix}", paths[0].read_bytes()
         files = ((path.relative_to(folder).as_posix(), path.read_bytes()) for path in paths)
-        return make_archive(files, stem)
+        return make_archive(files, f"{stem}.{what}")
+
+
+def rank_loops(opened: OpenRecording) -> Loops:
+    """Return the quality of each repetition as a loop."""
+    table, motion = opened.table, opened.loaded.motion
+    numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
+    ranked = list_ranked_loops(motion, [table.table[number] for number in numbers])
+    return Loops(
+        loops=[
+            LoopRow(
+                number=numbers[loop.index],
+                rank=loop.rank,
+                cost=loop.quality.cost,
+                pose_m=loop.quality.pose_m,
+                slide_m_s=loop.quality.slide_m_s,  # nan becomes null in JSON
+                turn_deg=loop.quality.turn_deg,
+                speed_m_s=loop.speed_m_s,
+            )
+            for loop in ranked
+        ]
+    )
+
+
+def make_played_loop(opened: OpenRecording, number: int) -> PlayedLoop:
+    """Return the loop that a row of the table would be exported as."""
+    table, motion = opened.table, opened.loaded.motion
+    if not 0 <= number < len(table):
+        raise ParameterError("choose the segment to play: this one is not in the table")
+    closed, carry = make_preview_loop(motion, table.table[number])
+    head, poses = display_motion(closed, effectors=opened.loaded.effectors, rate=closed.fps)
+    numbers = b64encode(poses).decode()
+    return PlayedLoop(motion=head, numbers=numbers, turn=carry.turn, x=carry.x, z=carry.z)

@@ -16,6 +16,7 @@ from kineme.segments.editing.annotating import mark_edited
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.loading import LoadedRecording
+from kineme.studio.storage.sidecars import ListedRecording
 from kineme.web import requests as sent
 from kineme.web.requests import Edit
 
@@ -90,17 +91,18 @@ def apply_edit(
         return _label_table(table, edit, loaded, files.knowledge_base(edit.knowledge_base))
     if isinstance(edit, sent.TakeLabels):
         path = files.annotation(edit.annotation)
-        labels = read_labels(
-            loaded.listed.person_path,
-            path,
-            n_frames=table.n_frames,
-            fps=table.fps,
-            clock=table.clock,
-        )
+        labels = read_table(loaded.listed, path, table)
         return Outcome(labels, [f"the table was taken from {path.name}"], replaced=True)
     if isinstance(edit, sent.Restore):
         return Outcome(version(edit.version), replaced=True)
     raise ParameterError(f"there is no edit {type(edit).__name__}")
+
+
+def read_table(listed: ListedRecording, path: Path, like: Segmentation) -> Segmentation:
+    """Return the labels of a recording in a file, as a table of the same length as ``like``."""
+    return read_labels(
+        listed.person_path, path, n_frames=like.n_frames, fps=like.fps, clock=like.clock
+    )
 
 
 def _correct_table(table: Segmentation, edit: Struct) -> Segmentation:
@@ -121,11 +123,8 @@ def _describe_cluster_change(before: Segmentation, after: Segmentation, edit: St
     name = editing.cluster_names(after).get(cluster, "")
     members = after.table.select(after.table.cluster == cluster)
     n_others = int((members.label != name).sum())
-    name_note = (
-        f"{len(members) - n_others} segments are called “{name}”"
-        if name
-        else (f"{len(members) - n_others} segments have no name")
-    )
+    n_named = len(members) - n_others
+    name_note = f"{n_named} segments " + (f"are called “{name}”" if name else "have no name")
     others_note = f"{n_others} keep their own name" if n_others else ""
     n_moved = int((before.table.cluster == edit.cluster).sum())
     merged = isinstance(edit, sent.MergeClusters)
@@ -136,10 +135,11 @@ def _describe_cluster_change(before: Segmentation, after: Segmentation, edit: St
 def _label_table(
     table: Segmentation, edit: sent.Transfer, loaded: LoadedRecording, path: Path
 ) -> Outcome:
-    from kineme.transfer import THRESHOLD, KnowledgeBase
+    from kineme.transfer import THRESHOLD, KnowledgeBase, transfer_features, transfer_labels
 
     threshold = THRESHOLD if edit.threshold is UNSET else edit.threshold
     spread = False if edit.spread is UNSET else edit.spread
     base = KnowledgeBase.load(path)
-    labelled = loaded.label_table(table, base, threshold=threshold, spread=spread)
+    features = transfer_features(loaded.motion, effectors=loaded.effectors)
+    labelled = transfer_labels(table, features, base, threshold=threshold, spread=spread)
     return Outcome(labelled, [labelled.provenance["notes"][-1]], replaced=True)

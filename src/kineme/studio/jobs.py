@@ -1,13 +1,12 @@
-"""A running segmentation: its stage, its progress, and its cancellation.
+"""Work of the studio in threads: segmentations, and the estimation of poses of videos.
 
 Methods announce their stages (`kineme.methods.base`). Progress is estimated from the share of
 time that each stage took on recordings of an hour, and from the speed so far. It is unknown for
 other methods. A cancelled segmentation stops at its next stage, or when its code calls
 `kineme._util.parallel.check_cancelled`, several times a second.
 
-@@poses: Estimate the poses of videos in a thread, one video after another.
-
-A cancelled estimation, or one cut short by the end of the server, resumes where it stopped.
+Poses are estimated for one video after another. An estimation that was cancelled, or cut short by
+the end of the server, resumes where it stopped.
 """
 
 from __future__ import annotations
@@ -38,12 +37,14 @@ STAGE_SHARES: Mapping[str, Mapping[str, float]] = {
         "repetitions": 0.09,
         "events": 0.01,
         "confidence": 0.27,
-    },
+    }
 }
 """Share of the total time by preset and stage, in order: medians over an hour of motion."""
 IDLE = Progress(stage="", share=None)
 READING = Progress(stage="reading the file", share=None)
 CANCELLING = Progress(stage="cancelled: stopping", share=None)
+NO_POSES = PosesProgress(recording="", name="", share=None, pace=0.0, done=0, all=0, failed=[])
+"""Progress when no video is in the queue."""
 
 
 class CancelledError(KinemeError):
@@ -115,10 +116,6 @@ class Runs:
             run.cancel()
 
 
-NO_POSES = PosesProgress(recording="", name="", share=None, pace=0.0, done=0, all=0, failed=[])
-"""Progress when no video is in the queue."""
-
-
 class PosesNeededError(ReadError):
     """Raised on reading a video whose poses have not been estimated."""
 
@@ -152,51 +149,50 @@ class PoseQueue:
         self._lock = threading.Lock()
         self._waiting: list[ListedRecording] = []
         self._run: Run | None = None
-        self._progress = NO_POSES
+        self.progress = NO_POSES
 
     def start(self, videos: Iterable[ListedRecording]) -> PosesProgress:
         """Add videos that are not in the queue yet, and start the thread if it is idle."""
         with self._lock:
-            progress = self._progress
+            progress = self.progress
             known = {progress.recording, *(video.id for video in self._waiting)}
             new = [video for video in videos if video.id not in known]
             self._waiting += new
             if self._run is None and new:
                 self._run = Run("")
-                self._progress = structs.replace(NO_POSES, recording=new[0].id, name=new[0].name)
+                self.progress = structs.replace(NO_POSES, recording=new[0].id, name=new[0].name)
                 threading.Thread(
                     target=self._run_queue, args=[self._run], name="poses", daemon=True
                 ).start()
-            self._update(all=self._progress.all + len(new))
-            return self._progress
+            self._update(all=self.progress.all + len(new))
+            return self.progress
 
-    def progress(self) -> PosesProgress:
-        """Return the progress."""
-        return self._progress
-
-    def cancel(self) -> PosesProgress:
+    def cancel(self) -> None:
         """Stop; the poses estimated so far are kept."""
         with self._lock:
             if self._run is not None:
                 self._run.cancel()
             self._waiting.clear()
-        return self._progress
 
     def _run_queue(self, run: Run) -> None:
         while (listed := self._take_next()) is not None:
             try:
-                self._estimate(listed, run)
+                with cancellable(run.check_cancelled):
+                    keep_poses(
+                        load_head(listed.path),
+                        report=lambda share, pace: self._update(share=share, pace=pace),
+                    )
             except CancelledError:
                 break
             except KinemeError as error:
-                self._update(failed=[*self._progress.failed, str(error)])
+                self._update(failed=[*self.progress.failed, str(error)])
             except Exception as error:  # noqa: BLE001 (estimators raise anything; the next video may work)
                 reason = f"{listed.name}: the estimator failed: {error}"
-                self._update(failed=[*self._progress.failed, reason])
-            self._update(done=self._progress.done + 1)
+                self._update(failed=[*self.progress.failed, reason])
+            self._update(done=self.progress.done + 1)
             self._done(listed.id)
         with self._lock:
-            self._run, self._progress = None, structs.replace(self._progress, recording="")
+            self._run, self.progress = None, structs.replace(self.progress, recording="")
 
     def _take_next(self) -> ListedRecording | None:
         with self._lock:
@@ -206,12 +202,5 @@ class PoseQueue:
             self._update(recording=listed.id, name=listed.name, share=None, pace=0.0)
             return listed
 
-    def _estimate(self, listed: ListedRecording, run: Run) -> None:
-        with cancellable(run.check_cancelled):
-            keep_poses(
-                load_head(listed.path),
-                report=lambda share, pace: self._update(share=share, pace=pace),
-            )
-
     def _update(self, **fields: object) -> None:
-        self._progress = structs.replace(self._progress, **fields)
+        self.progress = structs.replace(self.progress, **fields)

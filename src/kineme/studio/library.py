@@ -2,27 +2,32 @@
 
 Its recordings are shown as a folder of the studio. A new search cancels the previous one. The name
 of a hit is that of the segment it shows, from the table beside the recording. Naming hits changes
-these tables, not the library.
+these tables, not the library. `LibraryApi` has the routes, also of small figures of spans.
 """
 
 from __future__ import annotations
 
 import os
 import threading
+from base64 import b64encode
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from itertools import count
 from pathlib import Path
 from typing import Literal, TypeVar
 
+import numpy as np
 from msgspec import UNSET, structs
+from starlette.requests import Request
+from starlette.routing import Route
 from threadpoolctl import threadpool_limits
 
 from kineme._util.checks import format_count
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
+from kineme.features import Names
 from kineme.formats import ReadOptions
 from kineme.labels import read_segments
 from kineme.library import Example, Library
@@ -30,20 +35,23 @@ from kineme.library.edits import read_edits
 from kineme.library.finding import Named
 from kineme.library.storage.layout import EDITS, HEAD, is_remote
 from kineme.methods.segmenter import SegmentOptions
+from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 from kineme.studio.folder import Folder, count_progress
+from kineme.studio.http.bodies import make_route
 from kineme.studio.library_tables import (
     LibraryHistory,
     LibraryTables,
     apply_library_clusters,
     match_library_clusters,
 )
+from kineme.studio.loading import Stamp, read_stamp
 from kineme.studio.open_recording import ConflictError
 from kineme.studio.open_recordings import OpenRecordings, SupersededError, UnknownError
-from kineme.studio.recording_cache import read_stamp
 from kineme.studio.storage.sidecars import ListedRecording, make_file_id
 from kineme.studio.storage.tables import find_table_path
+from kineme.web.display import display_motion
 from kineme.web.library_messages import (
     CallCluster,
     CallEverywhere,
@@ -51,6 +59,7 @@ from kineme.web.library_messages import (
     JoinClusters,
     LibraryCluster,
     LibraryEdit,
+    LibraryFigure,
     LibraryHit,
     LibraryHits,
     LibraryRecording,
@@ -60,6 +69,7 @@ from kineme.web.library_messages import (
     SearchRequest,
     Span,
     TablesChanged,
+    TablesRequest,
     UndoEdit,
 )
 from kineme.web.requests import EditRequest, NameSegment
@@ -75,6 +85,65 @@ TASKS_PER_CHECK = 8
 """Tasks of a search between two checks for a newer search."""
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
+MAX_RECORDINGS = 4
+"""Recordings cached in memory."""
+MAX_FIGURE_S = 30.0
+"""Longest span that a figure shows."""
+MAX_CHANNELS, MAX_POINTS = 6, 120
+"""Points of each curve; ``MAX_CHANNELS`` is the number of curves."""
+
+
+class LibraryApi:
+    """Routes under ``/api/library``."""
+
+    def __init__(self, library: StudioLibrary, recordings: OpenRecordings):
+        self._library, self._recordings = library, recordings
+        self._reading = threading.Lock()
+
+    def routes(self) -> list[Route]:
+        library, recordings = self._library, self._recordings
+        return [
+            make_route("/api/library", lambda _: library.state()),
+            make_route("/api/library/edits", self.edit, LibraryEdit),
+            make_route(
+                "/api/library/tables",
+                lambda _, sent: library.update_tables(recordings, names=sent.names),
+                TablesRequest,
+            ),
+            make_route(
+                "/api/library/everywhere",
+                lambda _, sent: library.rename_everywhere(sent, recordings),
+                CallEverywhere,
+            ),
+            make_route("/api/library/search", lambda _, sent: library.search(sent), SearchRequest),
+            make_route(
+                "/api/library/names", lambda _, sent: library.name_hits(sent, recordings), CallHits
+            ),
+            make_route("/api/library/figure", self.figure),
+        ]
+
+    def edit(self, _: Request, sent: LibraryEdit) -> LibraryState:
+        state = self._library.edit(sent)
+        self._recordings.refresh_tables()
+        return state
+
+    def figure(self, request: Request) -> LibraryFigure:
+        """Return the poses or curves of a span.
+
+        ParameterError for an unknown recording or an empty span, ReadError if the file is missing.
+        """
+        query = request.query_params
+        try:
+            start_s, stop_s = float(query["start"]), float(query["stop"])
+        except (KeyError, ValueError):
+            raise ParameterError("a figure needs start and stop in seconds") from None
+        library, name = self._library.library(), query.get("recording", "")
+        if not 0 <= start_s < stop_s:
+            raise ParameterError("the stop of a figure must be after its start")
+        with self._reading:  # a page requests many figures of a recording at once
+            recording = _read_recording(library, name, read_stamp(library.path_of(name)))
+        span = recording.seconds(start_s, min(stop_s, start_s + MAX_FIGURE_S))
+        return _make_figure(span, library.segment_options.effectors)
 
 
 class StudioLibrary:
@@ -126,15 +195,19 @@ class StudioLibrary:
         """Return everything that the page shows except the figures."""
         library = self.library()
         columns = library.recordings
-        rows = zip(
-            *(columns[name] for name in ("recording", "path", "vocabulary", "duration_s")),
-            strict=True,
-        )
+        names = ("recording", "path", "vocabulary", "duration_s")
+        rows = zip(*(columns[name] for name in names), strict=True)
         return LibraryState(
             folder=str(self._folder.absolute()),
             hours=library.hours,
             recordings=[
-                _describe_recording(name, Path(path), vocabulary, duration_s)
+                LibraryRecording(
+                    recording=name,
+                    id=make_file_id(Path(path)) if Path(path).is_file() else "",
+                    status=_find_status(Path(path)),
+                    vocabulary=vocabulary,
+                    duration_s=duration_s,
+                )
                 for name, path, vocabulary, duration_s in rows
             ],
             clusters=_list_clusters(library),
@@ -207,14 +280,39 @@ class StudioLibrary:
         return LibraryHits(hits=[self._add_name(hit) for hit in result.hits])
 
     def name_hits(self, sent: CallHits, recordings: OpenRecordings) -> NamedHits:
-        """Name the segments that hits show, in the tables beside their recordings."""
-        hits = [(span, self._find_file(span.recording)) for span in sent.hits]
-        return name_hits(recordings, hits, sent.name.strip())
+        """Name the segments that hits show, in the tables beside their recordings.
+
+        An empty name removes the name. Hits that cannot be named are reported.
+        """
+        named, failures = 0, []
+        for span in sent.hits:
+            try:
+                self._name_hit(span, sent.name.strip(), recordings)
+                named += 1
+            except (KinemeError, UnknownError) as error:
+                where = f"{span.recording}, {span.start_s:.2f} to {span.stop_s:.2f} s"
+                failures.append(f"{where}: {error}")
+        return NamedHits(named=named, left=failures)
+
+    def _name_hit(self, span: Span, name: str, recordings: OpenRecordings) -> None:
+        path = self._find_file(span.recording)
+        if path is None:
+            raise UnknownError("its file is missing")
+        opened = recordings.get(make_file_id(path))
+        row = find_segment(opened.table, span.start_s, span.stop_s)
+        if row is None:
+            raise UnknownError("there is no segment")
+        if row.label != name:
+            edit = NameSegment(level=row.level, frame=row.start_frame, label=name)
+            recordings.edit(opened.id, EditRequest(revision=opened.revision, edit=edit))
 
     def _add_name(self, hit: LibraryHit) -> LibraryHit:
+        """Return a hit with the name of its segment in the saved table, if there is one."""
         path = self._find_file(hit.recording)
-        name = find_segment_name(path, hit.start_s, hit.stop_s) if path else ""
-        return structs.replace(hit, name=name) if name else hit
+        table_path = find_table_path(ListedRecording(path)) if path else None
+        table = _read_table(table_path, *read_stamp(table_path)) if table_path else None
+        row = find_segment(table, hit.start_s, hit.stop_s) if table else None
+        return structs.replace(hit, name=row.label) if row else hit
 
     def _find_file(self, recording: str) -> Path | None:
         """Return the file of a recording of the library, if it exists."""
@@ -225,8 +323,9 @@ class StudioLibrary:
         return None if is_remote(path) or not path.is_file() else path
 
     def _read_stamp(self) -> tuple[int, ...]:
-        """Return a value that changes when the library is written."""
-        return tuple(_read_modified(self._folder / name) for name in (HEAD, EDITS))
+        """Return times that change when the library is written."""
+        paths = (self._folder / name for name in (HEAD, EDITS))
+        return tuple(path.stat().st_mtime_ns if path.exists() else 0 for path in paths)
 
 
 class LibraryFolder(Folder):
@@ -320,43 +419,6 @@ def find_segment(table: Segmentation, start_s: float, stop_s: float) -> Segment 
     return best if best is not None and measure_overlap(best) >= MIN_OVERLAP else None
 
 
-def find_segment_name(recording: Path, start_s: float, stop_s: float) -> str:
-    """Return the name of the segment that a span shows, from the saved table; "" if none."""
-    path = find_table_path(ListedRecording(recording))
-    table = _read_table(path, *read_stamp(path)) if path else None
-    row = find_segment(table, start_s, stop_s) if table is not None else None
-    return row.label if row is not None else ""
-
-
-def name_hits(
-    recordings: OpenRecordings, hits: Iterable[tuple[Span, Path | None]], name: str
-) -> NamedHits:
-    """Name the segments that hits show; report hits that cannot be named.
-
-    ``hits`` are spans with the file of the recording, None if it is missing. An empty name removes
-    the name.
-    """
-    named, failures = 0, []
-    for span, path in hits:
-        where = f"{span.recording}, {span.start_s:.2f} to {span.stop_s:.2f} s"
-        if path is None:
-            failures.append(f"{where}: its file is missing")
-            continue
-        try:
-            opened = recordings.get(make_file_id(path))
-            row = find_segment(opened.table, span.start_s, span.stop_s)
-            if row is None:
-                failures.append(f"{where}: there is no segment")
-                continue
-            if row.label != name:
-                edit = NameSegment(level=row.level, frame=row.start_frame, label=name)
-                recordings.edit(opened.id, EditRequest(revision=opened.revision, edit=edit))
-            named += 1
-        except (KinemeError, UnknownError) as error:
-            failures.append(f"{where}: {error}")
-    return NamedHits(named=named, left=failures)
-
-
 def _make_edit(library: Library, edit: CallCluster | JoinClusters | PartCluster) -> str:
     """Apply an edit of the clusters and return a description of it."""
     if isinstance(edit, CallCluster):
@@ -377,27 +439,9 @@ def _find_common_folder(files: list[Path]) -> Path:
     return Path(folders[0])
 
 
-def _read_modified(path: Path) -> int:
-    try:
-        return path.stat().st_mtime_ns
-    except OSError:
-        return 0
-
-
-def _describe_recording(
-    name: str, path: Path, vocabulary: str, duration_s: float
-) -> LibraryRecording:
-    exists = path.is_file()
-    return LibraryRecording(
-        recording=name,
-        id=make_file_id(path) if exists else "",
-        status=_find_status(path) if exists else "gone",
-        vocabulary=vocabulary,
-        duration_s=duration_s,
-    )
-
-
-def _find_status(path: Path) -> Literal["as found", "corrected", "checked"]:
+def _find_status(path: Path) -> Literal["gone", "as found", "corrected", "checked"]:
+    if not path.is_file():
+        return "gone"
     counts = count_progress(ListedRecording(path))
     if counts is None:
         return "as found"
@@ -435,3 +479,29 @@ def _make_examples(spans: Sequence[Span], names: set[str]) -> list[Example]:
         if span.recording not in names:
             raise ParameterError(f"the library has no recording {span.recording!r:.80}")
     return [Example(Named(span.recording), span.start_s, span.stop_s) for span in spans]
+
+
+@lru_cache(MAX_RECORDINGS)
+def _read_recording(library: Library, name: str, _: Stamp) -> Motion | Signals:
+    """Return a recording of a library; the stamp of its file is part of the cache key."""
+    return library.read(name)
+
+
+def _make_figure(span: Motion | Signals, effectors: Names | None) -> LibraryFigure:
+    if isinstance(span, Signals):
+        return LibraryFigure(motion=None, numbers="", curves=_sample_curves(span))
+    try:
+        head, numbers = display_motion(span, effectors=effectors)
+    except KinemeError:  # this skeleton lacks the named effectors
+        head, numbers = display_motion(span)
+    return LibraryFigure(motion=head, numbers=b64encode(numbers).decode(), curves=[])
+
+
+def _sample_curves(signals: Signals) -> list[list[float]]:
+    """Return the first channels, thinned and scaled to 0 to 1; missing values become 0.5."""
+    step = max(1, signals.n_frames // MAX_POINTS)
+    samples = signals.values[::step, :MAX_CHANNELS].astype(float)
+    low, high = np.nanmin(samples, axis=0), np.nanmax(samples, axis=0)
+    scaled = (samples - low) / np.where(high > low, high - low, 1)
+    curves: list[list[float]] = np.nan_to_num(scaled, nan=0.5).T.round(3).tolist()
+    return curves

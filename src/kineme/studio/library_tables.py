@@ -1,9 +1,7 @@
-"""Tables of a library's recordings, and saved tables updated from the library.
+"""Tables of a library's recordings, saved tables updated from the library, and its undo history.
 
 A recording without a saved table is shown with the library's table. A saved table belongs to its
 editor: it takes clusters and names of the library on request only, and keeps its segments.
-
-@@library_history: Undo history of a library's clusters.
 
 Names, merges and splits of a library are one small file. ``.kineme/library.json`` in its folder
 keeps what that file held before each edit in the studio. If another program has edited the library
@@ -20,6 +18,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
@@ -49,6 +48,9 @@ MIN_SHARE = 0.5
 """Share of a cluster's frames that must lie in one library cluster to be matched with it."""
 STORED_COLUMNS = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Columns that are not derived from others."""
+MAX_STEPS = 200
+"""Undo steps kept in the file."""
+HISTORY = "library.json"
 
 
 class LibraryTables:
@@ -62,19 +64,12 @@ class LibraryTables:
         self._rows = {names[a]: (a, b) for a, b in pairwise(edges) if a < b}
         self._columns = {name: as_array(table.column(name)) for name in STORED_COLUMNS}
         self._library = library
-        recordings = library.recordings
-        facts = zip(
-            recordings["recording"],
-            recordings["n_frames"],
-            recordings["fps"],
-            recordings["format"],
-            strict=True,
-        )
-        paths = ((library.path_of(name), name, *rest) for name, *rest in facts)
+        columns = ("recording", "n_frames", "fps", "format")
+        facts = zip(*(library.recordings[column] for column in columns), strict=True)
         self._facts = {
-            path.absolute(): (name, n_frames, fps, kind)
-            for path, name, n_frames, fps, kind in paths
-            if not is_remote(path)
+            path.absolute(): (name, *rest)
+            for name, *rest in facts
+            if not is_remote(path := library.path_of(name))
         }
 
     def find_table(self, path: Path) -> Segmentation | None:
@@ -103,32 +98,6 @@ class LibraryTables:
             },
             annotation=Annotation(cluster_names=names),
         )
-
-
-def match_library_clusters(table: Segmentation, library_table: Segmentation) -> dict[int, int]:
-    """Return the library cluster that matches each cluster of a table, if one does.
-
-    It holds at least `MIN_SHARE` of the cluster's frames. Both tables have equally many frames.
-    """
-    votes: dict[int, Counter[int]] = {}
-    for rows, library_rows in (
-        (table.activities, library_table.activities),
-        (table.primitives, library_table.primitives),
-    ):
-        if not len(rows) or not len(library_rows):
-            continue
-        pairs = np.stack([_spread_clusters(rows), _spread_clusters(library_rows)])
-        # Pairs (cluster, library cluster), and the number of frames of each.
-        combinations, counts = np.unique(pairs, axis=1, return_counts=True)
-        for (cluster, match), count in zip(combinations.T.tolist(), counts.tolist(), strict=True):
-            if cluster >= 0:
-                votes.setdefault(cluster, Counter())[match] += count
-    winners = {cluster: counter.most_common(1)[0] for cluster, counter in votes.items()}
-    return {
-        cluster: match
-        for cluster, (match, count) in winners.items()
-        if match >= 0 and count >= MIN_SHARE * votes[cluster].total()
-    }
 
 
 def apply_library_clusters(
@@ -162,6 +131,32 @@ def apply_library_clusters(
     return (replace(after, hierarchy=table.hierarchy) if is_unchanged else after), n_kept
 
 
+def match_library_clusters(table: Segmentation, library_table: Segmentation) -> dict[int, int]:
+    """Return the library cluster that matches each cluster of a table, if one does.
+
+    It holds at least `MIN_SHARE` of the cluster's frames. Both tables have equally many frames.
+    """
+    votes: dict[int, Counter[int]] = {}
+    for rows, library_rows in (
+        (table.activities, library_table.activities),
+        (table.primitives, library_table.primitives),
+    ):
+        if not len(rows) or not len(library_rows):
+            continue
+        pairs = np.stack([_spread_clusters(rows), _spread_clusters(library_rows)])
+        # Pairs (cluster, library cluster), and the number of frames of each.
+        combinations, counts = np.unique(pairs, axis=1, return_counts=True)
+        for (cluster, match), count in zip(combinations.T.tolist(), counts.tolist(), strict=True):
+            if cluster >= 0:
+                votes.setdefault(cluster, Counter())[match] += count
+    winners = {cluster: counter.most_common(1)[0] for cluster, counter in votes.items()}
+    return {
+        cluster: match
+        for cluster, (match, count) in winners.items()
+        if match >= 0 and count >= MIN_SHARE * votes[cluster].total()
+    }
+
+
 def _assign_numbers(
     table: Segmentation, matches: dict[int, int], edits: Edits, present: set[int]
 ) -> dict[int, int]:
@@ -188,11 +183,6 @@ def _spread_clusters(rows: SegmentTable) -> NDArray[np.int64]:
     return np.repeat(rows.cluster, rows.stop_frame - rows.start_frame)
 
 
-MAX_STEPS = 200
-"""Undo steps kept in the file."""
-NAME = "library.json"
-
-
 class Step(Struct, frozen=True):
     """An edit: its description, the content before it, and the digest of the content after it."""
 
@@ -206,7 +196,7 @@ class LibraryHistory:
 
     def __init__(self, folder: Path):
         self._folder = folder
-        self._path = folder / FOLDER / NAME
+        self._path = folder / FOLDER / HISTORY
 
     def present(self) -> dict[str, Any]:
         """Return the content of the edits file."""
@@ -241,10 +231,8 @@ class LibraryHistory:
         return read_sidecar(self._path, list[Step], [])[0]
 
     def _write(self, steps: list[Step]) -> None:
-        content = [
-            {"what": step.what, "before": step.before, "after": step.after} for step in steps
-        ]
-        write_file(self._path, json.dumps(content[-MAX_STEPS:], indent=1).encode())
+        content = msgspec.json.encode(steps[-MAX_STEPS:])
+        write_file(self._path, msgspec.json.format(content, indent=1))
 
 
 def _compute_digest(content: dict[str, Any]) -> str:

@@ -1,33 +1,33 @@
-"""A recording in the studio, with everything computed from it.
+"""Read recordings, sketch large ones while they are read, and compute what pages show of them.
 
-Page data stays in memory. The recording itself may be dropped from the cache and is then read
-again.
-
-@@sketches: Show a large recording while it is read: a sample of its poses, without segments.
+The most recently used recordings stay in memory, and so does what pages draw of the open ones. A
+large recording is shown while it is read: a sample of its poses, without segments.
 """
 
 from __future__ import annotations
 
 import threading
+from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec import Struct
 
 from kineme._util.json import options_to_json
 from kineme._util.parallel import announce_compilation, cancellable
 from kineme.errors import KinemeError, MotionError, ParameterError, ReadError
-from kineme.formats import sketch
+from kineme.formats import ReadOptions, list_people, read_analog, read_quietly, sketch
+from kineme.labels.collections import Extent
 from kineme.methods.presets import DEFAULT
+from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Skeleton
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
 from kineme.studio.choices import check_parameters
-from kineme.studio.jobs import Run, Runs
-from kineme.studio.recording_cache import RecordingCache, read_stamp
+from kineme.studio.jobs import Run, Runs, require_poses
 from kineme.studio.storage.sidecars import (
     ListedRecording,
     make_video_message,
@@ -38,7 +38,6 @@ from kineme.web.messages import MatrixHead, Recording
 
 if TYPE_CHECKING:
     from kineme.recordings import Signals
-    from kineme.transfer import KnowledgeBase
     from kineme.web.curves import Curves
     from kineme.web.cycle_curves import CycleCurves
     from kineme.web.display import DrawnPicture
@@ -46,6 +45,85 @@ if TYPE_CHECKING:
 
 LONG_S = 300.0
 """Length from which a recording is shown before it is segmented, which takes seconds."""
+LARGE_FILE = 16_000_000
+"""Bytes from which a file takes more than a second to read."""
+MAX_POSES = 18_000
+"""Poses of a sketch: five per second for an hour."""
+SKETCH_REVISION = 0
+"""Revision of a sketch; tables have higher ones."""
+MAX_RECORDINGS = 3
+"""Recordings in memory; an hour can take almost a gigabyte."""
+Made = TypeVar("Made")
+Stamp = tuple[int, int]
+"""Modification time in nanoseconds, and size in bytes."""
+
+
+class RecordingCache:
+    """Cache of recordings; several can be read at once.
+
+    The options given here apply unless the user set others for a recording.
+    """
+
+    def __init__(
+        self, read_options: ReadOptions | None = None, segment_options: SegmentOptions | None = None
+    ) -> None:
+        self.read_options = read_options or ReadOptions()
+        self.segment_options = segment_options or SegmentOptions()
+        self._lock = threading.Lock()
+        self._reading: dict[tuple[Path, Stamp, str], threading.Lock] = {}
+        self._recent: OrderedDict[tuple[Path, Stamp, str], Motion | Signals] = OrderedDict()
+        self._extents: dict[tuple[Path, Stamp, str], Extent] = {}
+
+    def read(self, listed: ListedRecording, choice: ReadOptions | None = None) -> Motion | Signals:
+        """Return a recording, from memory or from its file; ReadError if it cannot be read.
+
+        ``choice`` replaces the saved options of the recording. PosesNeededError for a video whose
+        poses have not been estimated. Warnings are in the provenance of the result.
+        """
+        path, options = listed.path, resolve_read_options(listed, self.read_options, choice)
+        key = path, read_stamp(path), repr(options)
+        with self._lock:
+            reading = self._reading.setdefault(key, threading.Lock())
+        with reading:
+            with self._lock:
+                cached = self._recent.get(key)
+            if cached is None:
+                require_poses(path)
+            recording = read_quietly(path, options) if cached is None else cached
+            with self._lock:
+                self._recent[key] = recording
+                self._recent.move_to_end(key)
+                while len(self._recent) > MAX_RECORDINGS:
+                    self._recent.popitem(last=False)
+                self._reading.pop(key, None)
+        return recording
+
+    def extent(self, listed: ListedRecording) -> Extent:
+        """Return the length of a recording, which is read once for this."""
+        options = resolve_read_options(listed, self.read_options)
+        key = listed.path, read_stamp(listed.path), repr(options)
+        if key not in self._extents:
+            read = self.read(listed)
+            self._extents[key] = Extent(read.n_frames, read.fps, read.provenance.clock)
+        return self._extents[key]
+
+    def people(self, path: Path, choice: ReadOptions) -> tuple[str, ...]:
+        """Return the people in a file; empty if it does not have several."""
+        options = resolve_read_options(ListedRecording(path), self.read_options, choice)
+        return list_people(path, options)
+
+    def analog(self, listed: ListedRecording) -> Signals | None:
+        """Read the analog channels beside a motion, uncached; None if there are none."""
+        return read_analog(listed.path, resolve_read_options(listed, self.read_options))
+
+
+def read_stamp(path: Path) -> Stamp:
+    """Return modification time and size of a file; ReadError if it is missing."""
+    try:
+        status = path.stat()
+    except OSError as error:
+        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
+    return status.st_mtime_ns, status.st_size
 
 
 class LoadedRecording:
@@ -64,11 +142,7 @@ class LoadedRecording:
         self.is_motion = isinstance(recording, Motion)
         self.provenance = recording.provenance
         self._lock = threading.Lock()
-        self._page_data: PageData | None = None
-        self._picture: DrawnPicture | None = None
-        self._has_picture = self.is_motion  # unknown until it is looked for
-        self._curves: Curves | None = None
-        self._cycle_curves: CycleCurves | None = None
+        self._kept: dict[str, Any] = {}
         self._found: tuple[tuple[object, ...], Segmentation] | None = None
         self.runs = Runs()
 
@@ -103,45 +177,44 @@ class LoadedRecording:
         """Return everything that a page draws except the segments."""
         from kineme.web.page_data import make_page_data
 
-        with self._lock:
-            if self._page_data is None:
-                own_recording = drop_other_people(self.recording)
-                self._page_data = make_page_data(own_recording, effectors=self.effectors)
-            return self._page_data
+        return self._keep(
+            "page data",
+            lambda: make_page_data(drop_other_people(self.recording), effectors=self.effectors),
+        )
 
     def picture(self) -> DrawnPicture | None:
         """Return the keypoints drawn over the video; None if the poses are not from a video."""
         from kineme.web.display import draw_picture
 
-        with self._lock:
-            if self._has_picture and self._picture is None:
-                self._picture = draw_picture(self.path, self.provenance.person)
-                self._has_picture = self._picture is not None
-            return self._picture
-
-    def forget_pictures(self) -> None:
-        """Free the page data until a page requests it again."""
-        with self._lock:
-            self._page_data = self._curves = self._cycle_curves = self._found = None
-            self._picture = None
+        if not self.is_motion:
+            return None
+        return self._keep("picture", lambda: draw_picture(self.path, self.provenance.person))
 
     def curves(self) -> Curves:
         """Return the curves over time."""
         from kineme.web.curves import Curves
 
-        with self._lock:
-            if self._curves is None:
-                self._curves = Curves(self.recording, self._read_analog())
-            return self._curves
+        return self._keep("curves", lambda: Curves(self.recording, self._read_analog()))
 
     def cycle_curves(self) -> CycleCurves:
         """Return the curves of repetitions."""
         from kineme.web.cycle_curves import CycleCurves
 
+        return self._keep("cycles", lambda: CycleCurves(lambda: self.recording, self._read_analog))
+
+    def forget_pictures(self) -> None:
+        """Free the page data until a page requests it again."""
         with self._lock:
-            if self._cycle_curves is None:
-                self._cycle_curves = CycleCurves(lambda: self.recording, self._read_analog)
-            return self._cycle_curves
+            self._kept.clear()
+            self._found = None
+
+    def _keep(self, name: str, make: Callable[[], Made]) -> Made:
+        """Return what ``make`` made when it was first called for this name."""
+        with self._lock:
+            if name not in self._kept:
+                self._kept[name] = make()
+            made: Made = self._kept[name]
+            return made
 
     def _read_analog(self) -> Signals | None:
         """Return the analog channels beside a motion; None if there are none."""
@@ -198,25 +271,13 @@ class LoadedRecording:
         try:
             return self.segment(), []
         except MotionError as error:  # a single point
-            return self._make_single_segment("activity"), [f"not segmented: {error}"]
+            return self.make_single_segment("activity"), [f"not segmented: {error}"]
 
-    def make_unsegmented_table(self) -> Segmentation:
-        """Return a table of one transition, shown while the recording is segmented."""
-        return self._make_single_segment("transition")
-
-    def label_table(
-        self,
-        segmentation: Segmentation,
-        base: KnowledgeBase,
-        *,
-        threshold: float,
-        spread: bool,
-    ) -> Segmentation:
-        """Return the table with labels; see `kineme.transfer.transfer_labels`."""
-        from kineme.transfer import transfer_features, transfer_labels
-
-        features = transfer_features(self.motion, effectors=self.effectors)
-        return transfer_labels(segmentation, features, base, threshold=threshold, spread=spread)
+    def make_single_segment(self, kind: Kind) -> Segmentation:
+        """Return a table of one segment, shown while the recording is segmented."""
+        read = self.provenance
+        provenance = {"input": read.input, "notes": [*read.notes]}
+        return make_single_segment(kind, self.n_frames, self.fps, provenance)
 
     def fits(self, segmentation: Segmentation) -> bool:
         """Return whether a table has the recording's length and, if it names one, its file."""
@@ -233,14 +294,6 @@ class LoadedRecording:
         source, read = _get_input(segmentation), self.provenance
         expected = {"take": read.take, "person": read.person}
         return any(source.get(option, name) != name for option, name in expected.items())
-
-    def _make_single_segment(self, kind: Kind) -> Segmentation:
-        read = self.provenance
-        provenance = {
-            "input": read.input,
-            "notes": [*read.notes],
-        }
-        return make_single_segment(kind, self.n_frames, self.fps, provenance)
 
 
 def drop_other_people(recording: Motion | Signals) -> Motion | Signals:
@@ -289,26 +342,6 @@ def make_single_segment(
     return Segmentation.from_columns(columns, n_frames=n_frames, fps=fps, provenance=provenance)
 
 
-LARGE_FILE = 16_000_000
-"""Bytes from which a file takes more than a second to read."""
-MAX_POSES = 18_000
-"""Poses of a sketch: five per second for an hour."""
-SKETCH_REVISION = 0
-"""Revision of a sketch; tables have higher ones."""
-
-
-class Sketch(Struct):
-    """Preview of a recording that is being read; ``binary`` holds its poses.
-
-    If no page has it open any more (``is_open``), the recording is not opened once it is read.
-    """
-
-    message: Recording
-    binary: bytes
-    reading: bool = True
-    is_open: bool = True
-
-
 class Sketcher:
     """Sketches of recordings, by id."""
 
@@ -346,6 +379,18 @@ class Sketcher:
             if not sketch.is_open:
                 self.forget(sketch.message.id)
             return not sketch.is_open
+
+
+class Sketch(Struct):
+    """Preview of a recording that is being read; ``binary`` holds its poses.
+
+    If no page has it open any more (``is_open``), the recording is not opened once it is read.
+    """
+
+    message: Recording
+    binary: bytes
+    reading: bool = True
+    is_open: bool = True
 
 
 def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None:

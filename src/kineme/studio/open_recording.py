@@ -27,8 +27,7 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.edits import FileLookup, apply_edit
 from kineme.studio.jobs import Run
-from kineme.studio.loading import LoadedRecording, get_digest
-from kineme.studio.recording_cache import RecordingCache
+from kineme.studio.loading import LoadedRecording, RecordingCache, get_digest
 from kineme.studio.storage.sidecars import (
     ListedRecording,
     list_sidecar_problems,
@@ -47,6 +46,7 @@ from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
 
 Found = tuple[Segmentation, list[str]]
+"""A table, and notes for the user."""
 FIRST_WAIT_S = 3.0
 """Time that a page waits for segments; the first segmentation also compiles code."""
 STILL_FINDING = "the recording is still being segmented: try again later"
@@ -77,14 +77,14 @@ class OpenRecording:
         self._others = others
         self._lock = threading.RLock()
         self._file, table, self._notes = self._find_saved_table()
-        self._first: FirstSegments | None = None  # set while the recording is segmented
+        self._first: Future[Found] | None = None  # set while the recording is segmented
         self._preview_run = Run(DEFAULT)  # the latest preview
         if table is None and initial is not None and self.loaded.fits(initial):
             table = initial
         if table is None:
-            first = FirstSegments(self.loaded.first_table)
-            if self.loaded.is_long or not first.finish_soon():
-                self._first, table = first, self.loaded.make_unsegmented_table()
+            first = _start_thread(self.loaded.first_table)
+            if self.loaded.is_long or not wait([first], FIRST_WAIT_S).done:
+                self._first, table = first, self.loaded.make_single_segment("transition")
             else:
                 table, notes = first.result()
                 self._notes = [*self._notes, *notes]
@@ -264,8 +264,7 @@ class OpenRecording:
     def _apply(self, edit: Edit, files: FileLookup) -> tuple[Change, list[str]]:
         """Return the change that an edit makes, and notes for the user."""
         if isinstance(edit, Undo | Redo):
-            undo = isinstance(edit, Undo)
-            return self._journal.make_undo() if undo else self._journal.make_redo(), []
+            return self._journal.undo_or_redo(undo=isinstance(edit, Undo)), []
         outcome = apply_edit(self._table, edit, self.loaded, files, self._version)
         change = self._journal.make_change(outcome.table, edit, replaced=outcome.replaced)
         return change, outcome.notes
@@ -289,28 +288,23 @@ class OpenRecording:
     def _reload(self) -> bool:
         """Load the table that another program wrote; undo restores the previous one."""
         self._file, table, self._notes = self._find_saved_table()
-        self._table = self._table if table is None else table
+        self._table = table or self._table
         self._journal = Journal(self._file.path, self._table)
         self.revision += 1
         return True
 
     def _find_saved_table(self) -> tuple[TableFile, Segmentation | None, list[str]]:
         """Return the table file, the saved table if there is one, and notes."""
-        loaded = self.loaded
-        return find_saved_table(
-            self.listed, loaded.fits, self._others, of_another=loaded.belongs_to_other
-        )
+        fits, belongs_to_other = self.loaded.fits, self.loaded.belongs_to_other
+        return find_saved_table(self.listed, fits, self._others, belongs_to_other)
 
     def _make_edited(self, notes: list[str], before: Segmentation | None = None) -> Edited:
         """Return the message after an edit: the new table, or how it differs from ``before``."""
         from kineme.web.tables import make_segments_message, make_table_change
 
-        previous_revision = self.revision - 1
-        change = (
-            None
-            if before is None
-            else make_table_change(before, self._table, revision=previous_revision)
-        )
+        change = None
+        if before is not None:
+            change = make_table_change(before, self._table, revision=self.revision - 1)
         return Edited(
             revision=self.revision,
             change=change,
@@ -327,24 +321,15 @@ class OpenRecording:
         return self._file.path.name if self._file.exists else ""
 
 
-class FirstSegments:
-    """The first segmentation of a recording, found in a thread, with notes for the user."""
+def _start_thread(find: Callable[[], Found]) -> Future[Found]:
+    """Find segments in a thread; not in a pool, whose threads would delay the end of the server."""
+    found: Future[Found] = Future()
 
-    def __init__(self, find: Callable[[], Found]):
-        self._found: Future[Found] = Future()
-        # Not a thread pool: its threads would delay the end of the server.
-        threading.Thread(target=self._run, args=[find], name="segments", daemon=True).start()
-
-    def _run(self, find: Callable[[], Found]) -> None:
+    def run() -> None:
         try:
-            self._found.set_result(find())
-        except Exception as error:  # noqa: BLE001 (raised by `result`)
-            self._found.set_exception(error)
+            found.set_result(find())
+        except Exception as error:  # noqa: BLE001 (raised by `found.result`)
+            found.set_exception(error)
 
-    def finish_soon(self) -> bool:
-        """Return whether the segments are found within `FIRST_WAIT_S`."""
-        return bool(wait([self._found], FIRST_WAIT_S).done)
-
-    def result(self) -> Found:
-        """Wait for the table and notes; raises what the segmentation raised."""
-        return self._found.result()
+    threading.Thread(target=run, name="segments", daemon=True).start()
+    return found

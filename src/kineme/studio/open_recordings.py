@@ -1,4 +1,9 @@
-"""Open recordings of a folder, by id."""
+"""Open recordings of a folder, by id: their tables, reading options and common names.
+
+Clusters of different recordings are only related by their names. Renaming a cluster everywhere
+renames the clusters and segments elsewhere that have the old name. In a library clusters are
+shared: see `kineme.studio.library`.
+"""
 
 from __future__ import annotations
 
@@ -6,26 +11,33 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
 from msgspec import UNSET
 
-from kineme.errors import KinemeError, ParameterError, ReadError
+from kineme._util.checks import format_count
+from kineme.errors import KinemeError, ParameterError, ReadError, SeveralPeopleError
 from kineme.formats import ReadOptions
 from kineme.labels.collections import Extent
 from kineme.methods.segmenter import SegmentOptions
+from kineme.segments.editing import cluster_names
 from kineme.segments.segmentation import Segmentation
 from kineme.studio.choices import make_repeat_request
-from kineme.studio.folder import Folder
+from kineme.studio.folder import Folder, read_brief, summarize_table
 from kineme.studio.jobs import IDLE, READING
-from kineme.studio.loading import SKETCH_REVISION, Sketch, Sketcher
-from kineme.studio.open_recording import STILL_FINDING, OpenRecording
-from kineme.studio.overview import read_brief, summarize_table
-from kineme.studio.reader import Reader
-from kineme.studio.recording_cache import RecordingCache
-from kineme.studio.storage.sidecars import ListedRecording
+from kineme.studio.loading import SKETCH_REVISION, RecordingCache, Sketch, Sketcher
+from kineme.studio.open_recording import STILL_FINDING, ConflictError, OpenRecording
+from kineme.studio.storage.sidecars import (
+    ListedRecording,
+    read_saved_reading,
+    resolve_read_options,
+    write_reading,
+)
 from kineme.studio.storage.tables import find_table_path
+from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.messages import (
     BriefTable,
     Edited,
@@ -34,7 +46,7 @@ from kineme.web.messages import (
     Progress,
     Recording,
 )
-from kineme.web.requests import EditRequest
+from kineme.web.requests import ByHand, EditRequest, NameCluster, NameSegment, Together
 
 Listener = Callable[[str, int], None]
 File = TypeVar("File", Path, ListedRecording)
@@ -68,7 +80,6 @@ class OpenRecordings:
         self._cache = RecordingCache(read_options, segment_options)
         self._open: dict[str, OpenRecording] = {}
         self._recently_used: OrderedDict[str, None] = OrderedDict()
-        self._reader = Reader(folder, self._cache)
         self._sketcher = Sketcher(self._cache)
         self._lock = threading.Lock()
         self._opening: dict[str, threading.Lock] = {}
@@ -98,7 +109,8 @@ class OpenRecordings:
         self, listed: ListedRecording, previous: OpenRecording | None
     ) -> OpenRecording:
         """Open a recording; announce its segments later if they are not found yet."""
-        self._reader.check_person(listed)
+        if not self.folder.is_library:  # which has one person of a file
+            _check_person(listed, self._cache)
         others = [other for other in list(self._open.values()) if other.id != listed.id]
         tables = {other.table_path for other in others}
         revision = 1 if previous is None else previous.revision + 1
@@ -107,7 +119,7 @@ class OpenRecordings:
             listed, self._cache, tables, revision, initial
         )
         if opened.finding:
-            self._run_in_background(lambda: self._announce_segments(opened))
+            self._run_in_background(self._announce_segments, opened)
         return opened
 
     def _drop_old_pictures(self, name: str) -> None:
@@ -119,15 +131,14 @@ class OpenRecordings:
             while len(self._recently_used) > MAX_PICTURES:
                 oldest, _ = self._recently_used.popitem(last=False)
                 # The recording stays open; only what pages draw is dropped.
-                opened = self._open.get(oldest)
-                if opened is not None:
+                if opened := self._open.get(oldest):
                     opened.loaded.forget_pictures()
                     self._sketcher.forget(oldest)
 
-    def _run_in_background(self, work: Callable[[], None]) -> None:
+    def _run_in_background(self, work: Callable[..., None], *arguments: object) -> None:
         def run() -> None:
             try:
-                work()
+                work(*arguments)
             except Exception:
                 if threading.main_thread().is_alive():  # else the server is shutting down
                     raise
@@ -138,16 +149,6 @@ class OpenRecordings:
         """Wait for the segments of a recording that is already shown, then tell the pages."""
         opened.find()
         self._changed(opened.id, opened.revision)
-
-    def _get_sketch(self, name: str) -> Sketch | None:
-        """Return the sketch of a large recording, and start to read it; None if it is read."""
-        if name in self._open:
-            return None
-        listed = self.find_listed(name)
-        return self._sketcher.open(
-            listed,
-            lambda sketch: self._run_in_background(lambda: self._open_sketched(name, sketch)),
-        )
 
     def _open_sketched(self, name: str, sketch: Sketch) -> None:
         """Read a recording that is shown as a sketch, then tell the pages to reload."""
@@ -164,8 +165,10 @@ class OpenRecordings:
 
     def message(self, name: str) -> Recording:
         """Return everything that a page shows of a recording."""
-        if sketch := self._get_sketch(name):
-            return sketch.message
+        if name not in self._open:
+            start = partial(self._run_in_background, self._open_sketched, name)
+            if sketch := self._sketcher.open(self.find_listed(name), start):
+                return sketch.message
         message, is_reloaded = self.get(name).message()
         if is_reloaded:
             self._changed(name, message.revision)
@@ -188,11 +191,8 @@ class OpenRecordings:
     def tables(self) -> FolderTables:
         """Return the tables of all recordings, also those that are not saved yet."""
         listed = self.folder.recordings().items()
-        return FolderTables(
-            recordings=[
-                FolderRecording(id=name, table=self._summarize(entry)) for name, entry in listed
-            ]
-        )
+        tables = [FolderRecording(id=name, table=self._summarize(entry)) for name, entry in listed]
+        return FolderTables(recordings=tables)
 
     def _summarize(self, listed: ListedRecording) -> BriefTable | None:
         opened = self._open.get(listed.id)
@@ -222,12 +222,8 @@ class OpenRecordings:
         """Apply an edit to a recording's table; see `OpenRecording.edit`."""
         if sent.revision == SKETCH_REVISION:
             raise ParameterError(STILL_FINDING)
-        result = self.get(name).edit(
-            sent.revision,
-            sent.edit,
-            self,
-            name="" if sent.name is UNSET else sent.name,
-        )
+        edit_name = "" if sent.name is UNSET else sent.name
+        result = self.get(name).edit(sent.revision, sent.edit, self, name=edit_name)
         self._changed(name, result.revision)
         return result
 
@@ -241,10 +237,11 @@ class OpenRecordings:
         KinemeError if the file cannot be read so; nothing changes then.
         """
         listed = self.find_listed(name)
-        changed, person = self._reader.change_options(listed, options, everybody=everybody)
-        entries = [
-            entry for entry in self.folder.recordings().values() if entry.path == listed.path
-        ]
+        changed, person = _change_options(
+            listed, options, self._cache, everybody=everybody, is_library=self.folder.is_library
+        )
+        listing = self.folder.recordings().values()
+        entries = [entry for entry in listing if entry.path == listed.path]
         if name not in {entry.id for entry in entries}:
             self._open.pop(name, None)
             self._sketcher.forget(name)
@@ -262,11 +259,9 @@ class OpenRecordings:
         previous = self._open.get(listed.id)
         opened = self._open_recording(listed, previous)
         if opened.table_path.exists() and with_table:
-            reference = opened if previous is None else previous
-            signals = not opened.loaded.is_motion
-            opened.edit(
-                opened.revision, make_repeat_request(reference.table, signals=signals), self
-            )
+            table = (previous or opened).table
+            request = make_repeat_request(table, signals=not opened.loaded.is_motion)
+            opened.edit(opened.revision, request, self)
         self._changed(listed.id, opened.revision)
 
     def extent(self, listed: ListedRecording) -> Extent:
@@ -302,3 +297,86 @@ def _find_or_raise(files: dict[str, File], name: str, what: str) -> File:
     if name not in files:
         raise UnknownError(f"there is no such {what}: it may have been removed")
     return files[name]
+
+
+def rename_everywhere(recordings: OpenRecordings, sent: CallEverywhere) -> TablesChanged:
+    """Give the new name to everything called ``before`` in other recordings, one undo step in each.
+
+    ParameterError if the cluster had no name before.
+    """
+    if not sent.before:
+        raise ParameterError(
+            "the cluster had no name before: only named clusters can be renamed in other recordings"
+        )
+    changed, left = 0, []
+    for name, listed in recordings.folder.recordings().items():
+        table_path = find_table_path(listed)
+        table = read_brief(table_path) if table_path and name != sent.recording else None
+        if table is None or sent.before not in table.label:
+            continue
+        try:
+            opened = recordings.get(name)
+            edits = _make_edits(opened.table, sent.before, sent.label)
+            if edits:
+                edit = EditRequest(revision=opened.revision, edit=Together(edits=edits))
+                recordings.edit(name, edit)
+                changed += 1
+        except (KinemeError, UnknownError, ConflictError) as error:
+            left.append(f"{listed.name}: {error}")
+    return TablesChanged(tables=changed, others=0, left=left)
+
+
+def _make_edits(table: Segmentation, before: str, label: str) -> list[ByHand]:
+    """Return edits that rename the clusters with this name, and the single segments with it."""
+    clusters = [cluster for cluster, name in cluster_names(table).items() if name == before]
+    single_rows = [row for row in table if row.label == before and row.cluster not in clusters]
+    return [
+        *(NameCluster(cluster=cluster, label=label) for cluster in clusters),
+        *(NameSegment(level=row.level, frame=row.start_frame, label=label) for row in single_rows),
+    ]
+
+
+def _check_person(listed: ListedRecording, cache: RecordingCache) -> None:
+    """Raise SeveralPeopleError if the file holds several people and none was selected.
+
+    Marker files can be read without a selection, but their user should know whose markers these
+    are.
+    """
+    if listed.person or resolve_read_options(listed, cache.read_options).person:
+        return
+    people = cache.read(listed).provenance.people
+    if len(people) > 1:
+        reason = f"{format_count(len(people), 'person')} found: choose one or all"
+        raise SeveralPeopleError(listed.path, reason, people)
+
+
+def _change_options(
+    listed: ListedRecording,
+    options: ReadOptions,
+    cache: RecordingCache,
+    *,
+    everybody: bool,
+    is_library: bool,
+) -> tuple[set[str], str]:
+    """Read a file with new options from now on; KinemeError if it cannot be read so.
+
+    Return the names of the options that changed, and the person that was read.
+    """
+    old, known = read_saved_reading(listed.path)
+    people = cache.people(listed.path, options) if everybody else ()
+    person = people[0] if people else options.person or listed.person
+    source = cache.read(ListedRecording(listed.path, person), options).provenance
+    people, person = people or source.people, ""
+    if is_library:
+        people = known
+    elif len(people) < 2:
+        people = ()
+    else:
+        options = replace(options, person=old.person if listed.person else None)
+        person = source.person or ""
+        # A take may lack some of the known people; keep all of them listed.
+        people = known if {*people} <= {*known} and not everybody else people
+    write_reading(listed.path, options, people)
+    # Another person is a separate recording, so it is not a change of this one.
+    names = {each.name for each in fields(options)} - ({"person"} if people else set())
+    return {name for name in names if getattr(options, name) != getattr(old, name)}, person

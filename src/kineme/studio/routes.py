@@ -1,4 +1,4 @@
-"""Handlers of all routes; `Api.routes` lists them.
+"""The application: handlers of all routes, error responses, and the guard in front of them.
 
 Handlers that read, compute or write run in threads, so that the server stays responsive. Rarely
 used modules are imported when needed.
@@ -6,29 +6,44 @@ used modules are imported when needed.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import cast, get_args
+from typing import TYPE_CHECKING, Any, cast, get_args
 
 from msgspec import UNSET
+from starlette.applications import Starlette
+from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
-from starlette.requests import Request
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, Response, StreamingResponse
-from starlette.routing import Route
+from starlette.routing import BaseRoute, Mount, Route
+from starlette.staticfiles import StaticFiles
 
 from kineme._util.files import find_video
 from kineme._util.json import options_from_json
 from kineme._version import __version__
-from kineme.errors import ParameterError
+from kineme.errors import (
+    KinemeError,
+    LinkError,
+    ParameterError,
+    ReadError,
+    SeveralPeopleError,
+    WriteError,
+)
 from kineme.formats import ReadOptions
 from kineme.methods.presets import DEFAULT
 from kineme.segments.table import Level
 from kineme.studio import choices
 from kineme.studio.annotators import list_annotators, make_label_lanes, measure_agreement
+from kineme.studio.edits import read_table
+from kineme.studio.folder import Progress as TableProgress
 from kineme.studio.folder import count_progress
-from kineme.studio.folder_names import rename_everywhere
 from kineme.studio.http.bodies import (
     MAX_UPLOAD,
     MessageResponse,
+    TooLargeError,
+    TooSlowError,
     Upload,
     list_recording_suffixes,
     make_file_response,
@@ -38,10 +53,16 @@ from kineme.studio.http.bodies import (
     read_chunks,
 )
 from kineme.studio.http.events import Hub
-from kineme.studio.jobs import PoseQueue, lacks_estimator, needs_poses
+from kineme.studio.http.security import Guard, is_trusted
+from kineme.studio.jobs import PoseQueue, PosesNeededError, lacks_estimator, needs_poses
 from kineme.studio.loading import SKETCH_REVISION
-from kineme.studio.open_recording import OpenRecording
-from kineme.studio.open_recordings import OpenRecordings, UnknownError
+from kineme.studio.open_recording import ConflictError, OpenRecording
+from kineme.studio.open_recordings import (
+    OpenRecordings,
+    SupersededError,
+    UnknownError,
+    rename_everywhere,
+)
 from kineme.studio.storage.sidecars import (
     ListedRecording,
     make_file_id,
@@ -49,22 +70,17 @@ from kineme.studio.storage.sidecars import (
     write_shared_labels,
     write_video_offset,
 )
-from kineme.web.annotator_messages import (
-    Agreement,
-    AgreementRequest,
-    AnnotatorChoice,
-    LabelLane,
-)
+from kineme.web import STATIC
+from kineme.web.annotator_messages import Agreement, AgreementRequest, LabelLane
 from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.matrix import make_tile
 from kineme.web.messages import (
     ClusterCurves,
     Comparison,
-    CurveList,
     CycleChannels,
     Edited,
+    Failure,
     FileChoice,
-    FolderTables,
     Listing,
     Loops,
     PlayedLoop,
@@ -88,9 +104,92 @@ from kineme.web.requests import (
     VideoRequest,
 )
 
+if TYPE_CHECKING:
+    from kineme.studio.library import StudioLibrary
+
 BINARY = "application/octet-stream"
 VIDEO_TYPES = {".mov": "video/mp4", ".m4v": "video/mp4", ".mkv": "video/webm"}
 """Media types that browsers accept for similar containers."""
+
+PAGE, LIBRARY_PAGE = "studio.html", "library.html"
+Handler = Callable[[Request, Exception], Response]
+STATUS: dict[type[Exception], int] = {
+    KinemeError: 400,
+    UnknownError: 404,
+    TooLargeError: 413,
+    TooSlowError: 408,
+    WriteError: 500,
+    LinkError: 400,
+    SupersededError: 409,
+    ConflictError: 409,
+}
+"""HTTP status by exception; a class without an entry takes that of its base class."""
+
+
+def create_app(
+    recordings: OpenRecordings,
+    *,
+    token: str,
+    port: int,
+    hub: Hub,
+    library: StudioLibrary | None = None,
+    static: Path = STATIC,
+    limit: int = MAX_UPLOAD,
+    development: bool = False,
+) -> Guard:
+    """Return the studio for a folder of recordings, as an ASGI application.
+
+    If there is a ``library``, its page is shown unless the URL names a recording or the folder.
+    ``static`` holds the built pages, and ``limit`` is the largest upload in bytes. In
+    ``development``, requests from pages of the Vite server are accepted.
+    """
+
+    def page(request: Request) -> Response:
+        names = request.query_params.getlist("open")
+        folder = "folder" in request.query_params
+        path = static / (PAGE if library is None or names or folder else LIBRARY_PAGE)
+        if not path.is_file():
+            return _make_failure("this page has not been built: npm run build", 404)
+        response = FileResponse(path)
+        if is_trusted(request):  # read the recordings while the browser loads the page
+            response.background = BackgroundTask(recordings.prepare, names)
+        return response
+
+    routes: list[BaseRoute] = []
+    if library is not None:
+        from kineme.studio.library import LibraryApi  # reads Parquet
+
+        routes += LibraryApi(library, recordings).routes()
+    assets = StaticFiles(directory=static / "assets", check_dir=False)
+    routes += Api(recordings, hub, limit=limit).routes()
+    routes += [Route("/", page), Mount("/assets", assets)]
+    handlers: dict[Any, Handler] = {
+        **dict.fromkeys(STATUS, _answer_known_error),
+        ClientDisconnect: lambda *_: Response(status_code=400),  # never read: the client is gone
+        HTTPException: _answer_http_error,
+        Exception: lambda *_: _make_failure("the server failed: see its terminal for details", 500),
+    }
+    app = Starlette(routes=routes, exception_handlers=handlers)
+    return Guard(app, token=token, port=port, development=development)
+
+
+def _answer_known_error(_: Request, error: Exception) -> Response:
+    status = next(STATUS[kind] for kind in type(error).__mro__ if kind in STATUS)
+    people = error.people if isinstance(error, SeveralPeopleError) else ()
+    needs_poses = isinstance(error, PosesNeededError)
+    can_retry = isinstance(error, ReadError) and not needs_poses
+    failure = Failure(error=str(error), people=[*people], reading=can_retry, poses=needs_poses)
+    return MessageResponse(failure, status)
+
+
+def _answer_http_error(_: Request, error: Exception) -> Response:
+    status = error.status_code if isinstance(error, HTTPException) else 500
+    wrong_method = "this address does not accept this method"
+    return _make_failure(wrong_method if status == 405 else "there is nothing here", status)
+
+
+def _make_failure(reason: str, status: int) -> Response:
+    return MessageResponse(Failure(error=reason), status)
 
 
 class Api:
@@ -101,21 +200,21 @@ class Api:
         self._poses = PoseQueue(lambda name: hub.tell(name, SKETCH_REVISION + 1))
 
     def routes(self) -> list[Route]:
-        one = "/api/recordings/{id}"
+        one, get = "/api/recordings/{id}", self._get_opened
         return [
             make_route("/api/state", self.state),
-            make_route("/api/tables", self.tables),
+            make_route("/api/tables", lambda _: self._recordings.tables()),
             make_route("/api/names", self.names, CallEverywhere),
             make_route("/api/labels", self.labels, LabelsRequest),
             make_route("/api/knowledge", self.knowledge, KnowledgeRequest),
-            make_route("/api/annotators", self.annotators),
+            make_route("/api/annotators", lambda _: list_annotators(self._recordings)),
             make_route("/api/agreement", self.agreement, AgreementRequest),
             make_route("/api/export/{format}", self.export_checked),
             Route("/api/recordings", self.upload, methods=["POST"]),
             make_route(one, self.recording),
             make_route(f"{one}/motion", self.motion),
             make_route(f"{one}/matrix/{{level}}/{{row}}/{{column}}", self.tile),
-            make_route(f"{one}/curves", self.curves),
+            make_route(f"{one}/curves", lambda request: get(request).loaded.curves().head()),
             make_route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
             make_route(f"{one}/cycles", self.cycle_channels),
             make_route(f"{one}/cycles/{{cluster}}", self.cycle_curves),
@@ -135,7 +234,7 @@ class Api:
             make_route(f"{one}/video", self.offset, VideoRequest),
             make_route(f"{one}/keypoints", self.keypoints),
             make_route(f"{one}/reading", self.reading, ReadRequest),
-            make_route("/api/poses", self.poses),
+            make_route("/api/poses", lambda _: self._poses.progress),
             make_route("/api/poses", self.estimate, PosesRequest),
             Route("/api/poses/cancel", self.stop_estimating, methods=["POST"]),
             Route("/api/events", self.events),
@@ -165,9 +264,6 @@ class Api:
             export_formats=choices.list_export_formats(),
             install=lacks_estimator() if any(each.needs_poses for each in listings) else "",
         )
-
-    def tables(self, _: Request) -> FolderTables:
-        return self._recordings.tables()
 
     def names(self, _: Request, sent: CallEverywhere) -> TablesChanged:
         return rename_everywhere(self._recordings, sent)
@@ -200,7 +296,7 @@ class Api:
         kind, level = request.path_params["format"], _parse_level(request)
         folder = self._recordings.folder
         counts = {name: count_progress(listed) for name, listed in folder.recordings().items()}
-        names = [name for name, n in counts.items() if n and n.checked >= n.segments]
+        names = [name for name, n in counts.items() if n and n.checked == n.segments]
         if not names:
             raise ParameterError("no recording is checked yet: check all segments of one first")
         opened = [self._recordings.get(name) for name in names]
@@ -237,9 +333,6 @@ class Api:
         if png is None:
             raise UnknownError("the matrix has no such tile")
         return Response(png, media_type="image/png")
-
-    def curves(self, request: Request) -> CurveList:
-        return self._get_opened(request).loaded.curves().head()
 
     def curve_tile(self, request: Request) -> Response:
         indices = _parse_numbers(request, "curve", "level", "number")
@@ -288,7 +381,6 @@ class Api:
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import find_differences, score_agreement
-        from kineme.labels.collections import read_labels
         from kineme.web.tables import make_segments_message
 
         opened = self._get_opened(request)
@@ -299,29 +391,20 @@ class Api:
         elif sent.annotation is not UNSET and sent.preset is UNSET:
             path = self._recordings.annotation(sent.annotation)
             title = path.name
-            other = read_labels(
-                opened.listed.person_path,
-                path,
-                n_frames=table.n_frames,
-                fps=table.fps,
-                clock=table.clock,
-            )
+            other = read_table(opened.listed, path, table)
         else:
             raise ParameterError("name a preset or an annotation to compare with")
-        score_values = score_agreement(other, table)  # the other table counts as the truth
+        values = score_agreement(other, table)  # the other table counts as the truth
+        explained = ((name, scores()[name]) for name in values)
         return Comparison(
             name=title,
             segmentation=make_segments_message(other),
-            scores=score_values,
+            scores=values,
             meanings={
-                name: ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
-                for name in score_values
+                n: ScoreMeaning(title=score.title, help=score.help) for n, score in explained
             },
             differences=find_differences(other, table),
         )
-
-    def annotators(self, _: Request) -> list[AnnotatorChoice]:
-        return list_annotators(self._recordings)
 
     def agreement(self, _: Request, sent: AgreementRequest) -> Agreement:
         return measure_agreement(self._recordings, sent.annotators)
@@ -332,10 +415,8 @@ class Api:
     def export(self, request: Request) -> Response:
         from kineme.studio import downloads
 
-        kind, level = request.path_params["format"], _parse_level(request)
-        return make_file_response(
-            *downloads.export_download(self._get_opened(request), kind, level)
-        )
+        opened, kind = self._get_opened(request), request.path_params["format"]
+        return make_file_response(*downloads.export_download(opened, kind, _parse_level(request)))
 
     def clips(self, request: Request, sent: ClipsRequest) -> Response:
         from kineme.studio import downloads
@@ -344,14 +425,16 @@ class Api:
         return make_file_response(*files)
 
     def loops(self, request: Request) -> Loops:
-        from kineme.studio import loops
+        from kineme.studio import downloads
 
-        return loops.rank_loops(self._get_opened(request))
+        return downloads.rank_loops(self._get_opened(request))
 
     def loop(self, request: Request) -> PlayedLoop:
-        from kineme.studio import loops
+        from kineme.studio import downloads
 
-        return loops.make_played_loop(self._get_opened(request), *_parse_numbers(request, "number"))
+        return downloads.make_played_loop(
+            self._get_opened(request), *_parse_numbers(request, "number")
+        )
 
     def video(self, request: Request) -> Response:
         path = find_video(self._recordings.find_listed(request.path_params["id"]).path)
@@ -373,9 +456,6 @@ class Api:
         options = options_from_json(ReadOptions, sent.options)
         name = request.path_params["id"]
         return self._recordings.change_reading(name, options, everybody=sent.everybody)
-
-    def poses(self, _: Request) -> PosesProgress:
-        return self._poses.progress()
 
     def estimate(self, _: Request, sent: PosesRequest) -> PosesProgress:
         if missing := lacks_estimator():
@@ -428,8 +508,5 @@ def _make_listing(listed: ListedRecording) -> Listing:
         bytes=_get_file_size(listed.path),
         needs_poses=needs_poses(listed.path),
         corrected=counts is not None,
-        segments=counts.segments if counts else 0,
-        checked=counts.checked if counts else 0,
-        named=counts.named if counts else 0,
-        to_name=counts.to_name if counts else 0,
+        **vars(counts or TableProgress(0, 0, 0, 0)),
     )

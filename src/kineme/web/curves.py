@@ -1,21 +1,20 @@
-"""Curves over time for a page, at any zoom, in tiles.
+"""Curves over time for a page, at any zoom, in tiles: heights, speeds, angles, channels.
 
 At level ``l`` of a curve, one pair holds the minimum and maximum of ``FACTOR ** l`` frames, so that
 no peak is lost when a pixel covers that many frames. Level 0 is the curve itself. A tile has `TILE`
-pairs of little-endian 32-bit floats; missing values are nan.
-
-@@curve_sources: Curves that a page draws of a recording: heights, speeds, angles, channels.
-
-Angles and speeds are computed as in `kineme.cycles`.
+pairs of little-endian 32-bit floats; missing values are nan. Angles and speeds are computed as in
+`kineme.cycles`.
 """
 
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import ceil
 from threading import Lock
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,125 +26,7 @@ from kineme.features.effectors import measure_speed
 from kineme.recordings import Motion, Signals
 from kineme.web.messages import Curve, CurveList
 
-
-@dataclass(frozen=True)
-class CurveSource:
-    """A curve and the function that computes it from a recording."""
-
-    name: str
-    group: str
-    unit: str
-    values: Callable[[Motion | Signals], Floats]
-    of_frames: bool = True
-
-    def compute(self, recording: Motion | Signals) -> Floats:
-        """Return the values, with nan in gaps."""
-        values = np.array(self.values(recording), np.float64)
-        for start, stop in recording.gaps if self.of_frames else ():
-            values[start:stop] = np.nan
-        return values
-
-
-def list_signal_curves(signals: Signals) -> list[CurveSource]:
-    """Return a curve for each channel."""
-    return [
-        CurveSource(name, "channels", "", _make_channel(i)) for i, name in enumerate(signals.names)
-    ]
-
-
-def list_analog_curves(signals: Signals, n_frames: int, fps: float) -> list[CurveSource]:
-    """Return a curve for each analog channel: its minimum and maximum in each frame."""
-    return [
-        CurveSource(name, "analog", "", _make_frame_extremes(i, n_frames, fps), of_frames=False)
-        for i, name in enumerate(signals.names)
-    ]
-
-
-def _make_frame_extremes(
-    number: int, n_frames: int, fps: float
-) -> Callable[[Motion | Signals], Floats]:
-    """Return a function that computes minimum and maximum of a channel in each motion frame."""
-
-    def compute(recording: Motion | Signals) -> Floats:
-        # Copy, since gaps are set to nan.
-        channel = np.array(_get_values(recording)[:, number])
-        for start, stop in recording.gaps:
-            channel[start:stop] = np.nan
-        # First sample of each frame; the small number compensates rounding errors.
-        starts = np.floor(np.arange(n_frames) * (recording.fps / fps) + 1e-9).astype(np.intp)
-        # The channel may end before the motion.
-        starts = starts[starts < len(channel)]
-        extremes = np.full((n_frames, 2), np.nan)
-        if len(starts):
-            extremes[: len(starts), 0] = np.fmin.reduceat(channel, starts)
-            extremes[: len(starts), 1] = np.fmax.reduceat(channel, starts)
-        return extremes
-
-    return compute
-
-
-def list_motion_curves(motion: Motion) -> list[CurveSource]:
-    """Return the body's angles, then height, speed, bend and floor position of each joint."""
-    names, parents = motion.skeleton.names, motion.skeleton.parents
-    lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
-    curves = [
-        CurveSource(name, "height", "m", _make_coordinate(i, 1)) for i, name in enumerate(names)
-    ]
-    curves += [CurveSource(name, "speed", "m/s", _make_speed(i)) for i, name in enumerate(names)]
-    for joint, name in enumerate(names):
-        # Child bones with a length; a bend is only defined with exactly one.
-        ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
-        if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
-            bend = _make_flexion(parents[joint], joint, ends[0])
-            curves.append(CurveSource(name, "flexion angle", "°", bend))
-    for axis, group in ((0, "x"), (2, "z")):
-        curves += [
-            CurveSource(name, group, "m", _make_coordinate(i, axis)) for i, name in enumerate(names)
-        ]
-    angles = [channel for channel in channels_of(motion) if channel.group == ANGLE]
-    return [
-        CurveSource(channel.name, channel.group, channel.unit, _make_angle(channel.name))
-        for channel in angles
-    ] + curves
-
-
-def _make_channel(number: int) -> Callable[[Motion | Signals], Floats]:
-    return lambda recording: _get_values(recording)[:, number]
-
-
-def _make_coordinate(joint: int, axis: int) -> Callable[[Motion | Signals], Floats]:
-    return lambda recording: _get_positions(recording)[:, joint, axis]
-
-
-def _make_speed(joint: int) -> Callable[[Motion | Signals], Floats]:
-    return lambda recording: measure_speed(_get_positions(recording)[:, joint], recording.fps)
-
-
-def _make_flexion(parent: int, joint: int, end: int) -> Callable[[Motion | Signals], Floats]:
-    """Return a function that computes the angle between two bones in degrees; 0 if straight."""
-    return lambda recording: bend(
-        *(_get_positions(recording)[:, each] for each in (parent, joint, end))
-    )
-
-
-def _make_angle(name: str) -> Callable[[Motion | Signals], Floats]:
-    return lambda recording: channels_of(recording, [name])[0].values()
-
-
-def _get_positions(recording: Motion | Signals) -> Floats:
-    if not isinstance(recording, Motion):
-        raise TypeError("the curve is of a motion")
-    return recording.positions
-
-
-def _get_values(recording: Motion | Signals) -> Floats:
-    if not isinstance(recording, Signals):
-        raise TypeError("the curve is of signals")
-    return recording.values
-
-
 Pairs = NDArray[np.float32]
-
 FACTOR = 4
 """Frames per pair grow by this factor from level to level."""
 TILE = 1024
@@ -165,32 +46,31 @@ class Curves:
 
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
         self.n_frames = recording.n_frames
-        self._drawn = (
-            list_motion_curves(recording)
-            if isinstance(recording, Motion)
-            else list_signal_curves(recording)
-        )
+        if isinstance(recording, Motion):
+            self._drawn = list_motion_curves(recording)
+        else:
+            self._drawn = [
+                CurveSource(name, "channels", "", partial(_get_channel, number=i))
+                for i, name in enumerate(recording.names)
+            ]
         self._first_analog = len(self._drawn)
         if analog is not None:
-            self._drawn += list_analog_curves(analog, recording.n_frames, recording.fps)
+            compute = partial(_find_frame_extremes, n_frames=recording.n_frames, fps=recording.fps)
+            self._drawn += [
+                CurveSource(name, "analog", "", partial(compute, number=i), of_frames=False)
+                for i, name in enumerate(analog.names)
+            ]
         self._recent: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
     def head(self) -> CurveList:
         """Return the list of curves and the layout of their tiles."""
-        curves = [
-            Curve(name=curve.name, group=curve.group, unit=curve.unit) for curve in self._drawn
-        ]
-        return CurveList(
-            curves=curves, factor=FACTOR, tile=TILE, levels=len(compute_level_sizes(self.n_frames))
-        )
+        curves = [Curve(name=each.name, group=each.group, unit=each.unit) for each in self._drawn]
+        n_levels = len(compute_level_sizes(self.n_frames))
+        return CurveList(curves=curves, factor=FACTOR, tile=TILE, levels=n_levels)
 
     def tile(
-        self,
-        read: Callable[[bool], Motion | Signals],
-        curve: int,
-        level: int,
-        number: int,
+        self, read: Callable[[bool], Motion | Signals], curve: int, level: int, number: int
     ) -> bytes | None:
         """Return the pairs of a tile as bytes; None if there is no such tile.
 
@@ -211,13 +91,6 @@ class Curves:
         if not 0 <= level < len(levels) or not 0 <= number * TILE < len(levels[level]):
             return None
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
-
-
-def as_recording(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
-    """Return the recording; an array (frames, channels) becomes signals of this rate."""
-    if isinstance(recording, Motion | Signals):
-        return recording
-    return Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
 
 
 def make_report_curves(
@@ -242,6 +115,13 @@ def make_report_curves(
         for index in indices:
             tiles["/".join(map(str, index))] = curves.tile(lambda _: signals, *index) or b""
     return head, tiles
+
+
+def as_recording(recording: Motion | Signals | ArrayLike, fps: float) -> Motion | Signals:
+    """Return the recording; an array (frames, channels) becomes signals of this rate."""
+    if isinstance(recording, Motion | Signals):
+        return recording
+    return Signals(np.nan_to_num(np.asarray(recording, np.float64)), fps)
 
 
 def build_levels(values: Floats) -> list[Pairs]:
@@ -272,3 +152,90 @@ def compute_level_sizes(n_frames: int) -> list[int]:
     while sizes[-1] > TILE:
         sizes.append(ceil(sizes[-1] / FACTOR))
     return sizes
+
+
+@dataclass(frozen=True)
+class CurveSource:
+    """A curve and the function that computes it from a recording, a motion or signals."""
+
+    name: str
+    group: str
+    unit: str
+    values: Callable[[Any], Floats]
+    of_frames: bool = True
+
+    def compute(self, recording: Motion | Signals) -> Floats:
+        """Return the values, with nan in gaps."""
+        values = np.array(self.values(recording), np.float64)
+        for start, stop in recording.gaps if self.of_frames else ():
+            values[start:stop] = np.nan
+        return values
+
+
+def list_motion_curves(motion: Motion) -> list[CurveSource]:
+    """Return the body's angles, then height, speed, bend and floor position of each joint."""
+    names, parents = motion.skeleton.names, motion.skeleton.parents
+    lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
+    curves = [
+        CurveSource(channel.name, ANGLE, channel.unit, partial(_measure_angle, name=channel.name))
+        for channel in channels_of(motion)
+        if channel.group == ANGLE
+    ]
+    curves += _list_coordinates(names, 1, "height")
+    curves += [
+        CurveSource(name, "speed", "m/s", partial(_measure_speed, joint=i))
+        for i, name in enumerate(names)
+    ]
+    for joint, name in enumerate(names):
+        # Child bones with a length; a bend is only defined with exactly one.
+        ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
+        if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
+            joints = parents[joint], joint, ends[0]
+            bend_of = partial(_measure_bend, joints=joints)
+            curves.append(CurveSource(name, "flexion angle", "°", bend_of))
+    return [*curves, *_list_coordinates(names, 0, "x"), *_list_coordinates(names, 2, "z")]
+
+
+def _find_frame_extremes(signals: Signals, number: int, *, n_frames: int, fps: float) -> Floats:
+    """Return minimum and maximum of an analog channel in each frame of the motion."""
+    # Copy, since gaps are set to nan.
+    channel = np.array(signals.values[:, number])
+    for start, stop in signals.gaps:
+        channel[start:stop] = np.nan
+    # First sample of each frame; the small number compensates rounding errors.
+    starts = np.floor(np.arange(n_frames) * (signals.fps / fps) + 1e-9).astype(np.intp)
+    # The channel may end before the motion.
+    starts = starts[starts < len(channel)]
+    extremes = np.full((n_frames, 2), np.nan)
+    if len(starts):
+        extremes[: len(starts), 0] = np.fmin.reduceat(channel, starts)
+        extremes[: len(starts), 1] = np.fmax.reduceat(channel, starts)
+    return extremes
+
+
+def _list_coordinates(names: Sequence[str], axis: int, group: str) -> list[CurveSource]:
+    return [
+        CurveSource(name, group, "m", partial(_get_coordinate, joint=i, axis=axis))
+        for i, name in enumerate(names)
+    ]
+
+
+def _get_channel(signals: Signals, number: int) -> Floats:
+    return signals.values[:, number]
+
+
+def _get_coordinate(motion: Motion, joint: int, axis: int) -> Floats:
+    return motion.positions[:, joint, axis]
+
+
+def _measure_speed(motion: Motion, joint: int) -> Floats:
+    return measure_speed(motion.positions[:, joint], motion.fps)
+
+
+def _measure_bend(motion: Motion, joints: tuple[int, int, int]) -> Floats:
+    """Return the angle between two bones in degrees; 0 if straight."""
+    return bend(*(motion.positions[:, joint] for joint in joints))
+
+
+def _measure_angle(motion: Motion, name: str) -> Floats:
+    return channels_of(motion, [name])[0].values()

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from math import floor, log10
 from threading import RLock
 from typing import TYPE_CHECKING
@@ -21,13 +22,7 @@ from kineme._util.arrays import Floats
 from kineme.recordings import Motion, Signals
 from kineme.segments.annotation import NO_ANNOTATION
 from kineme.segments.segmentation import Segmentation
-from kineme.web.messages import (
-    ClusterCurves,
-    CycleChannel,
-    CycleCurve,
-    OtherSession,
-    ReportCurves,
-)
+from kineme.web.messages import ClusterCurves, CycleChannel, CycleCurve, OtherSession, ReportCurves
 
 if TYPE_CHECKING:
     from kineme.cycles.channels import Channel
@@ -90,9 +85,7 @@ class CycleCurves:
         with self._lock:
             if not self._heads:
                 recording, beside = self._read(), self._beside()
-                all_channels = channels_of(
-                    recording, ["*"], beside=[] if beside is None else [beside]
-                )
+                all_channels = channels_of(recording, ["*"], beside=[beside] if beside else [])
                 self._default_channels = [
                     channel.name for channel in channels_of(recording)[:MAX_DEFAULT_CHANNELS]
                 ]
@@ -128,9 +121,8 @@ class CycleCurves:
             group = measured.select(rows)
             name = channel or _sort_channels_by_range(group, measured)[0]
             ends = _has_only_ends(group)
-            return _make_message(
-                group, name, MAX_CYCLES, _compute_means(group, ends=ends)[name], ends=ends
-            )
+            mean = _compute_means(group, ends=ends)[name]
+            return _make_message(group, name, MAX_CYCLES, mean, ends=ends)
 
     def compare_with(
         self,
@@ -158,9 +150,8 @@ class CycleCurves:
         name, ends = message.channel, _has_only_ends(group) or _has_only_ends(others)
         first, second = self._add_channels(group, [name]), other._add_channels(others, [name])
         compared = compare_curves(first, second, ends=ends)
-        own_message = _make_message(
-            first, name, MAX_CYCLES, _compute_means(first, ends=ends)[name], ends=ends
-        )
+        mean = _compute_means(first, ends=ends)[name]
+        own_message = _make_message(first, name, MAX_CYCLES, mean, ends=ends)
         # One digit more than for single curves.
         digits = _choose_digits(_measure_range(first.curves)) + 1
         return structs.replace(
@@ -205,7 +196,10 @@ class CycleCurves:
                 [len(group) for group in groups_by_key.values()], max_curves
             )
             return ReportCurves(
-                channels=[_add_opposite(heads[name], names) for name in names],
+                channels=[
+                    head if head.opposite in names else structs.replace(head, opposite="")
+                    for head in (heads[name] for name in names)
+                ],
                 curves=[
                     self._make_report_curves(group, names, max_cycles, own_cycles)
                     for group in groups_by_key.values()
@@ -284,11 +278,11 @@ class CycleCurves:
                     self._heads[name].group == "channel" for name in missing
                 )
                 beside = self._beside() if needed else None
-                for channel in channels_of(
-                    recording, ["*"], beside=[] if beside is None else [beside]
-                ):
+                for channel in channels_of(recording, ["*"], beside=[beside] if beside else []):
                     if channel.name in missing:
-                        self._values[channel.name] = _copy_numbers(channel)
+                        # Compute it now, so that the channel does not hold the recording.
+                        compute = partial(np.asarray, channel.values())
+                        self._values[channel.name] = replace(channel, compute=compute, gaps=())
             channels = [self._values[name] for name in names]
             for name in names:
                 self._values.move_to_end(name)
@@ -296,12 +290,6 @@ class CycleCurves:
             while len(self._values) > MAX_CHANNELS:
                 self._values.popitem(last=False)
             return measure_other_channels(cycles, channels)
-
-
-def _copy_numbers(channel: Channel) -> Channel:
-    """Return the channel with its values computed, so that it does not hold the recording."""
-    values = channel.values()
-    return replace(channel, compute=lambda: values, gaps=())
 
 
 def _rescale_table(table: Segmentation, recording: Motion | Signals) -> Segmentation:
@@ -342,11 +330,6 @@ def _count_fitting_cycles(sizes: Sequence[int], max_curves: int) -> int:
     while n < MAX_CYCLES and sum(2 + min(size, n + 1) for size in sizes) <= max_curves:
         n += 1
     return n
-
-
-def _add_opposite(head: CycleChannel, names: Sequence[str]) -> CycleChannel:
-    opposite = head.opposite if head.opposite in names else ""
-    return CycleChannel(name=head.name, unit=head.unit, group=head.group, opposite=opposite)
 
 
 def _select_group(cycles: Cycles, cluster: int) -> NDArray[np.bool_]:

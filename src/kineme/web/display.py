@@ -1,4 +1,4 @@
-"""Compress the joint positions of a motion, so that a page can load them at once.
+"""Compress the joint positions of a motion, and keypoints over a video, for a page.
 
 Poses are sampled at 30 Hz (or the frame rate if that is lower) and interpolated linearly. Each
 coordinate of each joint is a column of integers: ``position = origin + step * number``; -32768
@@ -9,10 +9,8 @@ zlib.
 ``step`` is 1/10000 of the body's extent, or 1/2000 if the data would get too large. Even longer
 motions are sampled at a lower rate.
 
-@@video: Describe the video of a recording for a page: its start, and the keypoints drawn over it.
-
-Keypoints are encoded like poses (`kineme.web.display`): x and y are pixels, y from the top, and z
-is the confidence in hundredths.
+Keypoints over a video are encoded like poses: x and y are pixels, y from the top, and z is the
+confidence in hundredths.
 """
 
 from __future__ import annotations

@@ -9,11 +9,7 @@ from numpy.typing import ArrayLike
 
 from kineme.errors import ParameterError
 from kineme.features import Names
-from kineme.features.similarity import (
-    SimilarityMatrix,
-    compare_frames,
-    compare_frames_of_signal,
-)
+from kineme.features.similarity import SimilarityMatrix, compare_frames, compare_frames_of_signal
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
 from kineme.web.display import RATE, display_motion
@@ -68,11 +64,7 @@ def make_page_data(
 
 
 def make_recording_message(
-    data: PageData,
-    segmentation: Segmentation,
-    *,
-    name: str,
-    levels: bool = False,
+    data: PageData, segmentation: Segmentation, *, name: str, levels: bool = False
 ) -> Recording:
     """Return the message about a recording and its segments.
 

@@ -6,14 +6,11 @@ import typer
 
 from kineme.cli.help import make_lazy_group
 
+COMMANDS = "show", "search", "name", "merge", "split", "coverage", "query", "export"
 MODULES = {
     "build": "kineme.cli.library.build",
-    "show": "kineme.cli.library.commands",
+    **dict.fromkeys(COMMANDS, "kineme.cli.library.commands"),
     "search": "kineme.cli.library.search",
-    **dict.fromkeys(("name", "merge"), "kineme.cli.library.commands"),
-    "split": "kineme.cli.library.commands",
-    "coverage": "kineme.cli.library.commands",
-    **dict.fromkeys(("query", "export"), "kineme.cli.library.commands"),
 }
 """Module of each command, in the order of the help."""
 

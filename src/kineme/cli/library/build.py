@@ -14,7 +14,7 @@ from kineme.cli.files import Batch
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, parse_path_or_url
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options, are_given
-from kineme.cli.terminal import Failures, format_line, print_skipped, show_progress
+from kineme.cli.terminal import exit_on_error, format_line, print_skipped, show_progress
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 
@@ -80,16 +80,14 @@ def build(
     Recordings in the library are kept, and an interrupted build is resumed. Options for reading and
     segmenting stay as before; if one is changed, all recordings are segmented again.
     """
-    failures = Failures()
     processes = jobs or count_threads()
-    with failures.catch_errors(into):
+    with exit_on_error(into):
         if processes > 1 and scheduler is None and _needs_processes(files or (), into):
             from kineme.library.executors import start_fork_server
 
             start_fork_server()  # worker processes start while modules are imported
         from kineme.library.building import build as build_library
         from kineme.library.planning import change_sources
-        from kineme.library.storage.layout import is_remote
 
         as_before = not are_given(context, OPTIONS)
         sources = change_sources(into, files or (), remove or ())
@@ -107,11 +105,7 @@ def build(
             )
         if not quiet:
             typer.echo(_summarize(built))
-        remote = {path for path in sources if is_remote(path)}
-        local = [path for path in sources if path not in remote]
-        _report_remote_failures(built, remote)
-        _report_and_exit(built, Batch(local, recursive=built.recursive))
-    failures.exit()
+        _report_and_exit(built, sources)
 
 
 def _needs_processes(files: Sequence[Path], into: Path) -> bool:
@@ -122,19 +116,17 @@ def _needs_processes(files: Sequence[Path], into: Path) -> bool:
     return is_new and (len(files) > 1 or any(file.is_dir() for file in files))
 
 
-def _report_remote_failures(built: Built, sources: set[Path]) -> None:
-    """Print what failed at URLs; exit with code 1 if it was named by the user."""
-    failed = {path: reason for path, reason in built.failed.items() if hasattr(path, "protocol")}
-    for path, reason in failed.items():
-        print_skipped(format_line(reason, subject=path))
-    if sources & failed.keys():
-        raise typer.Exit(1)
-
-
-def _report_and_exit(built: Built, batch: Batch) -> None:
+def _report_and_exit(built: Built, sources: Sequence[Path]) -> None:
     """Print what failed; exit with code 1 if it was named by the user."""
     from kineme.errors import KinemeError
+    from kineme.library.storage.layout import is_remote
 
+    failed = {path: reason for path, reason in built.failed.items() if is_remote(path)}
+    for path, reason in failed.items():
+        print_skipped(format_line(reason, subject=path))
+    if failed.keys() & {*sources}:
+        raise typer.Exit(1)
+    batch = Batch([path for path in sources if not is_remote(path)], recursive=built.recursive)
     for path in batch.paths:
         with batch.catch_errors(path):
             if path in built.failed:

@@ -1,8 +1,6 @@
-"""``kineme library show``, ``query``, ``export``, ``name``, ``merge``.
+"""Commands of ``kineme library`` on a library, except ``build`` and ``search``.
 
 Each command opens the library in the argument ``LIB``.
-
-@@clips: ``kineme library split`` and ``coverage``: clips of all recordings, and their variety.
 """
 
 from __future__ import annotations
@@ -18,7 +16,7 @@ import typer
 from kineme._util.checks import format_count
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options import CLIPS, add_options
-from kineme.cli.terminal import Failures, format_line
+from kineme.cli.terminal import exit_on_error, format_line
 
 if TYPE_CHECKING:
     from kineme.library import Library
@@ -27,6 +25,15 @@ MAX_UNSURE = 8
 """Unsure clusters printed."""
 MAX_ROWS = 1000
 """Rows of a query result printed as a table."""
+Json = Annotated[bool, option(OUTPUT, "Print JSON, one object a line.", "--json")]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Run on the workers of this dask scheduler, such as tcp://10.0.0.1:8786.",
+    ),
+]
+Cluster = Annotated[str, typer.Argument(help="Number or name of a cluster.")]
 
 
 def parse_path_or_url(text: str) -> Path:
@@ -48,26 +55,15 @@ Folder = Annotated[
         help="Library that `kineme library build` made, a folder or a URL.",
     ),
 ]
-Json = Annotated[bool, option(OUTPUT, "Print JSON, one object a line.", "--json")]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        metavar="ADDRESS",
-        help="Run on the workers of this dask scheduler, such as tcp://10.0.0.1:8786.",
-    ),
-]
-Cluster = Annotated[str, typer.Argument(help="Number or name of a cluster.")]
 
 
 @contextmanager
 def open_library(folder: Path) -> Iterator[Library]:
     """Open a library; print an error in the block and exit with code 1."""
-    failures = Failures()
-    with failures.catch_errors(folder):
+    with exit_on_error(folder):
         from kineme.library import Library
 
         yield Library(folder)
-    failures.exit()
 
 
 def show(
@@ -235,8 +231,7 @@ def split(
         typer.Argument(help="Names of the recordings in which it is another movement."),
     ] = None,
     output: Annotated[
-        Path | None,
-        option(OUTPUT, "New folder for the best loops as clips.", "--output", "-o"),
+        Path | None, option(OUTPUT, "New folder for the best loops as clips.", "--output", "-o")
     ] = None,
     best: Annotated[int, option(OUTPUT, "Largest number of loops per cluster.", min=1)] = 3,
     per: Annotated[

@@ -46,9 +46,7 @@ def search(
     cluster: Annotated[
         str | None,
         option(
-            QUERY,
-            "Search for typical movements of a cluster, by number or name.",
-            metavar="NAME",
+            QUERY, "Search for typical movements of a cluster, by number or name.", metavar="NAME"
         ),
     ] = None,
     unlike: Annotated[
@@ -70,9 +68,7 @@ def search(
     threshold: Annotated[
         float | None,
         option(
-            OUTPUT,
-            "Largest distance, 0 to 2; lower finds fewer, better hits.",
-            show_default="0.85",
+            OUTPUT, "Largest distance, 0 to 2; lower finds fewer, better hits.", show_default="0.85"
         ),
     ] = None,
     top: Annotated[int, option(OUTPUT, "Largest number of hits.", min=1)] = 50,
@@ -90,9 +86,7 @@ def search(
     export: Annotated[
         Path | None,
         option(
-            OUTPUT,
-            "New folder for the hits as clips, listed in manifest.csv.",
-            metavar="FOLDER",
+            OUTPUT, "New folder for the hits as clips, listed in manifest.csv.", metavar="FOLDER"
         ),
     ] = None,
     scheduler: Scheduler = None,

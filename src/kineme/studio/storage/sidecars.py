@@ -1,4 +1,9 @@
-"""Settings that users made for recordings, in small files in the folder ``.kineme`` beside them.
+"""Recordings that can be opened, and the settings that users made for them.
+
+If a file has several people, each one is a recording with its own id, table, history and downloads.
+They share the file, its reading options and its video.
+
+Settings are small files in the folder ``.kineme`` beside the recordings:
 
 - ``walk.bvh.reading.json``: reading options of the recording, which precede those of the studio,
   and the people in it if there are several. The person in ``person`` keeps the table named after
@@ -7,11 +12,6 @@
 - ``labels.json``: the labels that the recordings of the folder share, on the keys 1 to 9.
 
 A damaged file is ignored and kept, and the user is told.
-
-@@listed_recording: A recording that can be opened: a file, or one person in it.
-
-If a file has several people, each one is a recording with its own id, table, history and downloads.
-They share the file, its reading options and its video.
 """
 
 from __future__ import annotations
@@ -36,25 +36,18 @@ from kineme.web.display import DrawnPicture, describe_video
 from kineme.web.messages import Video
 from kineme.web.requests import LARGEST
 
-
-def make_file_id(path: Path) -> str:
-    """Return the id of a file, which depends on its path only."""
-    return _compute_digest(str(path.absolute()))
+FOLDER = ".kineme"
+LABELS = "labels.json"
+READING = "reading"
+Content = TypeVar("Content")
 
 
 @dataclass(frozen=True)
 class ListedRecording:
-    """A recording that can be opened.
+    """A recording that can be opened: a file, or one ``person`` of a file with several.
 
-    Parameters
-    ----------
-    path : Path
-        Its file.
-    person : str
-        The person of a file with several; empty for other files.
-    is_first : bool
-        Whether this person was opened before the people became separate recordings: it keeps the
-        id and the table of the file.
+    ``is_first`` tells whether this person was opened before the people became separate recordings:
+    it keeps the id and the table of the file.
     """
 
     path: Path
@@ -64,9 +57,7 @@ class ListedRecording:
     @property
     def id(self) -> str:
         """Id that pages use."""
-        if self.is_first or not self.person:
-            return make_file_id(self.path)
-        return _compute_digest(str(self.path.absolute()), self.person)
+        return make_file_id(self.path, "" if self.is_first else self.person)
 
     @property
     def name(self) -> str:
@@ -85,15 +76,11 @@ class ListedRecording:
         return self.path if self.is_first else self.person_path
 
 
-def _compute_digest(path: str, person: str = "") -> str:
+def make_file_id(path: Path, person: str = "") -> str:
+    """Return the id of a file, or of a person in it; it depends on path and person only."""
+    name = str(path.absolute()).encode(errors="surrogateescape")
     suffix = f"\0{person}".encode(errors="backslashreplace") if person else b""
-    return blake2b(path.encode(errors="surrogateescape") + suffix, digest_size=9).hexdigest()
-
-
-FOLDER = ".kineme"
-LABELS = "labels.json"
-READING = "reading"
-Content = TypeVar("Content")
+    return blake2b(name + suffix, digest_size=9).hexdigest()
 
 
 class _Offset(Struct):

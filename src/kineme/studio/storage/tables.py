@@ -1,23 +1,21 @@
-"""File in which a recording's table is saved; detects changes by other programs.
+"""File in which a recording's table is saved, and the history of its edits.
 
 ``walk.bvh`` has ``walk.segments.json`` beside it. If that file belongs to another recording
 (``walk.c3d``), to an older recording of that name, or is not a table, it is left alone, and
 ``walk.bvh.segments.json`` or a numbered name is used. With several people, the name includes the
-person: ``walk_anna.segments.json``.
+person: ``walk_anna.segments.json``. Changes by other programs are detected.
 
-@@journal: Edit history of a table on the disk: undo, redo, and every replaced table.
-
-It is a hidden folder beside the table, ``.kineme/walk.segments/`` for ``walk.segments.json``:
+The history has undo, redo, and every replaced table. It is a hidden folder beside the table,
+``.kineme/walk.segments/`` for ``walk.segments.json``:
 
 - ``history.json``: the numbers of the present table, of those that undo and redo restore, and of
   replaced tables; for each the time, the edit that made it, and its digest;
 - ``1.json``, ``2.json``, …: the tables, in the format that `kineme.read_segments` reads.
 
-A table is written before the history that names it, and the history before the user's table
-(`kineme.studio.storage.tables`). So an acknowledged edit is in all three. If the server was killed
-during an edit, the user's table is still the old one, and the edit is dropped when the history is
-read again. Undo goes back `kineme.segments.history.LONGEST` steps; the last `MAX_VERSIONS` replaced
-tables are kept.
+A table is written before the history that names it, and the history before the user's table. So an
+acknowledged edit is in all three. If the server was killed during an edit, the user's table is
+still the old one, and the edit is dropped when the history is read again. Undo goes back
+`kineme.segments.history.LONGEST` steps; the last `MAX_VERSIONS` replaced tables are kept.
 """
 
 from __future__ import annotations
@@ -46,9 +44,12 @@ from kineme.studio.storage.sidecars import (
 )
 from kineme.web.requests import Edit
 
-
-class ChangedOnDiskError(Exception):
-    """Raised if the file has changed since it was last read or written here."""
+MAX_VERSIONS = 200
+"""Replaced tables that are kept."""
+MAX_NAMES = 200
+"""Names of edits that are remembered, so that an edit sent twice is applied once."""
+SCHEMA = "kineme.history/1"
+HISTORY = "history.json"
 
 
 class TableFile:
@@ -90,6 +91,10 @@ class TableFile:
         self._stamp, self._digest = stamp, sha256(content).digest()
 
 
+class ChangedOnDiskError(Exception):
+    """Raised if the file has changed since it was last read or written here."""
+
+
 def encode_table(table: Segmentation) -> bytes:
     """Return the file content of a table."""
     return json_table.dumps(table).encode()
@@ -99,12 +104,11 @@ def find_saved_table(
     listed: ListedRecording,
     fits: Callable[[Segmentation], bool],
     others: set[Path],
-    *,
-    of_another: Callable[[Segmentation], bool] = lambda _: False,
+    belongs_to_other: Callable[[Segmentation], bool],
 ) -> tuple[TableFile, Segmentation | None, list[str]]:
     """Return the table file of a recording, its table if it is saved, and notes on skipped files.
 
-    ``fits`` tells whether a table is of this recording. ``of_another`` tells whether it is of
+    ``fits`` tells whether a table is of this recording, ``belongs_to_other`` whether it is of
     another take or person of its file, which is skipped silently. ``others`` are the table files of
     other recordings. WriteError if no name is left.
     """
@@ -123,7 +127,7 @@ def find_saved_table(
             continue
         if fits(table):
             return file, table, notes
-        if not of_another(table):
+        if not belongs_to_other(table):
             notes.append(f"{path.name} was not used: it belongs to another recording")
     raise WriteError(listed.path, "cannot store its table: all its file names are in use")
 
@@ -161,14 +165,6 @@ def _compute_digest(path: Path) -> bytes | None:
         return sha256(path.read_bytes()).digest()
     except (OSError, ReadError):
         return None
-
-
-MAX_VERSIONS = 200
-"""Replaced tables that are kept."""
-MAX_NAMES = 200
-"""Names of edits that are remembered, so that an edit sent twice is applied once."""
-SCHEMA = "kineme.history/1"
-HISTORY = "history.json"
 
 
 @dataclass(frozen=True)
@@ -296,31 +292,31 @@ class Journal:
         change = self._unsaved[number] = Change(record, table, content)
         return change
 
-    def make_undo(self) -> Change:
-        """Return the history one step back; ParameterError without a step to undo."""
-        return self._move_to(self._record.history.undone())
-
-    def make_redo(self) -> Change:
-        """Return the history one step forward; ParameterError without a step to redo."""
-        return self._move_to(self._record.history.redone())
+    def undo_or_redo(self, *, undo: bool) -> Change:
+        """Return the history one step back or forward; ParameterError without such a step."""
+        history = self._record.history.undone() if undo else self._record.history.redone()
+        content, table = self._read_table(history.present)
+        return Change(replace(self._record, history=history), table, content)
 
     def write(
-        self,
-        change: Change,
-        save: Callable[[bytes], None],
-        *,
-        revision: int,
-        name: str = "",
+        self, change: Change, save: Callable[[bytes], None], *, revision: int, name: str
     ) -> None:
         """Write a change to the disk, then call ``save`` with the content of its table.
 
         If ``save`` raises, the change has not been made. Otherwise the table has this revision, and
         the edit is known by its name.
         """
-        names = (*self._record.names, name)[-MAX_NAMES:]
-        record = prune_steps(replace(change.record, revision=revision, names=names))
+        needed, steps = find_needed_tables(change.record), change.record.steps
+        record = replace(
+            change.record,
+            revision=revision,
+            names=(*self._record.names, name)[-MAX_NAMES:],
+            steps={number: step for number, step in steps.items() if number in needed},
+        )
         try:
-            self._write(record)
+            for number in self._unsaved.keys() & record.steps.keys():
+                write_file(self._path(number), self._unsaved[number].content)
+            write_record(self.folder, record)
             save(change.content)
         finally:
             if not self.folder.parent.is_symlink():
@@ -333,15 +329,6 @@ class Journal:
         # Delete only after the new history is on the disk.
         for number in unused:
             delete_file(self._path(number))
-
-    def _write(self, record: Record) -> None:
-        for number in self._unsaved.keys() & record.steps.keys():
-            write_file(self._path(number), self._unsaved[number].content)
-        write_record(self.folder, record)
-
-    def _move_to(self, history: History[int]) -> Change:
-        content, table = self._read_table(history.present)
-        return Change(replace(self._record, history=history), table, content)
 
     def _read_table(self, number: int) -> tuple[bytes, Segmentation]:
         """Return content and table of a file; ReadError if it is missing or damaged."""
@@ -373,22 +360,14 @@ def read_record(folder: Path) -> tuple[Record, list[str]]:
     complete = record.schema == SCHEMA and find_needed_tables(record) <= record.steps.keys()
     if complete or record == Record():
         return record, notes
-    return Record(revision=record.revision), [
-        *notes,
-        f"{HISTORY} was ignored: it is incomplete",
-    ]
+    notes = [*notes, f"{HISTORY} was ignored: it is incomplete"]
+    return Record(revision=record.revision), notes
 
 
 def write_record(folder: Path, record: Record) -> None:
     """Write the history to the disk, completely or not at all."""
     content = msgspec.json.format(msgspec.json.encode(record), indent=1)
     write_file(folder / HISTORY, content)
-
-
-def prune_steps(record: Record) -> Record:
-    """Return the record without steps that are no longer needed."""
-    needed = find_needed_tables(record)
-    return replace(record, steps={n: step for n, step in record.steps.items() if n in needed})
 
 
 def find_needed_tables(record: Record) -> set[int]:

@@ -24,7 +24,7 @@ from starlette.routing import Route
 
 from kineme._util.files import atomic_write
 from kineme.segments.table import COLUMNS, Kind, Level
-from kineme.studio.library_routes import LibraryApi
+from kineme.studio.library import LibraryApi
 from kineme.studio.routes import Api
 from kineme.web import annotator_messages, library_messages, live_messages, messages, requests
 
