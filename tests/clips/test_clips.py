@@ -19,6 +19,7 @@ from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats.channels.writing import write_signals
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
+from segmentations import make_activities
 
 
 def largest_step(motion: Motion) -> float:
@@ -179,14 +180,7 @@ def test_the_shortest_clips_loop(motion, n) -> None:
 
 def test_names_are_safe_in_every_file_system(tmp_path, motion) -> None:
     label = "über/..\\ <a>:*?|" + "ß" * 300
-    columns = {
-        "level": ["activity"],
-        "kind": ["activity"],
-        "start_frame": [0],
-        "stop_frame": [motion.n_frames],
-        "label": [label],
-    }
-    one = kineme.Segmentation.from_columns(columns, n_frames=motion.n_frames, fps=motion.fps)
+    one = make_activities(motion.n_frames, fps=motion.fps, label=[label])
     (path,) = split(motion, one, tmp_path / "clips")
     assert path.name.startswith("exercises_0000_über_____")
     assert len(os.fsencode(path.name)) < 255
@@ -225,14 +219,7 @@ def test_an_empty_folder_is_filled(tmp_path, motion, truth) -> None:
 def test_clips_of_arrays_hold_their_values_and_gaps(tmp_path) -> None:
     values = np.random.default_rng(0).normal(size=(60, 2)) * 1e-7
     signals = kineme.Signals(values, 30, ("a", "b"), gaps=[(40, 45)])
-    columns = {
-        "level": ["activity"] * 2,
-        "kind": ["activity"] * 2,
-        "start_frame": [0, 30],
-        "stop_frame": [30, 60],
-    }
-    halves = kineme.Segmentation.from_columns(columns, n_frames=60, fps=30)
-    paths = split(signals, halves, tmp_path / "clips")
+    paths = split(signals, make_activities(30, 60), tmp_path / "clips")
     back = pd.concat([pd.read_csv(path) for path in paths])
     assert back.columns.tolist() == ["time", "a", "b"]
     values[40:45] = np.nan

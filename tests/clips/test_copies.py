@@ -16,6 +16,7 @@ from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
+from segmentations import make_activities
 
 pytestmark = pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
 CHARACTERS = [("Xbot.glb", "walk"), ("RobotExpressive.glb", "Walking")]
@@ -23,14 +24,7 @@ CHARACTERS = [("Xbot.glb", "walk"), ("RobotExpressive.glb", "Walking")]
 
 def halves(motion: Motion) -> Segmentation:
     n = motion.n_frames
-    columns: dict[str, Any] = {
-        "start_frame": [0, n // 2],
-        "stop_frame": [n // 2, n],
-        "level": ["activity"] * 2,
-        "kind": ["activity"] * 2,
-        "cluster": [0, 1],
-    }
-    return Segmentation.from_columns(columns, n_frames=n, fps=motion.fps)
+    return make_activities(n // 2, n, fps=motion.fps, cluster=[0, 1])
 
 
 def glb(path: Path) -> tuple[dict[str, Any], bytes]:

@@ -27,6 +27,7 @@ from kineme.clips.split import split
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
+from segmentations import make_activities
 
 SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
 
@@ -237,8 +238,7 @@ def test_odd_numbers_of_loops_are_refused(tmp_path: Path, motion, truth, best) -
 
 def test_signals_have_no_place(tmp_path: Path) -> None:
     signals = kineme.Signals(np.zeros((60, 2)), 30)
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [60]}
-    one = kineme.Segmentation.from_columns(columns, n_frames=60, fps=30)
+    one = make_activities(60)
     with pytest.raises(ParameterError, match="signals have no pose: leave out root_motion"):
         split(signals, one, tmp_path / "clips", root_motion="in-place")
     split(signals, one, tmp_path / "clips")

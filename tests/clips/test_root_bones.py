@@ -11,15 +11,10 @@ import kineme
 from kineme.clips.loops import find_carry
 from kineme.clips.root_motion import measure_root_motion, remove_root_motion
 from kineme.clips.shaping import find_planted_feet, measure_loops
-from kineme.datasets import bundled_recording, bundled_truth
+from kineme.datasets import bundled_truth
 from kineme.features import measure_body_size
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.operations import cut
-
-
-@pytest.fixture(scope="module")
-def motion() -> Motion:
-    return kineme.read(bundled_recording())
 
 
 @pytest.fixture(scope="module", params=[1, 2], ids=["one bone", "two bones"])

@@ -44,6 +44,14 @@ def one_activity(n_frames: int, fps: float = 30.0, cluster: int = -1) -> Segment
     return from_rows([("activity", "activity", 0, n_frames, cluster, "")], fps=fps)
 
 
+def make_activities(*stops: int, fps: float = 30.0, **columns: Any) -> Segmentation:
+    """Activities one after the other that stop at these frames; other columns by name."""
+    n, provenance = len(stops), columns.pop("provenance", None)
+    made = {"level": ["activity"] * n, "kind": ["activity"] * n, "start_frame": [0, *stops[:-1]]}
+    columns = {**made, "stop_frame": list(stops), **columns}
+    return Segmentation.from_columns(columns, n_frames=stops[-1], fps=fps, provenance=provenance)
+
+
 @st.composite
 def segmentations(draw: st.DrawFn) -> Segmentation:
     """Random cuts of both levels, clusters, labels, confidences, provenance."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.datasets import bundled_recording
+from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError, WriteError
 from kineme.interop.rerun_recording import write_rerun
 from kineme.labels import read_segments
@@ -33,10 +33,8 @@ def columns(path, entity: str) -> dict[str, list]:
 
 
 def test_skeleton_and_lanes_come_back(tmp_path) -> None:
-    motion, truth = (
-        kineme.read(bundled_recording()),
-        read_segments(bundled_recording().with_suffix(".json")),
-    )
+    motion = kineme.read(bundled_recording())
+    truth = read_segments(bundled_truth())
     path = tmp_path / "take.rrd"
     write_rerun(motion, truth, path)
     joints = columns(path, "/body/joints")
@@ -66,10 +64,8 @@ def test_a_gap_has_no_skeleton(tmp_path) -> None:
 
 
 def test_what_does_not_fit_leaves_nothing(tmp_path) -> None:
-    motion, truth = (
-        kineme.read(bundled_recording()),
-        read_segments(bundled_recording().with_suffix(".json")),
-    )
+    motion = kineme.read(bundled_recording())
+    truth = read_segments(bundled_truth())
     with pytest.raises(ParameterError, match="the motion has 60"):
         write_rerun(cut(motion, 0, 60), truth, tmp_path / "take.rrd")
     with pytest.raises(WriteError, match="does not exist"):

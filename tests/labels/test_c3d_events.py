@@ -166,10 +166,7 @@ def test_a_copy_has_the_events_and_all_else_of_its_source(data_dir, tmp_path, na
         assert start in (0, 1 + new.start // BLOCK)  # 0: the file has none
 
 
-@given(
-    st.lists(st.tuples(st.floats(0, 1.99), st.sampled_from(NAMES)), max_size=60),
-    st.booleans(),
-)
+@given(st.lists(st.tuples(st.floats(0, 1.99), st.sampled_from(NAMES)), max_size=60), st.booleans())
 @settings(max_examples=25)
 def test_writing_twice_adds_nothing(tmp_path_factory, events, marked: bool) -> None:
     folder = tmp_path_factory.getbasetemp()

@@ -17,7 +17,7 @@ from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.labels.collections import convert_to_frames, find_labels
 from kineme.labels.spans import Labels, Span, convert_clock_times
 from kineme.recordings.times import Clock
-from kineme.segments.segmentation import Segmentation
+from segmentations import make_activities
 
 FPS = 30.0
 PAUSE_S, BEGUN = 20_000.0, 1_769_851_800.25  # 2026-01-31T09:30:00.25Z
@@ -77,11 +77,7 @@ ROWS = f"walk,0,20,a\nwalk,20,40,b\nwalk,{AFTER},{AFTER + 10},c\nwalk,{AFTER + 1
 
 def test_labels_counted_from_the_first_frame_are_known_by_what_they_meet(tmp_path) -> None:
     path = recording(tmp_path / "walk.csv", times_with_a_pause() + BEGUN, "timestamp")
-    found = truth(
-        tmp_path,
-        ROWS,
-        path,
-    )
+    found = truth(tmp_path, ROWS, path)
     assert placed(found) == EVERYTHING
     assert any("relative to the first frame" in note for note in found.provenance["notes"])
 
@@ -182,8 +178,7 @@ def test_a_clock_that_is_none_is_refused(said) -> None:
 
 
 def test_a_table_at_another_rate_is_refused(tmp_path: Path) -> None:
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [90]}
-    table = Segmentation.from_columns(columns, n_frames=90, fps=50)
+    table = make_activities(90, fps=50)
     kineme.write_segments(table, tmp_path / "walk.json")
     (source,) = find_labels([Path("walk.bvh")], tmp_path).values()
     assert source.of(n_frames=90, fps=50.001) == table
@@ -241,5 +236,5 @@ def test_a_count_is_of_a_label_that_is_in_one_part() -> None:
     ]
     found = convert_to_frames(Labels(spans, "frames"), 10, n_frames=12).spans
     assert [(s.text, s.start, s.stop, s.repetitions) for s in found] == [
-        *(("walk", 0, 4, None), ("walk", 6, 8, None), ("wave", 4, 6, 2), ("run", 8, 12, None)),
+        *(("walk", 0, 4, None), ("walk", 6, 8, None), ("wave", 4, 6, 2), ("run", 8, 12, None))
     ]

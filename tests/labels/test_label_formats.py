@@ -18,7 +18,7 @@ from kineme.errors import KinemeWarning, ReadError, WriteError
 from kineme.labels import label_formats, read_segments, write_segments
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
-from segmentations import segmentations
+from segmentations import make_activities, segmentations
 
 FORMATS = label_formats()
 LABEL_FORMATS = [n for n, known in FORMATS.items() if known.holds != "all" and known.write]
@@ -150,14 +150,8 @@ def test_both_levels_come_back_together(folder, name, result) -> None:
 def test_frames_and_seconds_are_right_at_any_rate(tmp_path, name, fps) -> None:
     n = 20_000
     cuts = [0, *range(1, 40), *range(40, n, 997), n]
-    columns = {
-        "level": ["activity"] * (len(cuts) - 1),
-        "kind": ["activity"] * (len(cuts) - 1),
-        "start_frame": cuts[:-1],
-        "stop_frame": cuts[1:],
-        "label": [f"step {i}" for i in range(len(cuts) - 1)],
-    }
-    result = Segmentation.from_columns(columns, n_frames=n, fps=fps)
+    labels = [f"step {i}" for i in range(len(cuts) - 1)]
+    result = make_activities(*cuts[1:], fps=fps, label=labels)
     back = there_and_back(result, place(tmp_path, name), name)
     assert back.table.start_frame.tolist() == cuts[:-1]
     assert back.table.stop_s.tolist() == pytest.approx([cut / fps for cut in cuts[1:]], rel=1e-13)
@@ -173,19 +167,12 @@ def test_blanks_umlauts_quotes_and_html_survive(tmp_path, name) -> None:
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
 def test_what_has_no_label_goes_by_its_cluster(tmp_path, name) -> None:
-    columns = {
-        "level": ["activity"] * 4,
-        "kind": ["activity", "transition", "activity", "activity"],
-        "start_frame": [0, 5, 10, 20],
-        "stop_frame": [5, 10, 20, 30],
-        "cluster": [12, -1, -1, 3],
-        "label": ["", "", "", "walk"],
-    }
-    result = Segmentation.from_columns(columns, n_frames=30, fps=30.0)
+    kinds, labels = ["activity", "transition", "activity", "activity"], ["", "", "", "walk"]
+    result = make_activities(5, 10, 20, 30, kind=kinds, cluster=[12, -1, -1, 3], label=labels)
     back = there_and_back(result, place(tmp_path, name), name)
-    assert back.activities.kind.tolist() == ["activity", "transition", "activity", "activity"]
+    assert back.activities.kind.tolist() == kinds
     assert back.activities.cluster.tolist() == [12, -1, -1, 3 if name == "bids" else -1]
-    assert back.activities.label.tolist() == ["", "", "", "walk"]
+    assert back.activities.label.tolist() == labels
 
 
 # Against the programs and packages these files are for.
@@ -425,8 +412,7 @@ def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None
 
 def test_elan_names_the_video_of_the_recording(tmp_path: Path) -> None:
     source = {"input": {"path": str(tmp_path / "walk one.bvh")}}
-    columns = {"start_frame": [0], "stop_frame": [30], "level": ["activity"], "kind": ["activity"]}
-    found = Segmentation.from_columns(columns, n_frames=30, fps=30, provenance=source)
+    found = make_activities(30, provenance=source)
 
     def media() -> list[dict[str, str]]:
         write_segments(found, tmp_path / "walk.eaf")

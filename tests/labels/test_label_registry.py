@@ -19,19 +19,9 @@ from kineme.labels import (
     registry,
     write_segments,
 )
-from kineme.segments.segmentation import Segmentation
+from segmentations import make_activities
 
-SEGMENTS = Segmentation.from_columns(
-    {
-        "level": ["activity", "activity"],
-        "kind": ["activity", "activity"],
-        "start_frame": [0, 40],
-        "stop_frame": [40, 60],
-        "label": ["walk", "jump"],
-    },
-    n_frames=60,
-    fps=10,
-)
+SEGMENTS = make_activities(40, 60, fps=10, label=["walk", "jump"])
 WRITERS = [name for name, known in label_formats().items() if known.write]
 
 

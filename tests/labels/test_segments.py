@@ -24,7 +24,7 @@ from kineme.labels.event_tables import name_sidecar
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
-from segmentations import segmentations
+from segmentations import make_activities, segmentations
 
 SUFFIXES = (".csv", ".json", ".parquet")
 
@@ -74,9 +74,8 @@ def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -
 
 @pytest.mark.parametrize("fps", [25.0, 29.97, 30000 / 1001, 59.94, 119.88, 120.0])
 def test_a_csv_alone_gives_the_exact_frame_rate(tmp_path: Path, fps: float) -> None:
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [77]}
     path = tmp_path / "cuts.csv"
-    write_segments(Segmentation.from_columns(columns, n_frames=77, fps=fps), path)
+    write_segments(make_activities(77, fps=fps), path)
     name_provenance(path).unlink()
     assert read_segments(path).table.stop_s[0] == 77 / fps
     assert read_segments(path).fps == pytest.approx(fps, rel=1e-15)
@@ -107,13 +106,7 @@ def test_a_csv_that_went_through_pandas_is_still_read(tmp_path: Path, small: Seg
 @pytest.mark.parametrize("name", ["boris", "bids", "clips"])
 @pytest.mark.parametrize("label", ["=HYPERLINK(1)", "'=x"])
 def test_no_table_of_labels_holds_a_formula(tmp_path: Path, name: str, label: str) -> None:
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
-    table = Segmentation.from_columns(
-        {**columns, "label": [label]},
-        n_frames=9,
-        fps=30,
-        provenance={"input": {"path": "=cmd|x.bvh"}},
-    )
+    table = make_activities(9, label=[label], provenance={"input": {"path": "=cmd|x.bvh"}})
     path = tmp_path / f"labels{'.tsv' if name == 'bids' else '.csv'}"
     write_segments(table, path, format=name)
     mark = "\t" if name == "bids" else ","
@@ -147,8 +140,7 @@ def test_json_follows_its_documented_schema(tmp_path: Path, small: Segmentation)
 
 @given(st.from_regex(r"'{0,2}[-=+@\w]{0,3}", fullmatch=True))
 def test_no_label_is_a_formula_and_each_is_read_again(folder: Path, label: str) -> None:
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
-    table = Segmentation.from_columns({**columns, "label": [label]}, n_frames=9, fps=30)
+    table = make_activities(9, label=[label])
     write_segments(table, folder / "formula.csv")
     cell = (folder / "formula.csv").read_text(encoding="utf-8").splitlines()[1].split(",")[8]
     assert not cell.startswith(("=", "+", "-", "@"))
@@ -340,14 +332,7 @@ PAIRS: list[tuple[str, str, Beside]] = [
 def table(folder: Path, name: str, form: str, fps: float, label: str) -> Path:
     folder.mkdir()
     path = folder / name
-    columns = {
-        "level": ["activity", "activity"],
-        "kind": ["activity", "activity"],
-        "start_frame": [0, 60],
-        "stop_frame": [60, 120],
-        "label": [label, "squat"],
-    }
-    segments = kineme.Segmentation.from_columns(columns, n_frames=120, fps=fps)
+    segments = make_activities(60, 120, fps=fps, label=[label, "squat"])
     kineme.write_segments(segments, path, format=form)
     return path
 

@@ -11,12 +11,7 @@ import naive
 from kineme.library import Example, Library, finding
 from kineme.library._kernels import find_smallest_distances
 from kineme.library.storage import tables as storage
-from kineme.library.windows import (
-    FINER,
-    LENGTHS,
-    describe_at_speeds,
-    describe_windows,
-)
+from kineme.library.windows import FINER, LENGTHS, describe_at_speeds, describe_windows
 
 
 def test_what_is_searched_first_holds_what_an_exact_search_finds(

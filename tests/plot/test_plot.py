@@ -34,28 +34,26 @@ def turning(frames: int, fps: float = 30.0) -> Signals:
     return Signals(np.column_stack([np.cos(angle), np.sin(angle)]), fps)
 
 
-def whole(n_frames: int) -> Segmentation:
+def with_primitives(stops: list[int], clusters: list[int]) -> Segmentation:
+    """One activity of primitives that stop at these frames."""
+    n = len(stops)
     columns = {
-        "level": ["activity", "primitive"],
-        "kind": ["activity"] * 2,
-        "start_frame": [0, 0],
-        "stop_frame": [n_frames] * 2,
-        "cluster": [0, 0],
+        "level": ["activity"] + ["primitive"] * n,
+        "kind": ["activity"] * (n + 1),
+        "start_frame": [0, 0, *stops[:-1]],
+        "stop_frame": [stops[-1], *stops],
+        "cluster": [-1, *clusters],
     }
-    return Segmentation.from_columns(columns, n_frames=n_frames, fps=30.0)
+    return Segmentation.from_columns(columns, n_frames=stops[-1], fps=30.0)
+
+
+def whole(n_frames: int) -> Segmentation:
+    return with_primitives([n_frames], [0])
 
 
 def test_an_hour_takes_little_memory(folder: Path) -> None:
     frames = 108_000
-    cuts = np.arange(0, frames, 40)
-    columns_of = {
-        "level": ["activity"] + ["primitive"] * len(cuts),
-        "kind": ["activity"] * (len(cuts) + 1),
-        "start_frame": [0, *cuts],
-        "stop_frame": [frames, *cuts[1:], frames],
-        "cluster": [0, *(cuts // 40 % 300)],
-    }
-    result = Segmentation.from_columns(columns_of, n_frames=frames, fps=30.0)
+    result = with_primitives([*range(40, frames + 1, 40)], [i % 300 for i in range(frames // 40)])
     recording = turning(frames)
     tracemalloc.start()
     plot_segmentation(result, recording, folder / "hour.png")
@@ -100,14 +98,7 @@ def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
 
 def test_a_legend_of_many_clusters_says_how_many_are_left_out() -> None:
     n = 50
-    columns = {
-        "level": ["activity"] + ["primitive"] * n,
-        "kind": ["activity"] * (n + 1),
-        "start_frame": [0, *range(n)],
-        "stop_frame": [n, *range(1, n + 1)],
-        "cluster": [-1, *range(n - 1), 17],
-    }
-    result = Segmentation.from_columns(columns, n_frames=n, fps=30.0)
+    result = with_primitives([*range(1, n + 1)], [*range(n - 1), 17])
     axes = Figure().add_subplot()
     plot_matrix(result, turning(n), ax=axes)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]

@@ -15,21 +15,15 @@ from kineme.plot.timeline import match_clusters
 from kineme.segments.display import get_cluster_color
 from kineme.segments.editing import name_segment
 from kineme.segments.segmentation import Segmentation
-from segmentations import segmentations
+from segmentations import make_activities, segmentations
 
 
 def result(
     cuts: list[int], clusters: list[int], fps: float = 10.0, **provenance: object
 ) -> Segmentation:
-    columns = {
-        "level": ["activity"] * len(clusters),
-        "kind": ["activity" if cluster >= 0 else "transition" for cluster in clusters],
-        "start_frame": [0, *cuts[:-1]],
-        "stop_frame": cuts,
-        "cluster": clusters,
-        "label": ["walk"] * len(clusters),
-    }
-    return Segmentation.from_columns(columns, n_frames=cuts[-1], fps=fps, provenance=provenance)
+    kinds = ["activity" if cluster >= 0 else "transition" for cluster in clusters]
+    columns = {"kind": kinds, "cluster": clusters, "label": ["walk"] * len(clusters)}
+    return make_activities(*cuts, fps=fps, **columns, provenance=provenance)
 
 
 def rows_of(axes: object) -> list[list[tuple[float, float, str]]]:

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from kineme.datasets import Action, synthesize
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
 from kineme.recordings import Motion
-from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase
+from segmentations import make_activities
 
 MADE = synthesize([Action("walk", 3), Action("kick", 2), Action("walk", 2)], fps=60, seed=1)
 BASE = KnowledgeBase.from_recording(MADE.motion, MADE.truth)
@@ -132,7 +132,5 @@ def test_segments_without_labels_or_of_another_recording_teach_nothing() -> None
     blank = replace(MADE.truth, table=replace(table, label=np.full(len(table), "")))
     with pytest.raises(ParameterError, match="nothing to learn"):
         KnowledgeBase.from_recording(MADE.motion, blank)
-    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
-    other = Segmentation.from_columns(columns, n_frames=9, fps=60.0)
     with pytest.raises(ParameterError, match="have 9 frames"):
-        KnowledgeBase.from_recording(MADE.motion, other)
+        KnowledgeBase.from_recording(MADE.motion, make_activities(9))

@@ -15,6 +15,7 @@ from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
 from kineme.transfer import KnowledgeBase, name_primitives, transfer_features, transfer_labels
 from kineme_reproduction.trials import load_trials
+from segmentations import make_activities
 
 TAUGHT = synthesize(
     [Action("walk", 3), Action("kick", 3), Action("walk", 2), Action("jump", 3)], fps=60, seed=1
@@ -110,16 +111,15 @@ def test_activities_are_labelled_where_there_are_no_primitives() -> None:
     assert activities == ["jump", "walk", "", "kick"]
 
 
+def one_transition(motion: kineme.Motion) -> Segmentation:
+    """Make the segmentation of a recording without activities."""
+    return make_activities(motion.n_frames, fps=motion.fps, kind=["transition"])
+
+
 def test_a_recording_too_short_for_activities_is_searched() -> None:
     kick = next(row for row in ASKED.truth.primitives if row.label == "kick")
     short = ASKED.motion[max(0, kick.start_frame - 12) : kick.stop_frame + 12]
-    columns = {
-        "level": ["activity"],
-        "kind": ["transition"],
-        "start_frame": [0],
-        "stop_frame": [short.n_frames],
-    }
-    nothing = Segmentation.from_columns(columns, n_frames=short.n_frames, fps=short.fps)
+    nothing = one_transition(short)
     result = transfer_labels(nothing, transfer_features(short), KNOWLEDGE)
     (found,) = [row for row in result.primitives if row.kind == "primitive"]
     assert found.label == "kick"
@@ -133,13 +133,7 @@ def test_a_recording_too_short_for_activities_is_searched() -> None:
 
 def test_touching_matches_are_primitives_of_one_activity() -> None:
     walk = synthesize([Action("walk", 3)], fps=60, seed=9)
-    columns = {
-        "level": ["activity"],
-        "kind": ["transition"],
-        "start_frame": [0],
-        "stop_frame": [walk.motion.n_frames],
-    }
-    nothing = Segmentation.from_columns(columns, n_frames=walk.motion.n_frames, fps=60)
+    nothing = one_transition(walk.motion)
     result = transfer_labels(nothing, transfer_features(walk.motion), KNOWLEDGE)
     assert [row.label for row in result.activities if row.kind == "activity"] == ["walk"]
     assert sum(row.label == "walk" for row in result.primitives) >= 2
@@ -162,14 +156,8 @@ def test_features_of_another_recording_are_refused() -> None:
 
 
 def test_primitives_are_called_as_most_of_their_frames() -> None:
-    columns = {
-        "level": ["activity", "activity", "activity"],
-        "kind": ["activity", "transition", "activity"],
-        "start_frame": [0, 50, 60],
-        "stop_frame": [50, 60, 100],
-        "label": ["a", "", "b"],
-    }
-    person = Segmentation.from_columns(columns, n_frames=100, fps=50)
+    kinds = ["activity", "transition", "activity"]
+    person = make_activities(50, 60, 100, fps=50, kind=kinds, label=["a", "", "b"])
     cuts = {
         "level": ["activity", *["primitive"] * 4],
         "kind": ["activity"] * 5,
@@ -186,16 +174,8 @@ def test_precision_on_subject_86(data_dir: Path) -> None:
     bases, named = [], []
     for trial in (taught, asked):
         marks = trial.truth.at_means()
-        borders = np.append(marks.borders[:-1] * 4, trial.motion.n_frames)
-        n = len(marks.labels)
-        columns = {
-            "level": ["activity"] * n,
-            "kind": ["activity"] * n,
-            "start_frame": borders[:-1],
-            "stop_frame": borders[1:],
-            "label": list(marks.labels),
-        }
-        person = Segmentation.from_columns(columns, n_frames=trial.motion.n_frames, fps=120)
+        stops = *(marks.borders[1:-1] * 4).tolist(), trial.motion.n_frames
+        person = make_activities(*stops, fps=120, label=list(marks.labels))
         named.append(name_primitives(kineme.segment(trial.motion), person))
         bases.append(KnowledgeBase.from_recording(trial.motion, named[-1]))
     features = transfer_features(asked.motion)

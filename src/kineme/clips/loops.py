@@ -1,4 +1,4 @@
-"""Make clips loop seamlessly by blending the end into the beginning.
+"""Make clips loop seamlessly by blending the end into the beginning, and rank possible loops.
 
 When a loop repeats, the first frame follows the last one, moved on and turned. A `Carry` describes
 this motion: a turn about the vertical and a shift on the floor, as in a player with root motion.
@@ -18,9 +18,7 @@ The seam lies half a frame after the last frame, which is half a frame before th
 
 Frame rate and number of frames do not change.
 
-@@quality: Measure the quality of loops, and rank the candidates of a cluster.
-
-For each candidate these are measured:
+The candidates of a cluster are ranked by these measures:
 
 1. The step of pose and of speed at the seam, which blending has to remove.
 2. The remaining step from the last frame to the first, and its change, both relative to steps
@@ -51,6 +49,7 @@ from kineme.recordings.kinematics import (
     compute_world_rotations,
     forward_kinematics,
 )
+from kineme.recordings.operations import cut, move, turn
 
 NEAR_S = 0.035
 """Seconds at either end of a clip used to fit the parabolas."""
@@ -58,6 +57,21 @@ FEWEST = 4
 """Least number of frames for a parabola; a line is fitted to fewer."""
 BLEND_S = 0.4
 """Seconds on either side of a seam over which steps of speed and acceleration are spread."""
+USUAL = 95.0
+"""Percentile that defines the usual large steps of a recording."""
+PHASES = 24
+"""Number of phases of a round at which poses are compared."""
+COSTS = {
+    "pose_m": 0.03,
+    "speed_m_s": 0.3,
+    "step": 1.0,
+    "speed_step": 1.0,
+    "slide_m_s": 0.1,
+    "turn_deg": 180.0,
+    "rise_m": 0.2,
+    "unlike_m": 1.0,
+}
+"""Amount of each measure that costs 1."""
 
 
 @dataclass(frozen=True)
@@ -126,20 +140,13 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
 
 def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
     """Append the first frame of a loop, moved by the carry, as game engines expect."""
-    again, rotations = carry.apply(motion.positions[:1]), motion.rotations
-    if rotations is not None:
-        first = np.array(rotations[:1])
-        # Roots only: all other joints are relative to their parents.
-        roots = np.array(motion.skeleton.parents) < 0
-        first[:, roots] = rot.multiply(carry.rotation, first[:, roots])
-        rotations = np.concatenate([rotations, first])
-    note = "first frame repeated at the end"
-    return replace(
-        motion,
-        positions=np.concatenate([motion.positions, again]),
-        rotations=rotations,
-        provenance=motion.provenance.noted(note),
-    )
+    again = move(turn(cut(motion, 0, 1), carry.turn), carry.shift)
+    rotations = motion.rotations
+    if rotations is not None and again.rotations is not None:
+        rotations = np.concatenate([rotations, again.rotations])
+    positions = np.concatenate([motion.positions, again.positions])
+    provenance = motion.provenance.noted("first frame repeated at the end")
+    return replace(motion, positions=positions, rotations=rotations, provenance=provenance)
 
 
 def find_carry(motion: Motion) -> Carry:
@@ -253,23 +260,6 @@ def _compute_shares(n: int, fps: float) -> Floats:
         ],
         axis=1,
     )
-
-
-USUAL = 95.0
-"""Percentile that defines the usual large steps of a recording."""
-PHASES = 24
-"""Number of phases of a round at which poses are compared."""
-COSTS = {
-    "pose_m": 0.03,
-    "speed_m_s": 0.3,
-    "step": 1.0,
-    "speed_step": 1.0,
-    "slide_m_s": 0.1,
-    "turn_deg": 180.0,
-    "rise_m": 0.2,
-    "unlike_m": 1.0,
-}
-"""Amount of each measure that costs 1."""
 
 
 @dataclass(frozen=True)

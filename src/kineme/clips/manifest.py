@@ -1,17 +1,13 @@
-"""Write lists of clips beside them: ``manifest.json`` and ``manifest.csv``.
+"""Write what lies beside clips: manifests, a contact sheet and a motion matching database.
 
-``manifest.json`` follows the JSON Schema ``manifest.schema.json`` beside this module, which
-documents all names. Loops come first, grouped by cluster and sorted by rank; other clips follow in
-time order.
-
-`kineme.clips.options` defines the names of clips.
-
-@@companions: Write a contact sheet and a motion matching database beside clips.
+``manifest.csv`` has one row per clip. ``manifest.json`` follows the JSON Schema
+``manifest.schema.json`` beside this module, which documents all names. Loops come first, grouped by
+cluster and sorted by rank; other clips follow in time order. `kineme.clips.options` defines the
+names of clips.
 """
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -29,7 +25,7 @@ from kineme.clips.options import ClipOptions
 from kineme.clips.root_motion import RootMotion
 from kineme.clips.shaping import ShapedClip
 from kineme.errors import WriteError
-from kineme.formats.delimited import as_text
+from kineme.labels.delimited import write_rows
 from kineme.recordings import Motion
 from kineme.segments.table import Segment
 
@@ -41,6 +37,9 @@ CARRY = ("turn_deg", "x_m", "z_m")
 ANIMATION, TAGGED = "animation", "tags"
 DIGITS = 6
 """Decimal places in JSON."""
+PICTURES = (".png", ".pdf", ".svg")
+SHOWN = 24
+"""Largest number of frames of a clip in its strip."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +110,7 @@ def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, 
 
 
 def _as_json(clip: Clip) -> dict[str, Any]:
-    row, carry = clip.segment, clip.carry
+    row, carry, quality, root = clip.segment, clip.carry, clip.quality, clip.root
     # A round ends one frame after its last pose; a closed loop has an extra frame.
     round_s = (clip.n_frames - ("close" in clip.changes)) / clip.fps
     content = {
@@ -132,28 +131,22 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "loop": carry is not None,
         "round_s": None if carry is None else round_s,
         "rank": clip.rank,
-        "quality": None if clip.quality is None else _format_quality(clip.quality),
+        "quality": None if quality is None else {"cost": quality.cost, **asdict(quality)},
         "carry": None if carry is None else dict(zip(CARRY, _format_carry(carry), strict=True)),
-        "root": None if clip.root is None else _format_root(clip.root),
+        "root": None
+        if root is None
+        else {
+            "speed_m_s": root.speed,
+            "x_m_s": root.x,
+            "z_m_s": root.z,
+            "turn_deg_s": degrees(root.turn),
+        },
         "planted": None if clip.planted is None else dict(clip.planted),
         "poses": clip.poses,
         "changes": clip.changes,
         "tags": clip.tags,
     }
     return {name: _round_numbers(value) for name, value in content.items()}
-
-
-def _format_quality(quality: LoopQuality) -> dict[str, float]:
-    return {"cost": quality.cost, **asdict(quality)}
-
-
-def _format_root(root: RootMotion) -> dict[str, float]:
-    return {
-        "speed_m_s": root.speed,
-        "x_m_s": root.x,
-        "z_m_s": root.z,
-        "turn_deg_s": degrees(root.turn),
-    }
 
 
 def _round_numbers(value: Any) -> Any:
@@ -173,40 +166,36 @@ def _format_carry(carry: Carry) -> tuple[float, float, float]:
 
 
 def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bool) -> None:
+    # Only loops have ranks and carries.
+    more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
+
+    def make_cells(clip: Clip) -> list[object]:
+        cells: list[object] = [clip.file, clip.source]
+        cells += [getattr(clip.segment, name) for name in SPANS]
+        cells.append(", ".join(clip.tags))
+        if loops:
+            cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
+            cells += ["", "", ""] if clip.carry is None else _format_carry(clip.carry)
+        return [*cells, clip.animation or ""] if animations else cells
+
     with path.open("w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        # Only loops have ranks and carries.
-        more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
-        table.writerow(["file", "source", *SPANS, TAGGED, *more])
-        for clip in clips:
-            cells: list[object] = [clip.file, clip.source]
-            cells += [getattr(clip.segment, name) for name in SPANS]
-            cells.append(", ".join(clip.tags))
-            if loops:
-                cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
-                cells += ["", "", ""] if clip.carry is None else _format_carry(clip.carry)
-            if animations:
-                cells.append(clip.animation or "")
-            table.writerow([as_text(cell) if isinstance(cell, str) else cell for cell in cells])
-
-
-PICTURES = (".png", ".pdf", ".svg")
-SHOWN = 24
-"""Number of frames of a clip used for its strip."""
+        write_rows(file, ["file", "source", *SPANS, TAGGED, *more], map(make_cells, clips))
 
 
 class Companions:
-    """Collects data for a contact sheet and a database while clips are made.
-
-    `write` writes those that were requested.
-    """
+    """Collects data for the requested contact sheet and database while clips are made."""
 
     def __init__(self, options: ClipOptions) -> None:
         self.sheet, self.matching = options.get("sheet"), options.get("motion_matching")
         # Check before any work is done.
-        for path, suffixes in ((self.sheet, PICTURES), (self.matching, SUFFIXES)):
-            if path is not None:
-                check_target(Path(path), suffixes)
+        for target, suffixes in ((self.sheet, PICTURES), (self.matching, SUFFIXES)):
+            if target is None:
+                continue
+            path = Path(target)
+            if path.suffix.lower() not in suffixes:
+                raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
+            if not path.parent.is_dir():
+                raise WriteError(path, f"there is no folder {path.parent}")
         self.strips: list[tuple[str, Motion, int]] = []
         self.database = Database()
 
@@ -223,7 +212,11 @@ class Companions:
             name = get_name(clip)
             if self.sheet is not None:
                 title = "   ".join(filter(None, [name, ", ".join(clip.tags)]))
-                self.strips.append((title, _thin_frames(clip.motion), clip.segment.cluster))
+                n = clip.motion.n_frames
+                at = np.linspace(0, n - 1, min(SHOWN, n)).round().astype(int)
+                positions = clip.motion.positions[at]
+                thinned = replace(clip.motion, positions=positions, rotations=None, gaps=())
+                self.strips.append((title, thinned, clip.segment.cluster))
             ranges.append((name, rows[clip.index], clip.tags))
             yield clip
         if self.matching is not None:
@@ -237,17 +230,3 @@ class Companions:
             from kineme.plot.strips import Strip, write_sheet  # matplotlib takes long to import
 
             write_sheet([Strip(*each) for each in self.strips], self.sheet)
-
-
-def check_target(path: Path, suffixes: Sequence[str]) -> None:
-    """Raise WriteError if a file has none of these suffixes, or its folder is missing."""
-    if path.suffix.lower() not in suffixes:
-        raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
-    if not path.parent.is_dir():
-        raise WriteError(path, f"there is no folder {path.parent}")
-
-
-def _thin_frames(motion: Motion) -> Motion:
-    """Return a motion with at most `SHOWN` evenly spaced frames."""
-    at = np.linspace(0, motion.n_frames - 1, min(SHOWN, motion.n_frames)).round().astype(int)
-    return replace(motion, positions=motion.positions[at], rotations=None, gaps=())

@@ -51,9 +51,13 @@ GROUPS = (
 )
 """Name, size and weight of each group of features."""
 SUFFIXES = (".npz", ".bin")
-
 Range = tuple[str, Segment, Sequence[str]]
 """Name of a clip, its segment, and its tags."""
+LAYOUT = (
+    *("bone_positions", "bone_velocities", "bone_rotations", "bone_angular_velocities"),
+    *("bone_parents", "range_starts", "range_stops", "contact_states"),
+)
+"""Order of the little-endian arrays in a ``.bin``."""
 
 
 class Database:
@@ -126,13 +130,6 @@ class Database:
                 "fps": np.array(RATE),
             }
             np.savez_compressed(file, allow_pickle=False, **arrays)
-
-
-LAYOUT = (
-    *("bone_positions", "bone_velocities", "bone_rotations", "bone_angular_velocities"),
-    *("bone_parents", "range_starts", "range_stops", "contact_states"),
-)
-"""Order of the little-endian arrays in a ``.bin``."""
 
 
 def _describe_motion(motion: Motion, bones: Sequence[int]) -> dict[str, NDArray[Any]]:

@@ -1,9 +1,8 @@
 """Options for shaping, naming and writing clips, and presets for target programs.
 
-@@names: Name clips and their files: ``RECORDING_NUMBER_TEXT``.
-
-``NUMBER`` has at least four digits and is unique within a run; it continues over the recordings.
-Segments left out by ``best`` keep their numbers, so that names do not depend on this option.
+Clips and their files are named ``RECORDING_NUMBER_TEXT``. ``NUMBER`` has at least four digits and
+is unique within a run; it continues over the recordings. Segments left out by ``best`` keep their
+numbers, so that names do not depend on this option.
 
 Words of the text that look like such a number get the prefix ``n``. So the last ``_NUMBER_`` of a
 name is its number, and names are unique even if case is ignored.
@@ -54,11 +53,8 @@ def make_clip_name(stem: str, number: int, text: str) -> str:
     middle = f"_{number:04d}_"
     # A label may have no portable characters.
     label = _protect_numbers(_to_ascii(text))[:LONGEST_TEXT].strip("_") or "clip"
-    first = _to_ascii(stem)
-    if not first[:1].isalpha():
-        first = f"clip_{first}".rstrip("_")
     # Shorten the recording's name, since number and label identify the clip.
-    first = first[: LONGEST - len(middle) - len(label)].rstrip("_")
+    first = _begin_with_letter(_to_ascii(stem))[: LONGEST - len(middle) - len(label)].rstrip("_")
     return f"{first}{middle}{label}"
 
 
@@ -115,9 +111,7 @@ def fill_template(template: str, fields: Mapping[str, object]) -> tuple[str, str
     filled = template.format_map(fields)
     # Empty fields must not leave double underscores.
     file = re.sub(r"_{2,}", "_", _replace_special(filled, "@")).strip("_")
-    name = _to_ascii(filled)
-    if not name[:1].isalpha():
-        name = f"clip_{name}".rstrip("_")
+    name = _begin_with_letter(_to_ascii(filled))
     return name[:LONGEST].rstrip("_"), clean_name(file, "@") or "clip"
 
 
@@ -131,6 +125,10 @@ def clean_name(text: str, more: str = "") -> str:
 def _replace_special(text: str, more: str = "") -> str:
     allowed = f"-_{more}"
     return "".join(letter if letter.isalnum() or letter in allowed else "_" for letter in text)
+
+
+def _begin_with_letter(name: str) -> str:
+    return name if name[:1].isalpha() else f"clip_{name}".rstrip("_")
 
 
 def _protect_numbers(text: str) -> str:
@@ -156,22 +154,22 @@ class Target:
 
     Parameters
     ----------
-    format : str
+    format : str, optional
         Suffix of the files in a folder.
     root_motion : {"keep", "extract", "in-place"}
     close : bool
         Whether a loop ends with its first pose.
     separate : bool
         Whether each clip has its own file, even if the format can hold several.
-    name : str
+    name : str, optional
         Template of names.
     """
 
-    format: str | None
-    root_motion: RootMotionMode
-    close: bool
-    separate: bool
-    name: str | None
+    format: str | None = None
+    root_motion: RootMotionMode = "keep"
+    close: bool = False
+    separate: bool = False
+    name: str | None = None
 
 
 TARGETS: Mapping[TargetName, Target] = {
@@ -204,26 +202,17 @@ class ClipOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class Chosen:
-    """Options of clips, completed with defaults of the target program.
-
-    Parameters
-    ----------
-    shape : Shape
-    suffix : str, optional
-        Suffix of files, without the dot.
-    format : Format, optional
-        Format with one file for all clips of a recording; None if each clip has its own.
-    given : ClipOptions
-        Options as passed by the caller.
-    name : str, optional
-        Template of names.
-    """
+    """Options of clips, completed with defaults of the target program."""
 
     shape: Shape
     suffix: str | None
+    """Suffix of files, without the dot."""
     format: Format | None
+    """Format with one file for all clips of a recording; None if each clip has its own."""
     given: ClipOptions
+    """Options as passed by the caller."""
     name: str | None
+    """Template of names."""
 
 
 def resolve_options(options: ClipOptions) -> Chosen:
@@ -234,9 +223,7 @@ def resolve_options(options: ClipOptions) -> Chosen:
     target_name, loops = options.get("target"), options.get("loops", False)
     if target_name is not None and not is_one_of(target_name, TARGETS):
         raise ParameterError(f"target is {target_name!r:.60}: choose from {', '.join(TARGETS)}")
-    target = (
-        Target(None, "keep", False, False, None) if target_name is None else TARGETS[target_name]
-    )
+    target = Target() if target_name is None else TARGETS[target_name]
     shape = Shape(
         loops,
         options.get("best"),

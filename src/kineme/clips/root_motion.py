@@ -1,4 +1,4 @@
-"""Separate the root motion of a clip from its motion in place.
+"""Separate the root motion of a clip from its motion in place, and tag how a body travels.
 
 Root motion has constant speed and turning rate from the first frame to the one after the last, so
 that its path is a line or an arc. The rest, such as the sway of the hips, stays in the poses. So a
@@ -7,12 +7,11 @@ loop in place closes, and two speeds and a rate restore its path.
 Source: the exponential map of rigid motions of the plane, as in Murray, Li, Sastry, "A
 Mathematical Introduction to Robotic Manipulation", 1994, section 3.2.
 
-@@tags: Tag clips with the direction of travel, turns, starts and stops.
-
-Velocities are those of the hips over the floor. The direction is that of the mean velocity relative
-to the gaze: someone who walks sideways to the left while looking ahead moves left, even with turned
-hips and shoulders. The gaze follows from the head's axis that points left at rest; without
-rotations it is the heading of the hips, which also defines turns.
+Tags tell the direction of travel, turns, starts and stops. Velocities are those of the hips over
+the floor. The direction is that of the mean velocity relative to the gaze: someone who walks
+sideways to the left while looking ahead moves left, even with turned hips and shoulders. The gaze
+follows from the head's axis that points left at rest; without rotations it is the heading of the
+hips, which also defines turns.
 """
 
 from __future__ import annotations
@@ -35,6 +34,23 @@ from kineme.recordings.posing import add_root, get_rig
 
 STRAIGHT = 1e-9
 """Turn in radians per round below which a path is a straight line."""
+Tag = Literal[
+    "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
+]
+TAGS: tuple[Tag, ...] = get_args(Tag)
+"""All tags; directions come first, and each clip of a body has one of them."""
+DIRECTIONS = TAGS[:5]
+MOVING = 0.25
+"""Speed in metres per second below which a body is in place."""
+STILL, STILL_SHARE = 0.3, 0.25
+"""An end is still below this speed (m/s) and below this fraction of the peak speed."""
+END_S = 0.25
+"""Seconds at either end of a clip over which speed and heading are averaged."""
+GOING = 0.5
+"""Least peak speed of a clip with a start or stop, metres per second."""
+TURN = 45.0
+"""Least change of heading of a turn, degrees."""
+_LEAST = 0.1  # horizontal length of the head's axis below which gaze is undefined
 
 
 @dataclass(frozen=True)
@@ -62,10 +78,8 @@ class RootMotion:
 def measure_root_motion(motion: Motion, carry: Carry) -> RootMotion:
     """Return the root motion for this carry, in the axes of the recording."""
     # Relative to the start of the hips, the carry contains only the motion of the body.
-    shift, seconds = (
-        _solve_even_shift(_move_origin(carry, _find_start(motion))),
-        motion.n_frames / motion.fps,
-    )
+    shift = _solve_even_shift(_move_origin(carry, _find_start(motion)))
+    seconds = motion.n_frames / motion.fps
     return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
 
 
@@ -207,36 +221,13 @@ def _add_note(motion: Motion, note: str) -> Motion:
     return replace(motion, provenance=motion.provenance.noted(note))
 
 
-Tag = Literal[
-    "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
-]
-TAGS: tuple[Tag, ...] = get_args(Tag)
-"""All tags; directions come first, and each clip of a body has one of them."""
-DIRECTIONS = TAGS[:5]
-MOVING = 0.25
-"""Speed in metres per second below which a body is in place."""
-STILL, STILL_SHARE = 0.3, 0.25
-"""An end is still below this speed (m/s) and below this fraction of the peak speed."""
-END_S = 0.25
-"""Seconds at either end of a clip over which speed and heading are averaged."""
-GOING = 0.5
-"""Least peak speed of a clip with a start or stop, metres per second."""
-TURN = 45.0
-"""Least change of heading of a turn, degrees."""
-_LEAST = 0.1  # horizontal length of the head's axis below which gaze is undefined
-
-
 @dataclass(frozen=True, eq=False)
 class Travel:
     """Motion of the body of a recording over the floor.
 
-    Parameters
-    ----------
-    velocities : ndarray of shape (frames, 2)
-        Velocity of the hips along +x and +z, metres per second.
-    looks, headings : ndarray of shape (frames,)
-        Directions of gaze and hips, radians from +z towards +x; headings are unwrapped.
-    fps : float
+    ``velocities`` (frames, 2) are those of the hips along +x and +z, metres per second. ``looks``
+    and ``headings`` (frames,) are the directions of gaze and hips, radians from +z towards +x;
+    headings are unwrapped.
     """
 
     velocities: Floats
@@ -285,9 +276,7 @@ def measure_travel(motion: Motion) -> Travel | None:
     try:
         ends = end_effectors(motion)
         pelvis, headings = compute_heading(motion, effectors=ends)
-        looks = (
-            headings if motion.rotations is None else _measure_looks(motion, motion.rotations, ends)
-        )
+        looks = headings if motion.rotations is None else _measure_looks(motion, ends)
     except (EndEffectorError, MotionError):
         return None
     # A gradient, so that every frame has a velocity.
@@ -304,7 +293,7 @@ def _choose_direction(left: float, ahead: float) -> Tag:
     return directions[quarter]
 
 
-def _measure_looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Floats:
+def _measure_looks(motion: Motion, ends: EndEffectors) -> Floats:
     """Return the direction of gaze in each frame, radians from +z towards +x."""
     skeleton = motion.skeleton
     _, left, right = find_parting(skeleton, ends.left_wrist, ends.right_wrist, "arms")
@@ -313,6 +302,6 @@ def _measure_looks(motion: Motion, rotations: Floats, ends: EndEffectors) -> Flo
     to_left = places[left] - places[right]
     to_left /= max(float(np.linalg.norm(to_left)), 1e-12)
     axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left)
-    turned = rot.rotate(compute_world_rotations(skeleton, rotations)[:, ends.head], axis)
+    turned = rot.rotate(compute_world_rotations(skeleton, motion.rotations)[:, ends.head], axis)
     cos, sin = find_facing(turned, _LEAST)
     return np.arctan2(-sin, cos)[:, 0]

@@ -26,7 +26,6 @@ from kineme.clips.loops import (
 from kineme.clips.root_motion import (
     RootMotion,
     Tag,
-    Travel,
     extract_root_motion,
     measure_root_motion,
     measure_travel,
@@ -48,25 +47,7 @@ Feet = Mapping[str, tuple[tuple[int, ...], Masks]]
 
 @dataclass(frozen=True)
 class Shape:
-    """Options for processing clips after cutting.
-
-    Parameters
-    ----------
-    loops : bool
-        Turn all segments but transitions into loops.
-    best : int, optional
-        Number of loops per cluster; all by default.
-    root_motion : {"keep", "extract", "in-place"}
-        Keep root motion; move it to a root bone; or remove it, at the origin and facing +z.
-    straight : bool
-        Remove turning.
-    mirror : bool
-        Exchange left and right.
-    close : bool
-        Repeat the first frame of a loop at its end.
-    fps : float, optional
-        Frames per second; those of the recording by default.
-    """
+    """Options for processing clips after cutting; `kineme.clips.split.split` documents them."""
 
     loops: bool = False
     best: int | None = None
@@ -133,10 +114,7 @@ class RankedLoop:
 
 
 def shape_clips(
-    motion: Motion,
-    rows: Sequence[Segment],
-    shape: Shape,
-    loops: Sequence[RankedLoop] | None = None,
+    motion: Motion, rows: Sequence[Segment], shape: Shape, loops: Sequence[RankedLoop] | None = None
 ) -> Iterator[ShapedClip]:
     """Yield the clips of the segments, in their order.
 
@@ -156,7 +134,8 @@ def shape_clips(
         wanted = shape.best is None or (rank is not None and rank <= shape.best)
         if wanted and (loops is None or rank is not None):
             clip = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
-            yield replace(clip, segment=row, tags=_get_tags(travel, span))
+            frames = span.start_frame, span.stop_frame
+            yield replace(clip, segment=row, tags=travel.tags(*frames) if travel else ())
 
 
 def _resample_rows(
@@ -174,10 +153,6 @@ def _resample_rows(
         start, stop = to_samples((row.start_frame, row.stop_frame), ratio, motion.n_frames)
         spans.append(replace(row, start_frame=start, stop_frame=stop))
     return motion, spans
-
-
-def _get_tags(travel: Travel | None, row: Segment) -> tuple[Tag, ...]:
-    return () if travel is None else travel.tags(row.start_frame, row.stop_frame)
 
 
 def list_ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
@@ -298,25 +273,22 @@ def _shape_clip(
     poses = _describe_end_poses(clip)
     if shape.close and quality is not None:
         clip = repeat_first_frame(clip, carry)
+    # Spans of frames of the clip in which each foot is planted.
+    planted = {
+        side: [(a, b) for a, b in find_spans(mask[row.start_frame : row.stop_frame]).tolist()]
+        for side, (_, mask) in feet.items()
+    }
     return ShapedClip(
         index,
         row,
         clip,
         carry if quality is not None else None,
         root,
-        _list_planted_frames(feet, row) if feet else None,
+        planted or None,
         quality,
         rank,
         poses,
     )
-
-
-def _list_planted_frames(feet: Feet, row: Segment) -> dict[str, list[tuple[int, int]]]:
-    """Return the spans of frames of a clip in which each foot is planted."""
-    return {
-        side: [(a, b) for a, b in find_spans(mask[row.start_frame : row.stop_frame]).tolist()]
-        for side, (_, mask) in feet.items()
-    }
 
 
 def _describe_end_poses(clip: Motion) -> dict[str, dict[str, Any]] | None:

@@ -29,7 +29,7 @@ The folder is written atomically, and existing files are never changed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -70,6 +70,8 @@ Source = (
     | tuple[Motion | Signals, Sequence[Segment], Sequence[RankedLoop]]
 )
 """A recording, its segments, and optionally those that become loops, already ranked."""
+_SHARED = ("carry", "quality", "rank", "root", "planted", "poses", "tags")
+"""Fields that a `ShapedClip` and its entry in the manifest have in common."""
 
 
 def split(
@@ -212,8 +214,10 @@ def write_clips(
             if write_all is not None:
                 file = make_unique_name(run.stem, run.first, files)
                 files.add(file.casefold())
-                path = draft / f"{file}.{chosen.suffix}"
-                entries += _write_animations(run, shaped, path, write_all)
+                path, animations = draft / f"{file}.{chosen.suffix}", dict[str, Motion]()
+                entries += _add_animations(run, shaped, path.name, animations)
+                if animations:
+                    write_all(animations, path)
             else:
                 suffix = chosen.suffix or ("csv" if recording.rotations is None else "bvh")
                 entries += _write_files(run, shaped, suffix)
@@ -322,11 +326,15 @@ class _ClipNamer:
 
     @property
     def stem(self) -> str:
-        return self.take if self.of_takes else Path(self.source or "recording").stem
+        return self.take if self.of_takes else self.name
+
+    @property
+    def name(self) -> str:
+        return Path(self.source or "recording").stem
 
     @property
     def take(self) -> str:
-        return self.recording.provenance.take or Path(self.source or "recording").stem
+        return self.recording.provenance.take or self.name
 
     def named(
         self, index: int, segment: Segment, tags: Sequence[str] = (), *, loop: bool = False
@@ -337,7 +345,7 @@ class _ClipNamer:
         if template is None:
             return make_clip_name(self.stem, number, text), make_file_name(self.stem, number, text)
         fields = {
-            "name": Path(self.source or "recording").stem,
+            "name": self.name,
             "take": self.take,
             "label": text,
             "n": number,
@@ -385,14 +393,8 @@ class _ClipNamer:
             file,
             fps=shaped.motion.fps,
             n_frames=shaped.motion.n_frames,
-            carry=shaped.carry,
-            quality=shaped.quality,
-            rank=shaped.rank,
-            root=shaped.root,
-            planted=shaped.planted,
-            poses=shaped.poses,
             changes=self.chosen.shape.changes,
-            tags=shaped.tags,
+            **{name: getattr(shaped, name) for name in _SHARED},
         )
 
     @property
@@ -417,20 +419,6 @@ def _write_files(run: _ClipNamer, clips: Iterable[ShapedClip], suffix: str) -> I
         entry = run.shaped_clip(each, suffix=f".{suffix}")
         write(each.motion, run.folder / entry.file)
         yield entry
-
-
-def _write_animations(
-    run: _ClipNamer,
-    clips: Iterable[ShapedClip],
-    path: Path,
-    write_all: Callable[[Mapping[str, Motion], Path], object],
-) -> list[Clip]:
-    """Write all clips to one file."""
-    animations: dict[str, Motion] = {}
-    entries = _add_animations(run, clips, path.name, animations)
-    if animations:
-        write_all(animations, path)
-    return entries
 
 
 def _add_animations(

@@ -79,9 +79,8 @@ def to_movement(
         "confidence": (("time", "keypoints", "individuals"), confidence[..., None]),
     }
     if segmentation is not None:
-        variables |= {
-            name: ("time", rows) for name, rows in _make_frame_variables(motion, segmentation)
-        }
+        rows = _make_frame_variables(motion, segmentation)
+        variables |= {name: ("time", values) for name, values in rows.items()}
     return xr.Dataset(
         variables,
         coords={
@@ -203,9 +202,7 @@ def _read_timing(source: FileContent, dataset: xr.Dataset, fps: float | None) ->
     raise ReadError(source.path, "the dataset has times in frames but no fps: give fps=")
 
 
-def _make_frame_variables(
-    motion: Motion, segmentation: Segmentation
-) -> list[tuple[str, NDArray[Any]]]:
+def _make_frame_variables(motion: Motion, segmentation: Segmentation) -> dict[str, NDArray[Any]]:
     if segmentation.n_frames != motion.n_frames:
         raise ParameterError(
             f"the segments have {segmentation.n_frames} frames, but the motion has "
@@ -214,9 +211,9 @@ def _make_frame_variables(
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     primitives = segmentation.level(level)
     lengths = primitives.stop_frame - primitives.start_frame
-    return [
-        ("activity", segmentation.per_frame("activity", level="activity")),
-        ("primitive", np.repeat(np.arange(len(primitives)), lengths)),
-        ("cluster", segmentation.per_frame("cluster", level=level)),
-        ("label", segmentation.per_frame("label", level=level)),
-    ]
+    return {
+        "activity": segmentation.per_frame("activity", level="activity"),
+        "primitive": np.repeat(np.arange(len(primitives)), lengths),
+        "cluster": segmentation.per_frame("cluster", level=level),
+        "label": segmentation.per_frame("label", level=level),
+    }

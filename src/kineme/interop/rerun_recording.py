@@ -118,7 +118,8 @@ def _send_lane(recording: Any, segmentation: Segmentation, level: Level) -> None
     style = rr.StateConfiguration(
         values=values,
         labels=list(map(format_text, rows)),
-        colors=[_to_rgba(row.cluster) for row in rows],
+        # RGBA as one number.
+        colors=[int(get_cluster_color(row.cluster)[1:] + "FF", 16) for row in rows],
     )
     recording.log(f"segments/{level}", style, static=True)
     times = _make_time_columns(rows.start_frame, segmentation.fps)
@@ -130,10 +131,8 @@ def _make_time_columns(frames: Any, fps: float) -> list[Any]:
     import rerun as rr
 
     frames = np.asarray(frames, np.int64)
-    return [
-        rr.TimeColumn("time", duration=frames / fps),
-        rr.TimeColumn("frame", sequence=frames),
-    ]
+    time = rr.TimeColumn("time", duration=frames / fps)
+    return [time, rr.TimeColumn("frame", sequence=frames)]
 
 
 def _make_blueprint(lanes: bool) -> Any:
@@ -144,7 +143,3 @@ def _make_blueprint(lanes: bool) -> Any:
         return rrb.Blueprint(body)
     states = rrb.StateTimelineView(origin="segments", name="segments")
     return rrb.Blueprint(rrb.Vertical(body, states, row_shares=[3, 1]))
-
-
-def _to_rgba(cluster: int) -> int:
-    return int(get_cluster_color(cluster)[1:] + "FF", 16)

@@ -60,10 +60,7 @@ def read_events(path: str | PathLike[str], *, names: Collection[str] | None = No
 
 
 def write_events(
-    source: str | PathLike[str],
-    path: str | PathLike[str],
-    times: ArrayLike,
-    names: Iterable[str],
+    source: str | PathLike[str], path: str | PathLike[str], times: ArrayLike, names: Iterable[str]
 ) -> int:
     """Write a copy of a C3D file with events added.
 

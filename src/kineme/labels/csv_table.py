@@ -35,10 +35,10 @@ from kineme.labels.delimited import (
     open_new_text,
     parse_level,
     parse_number,
+    read_columns,
     read_rows,
     write_rows,
 )
-from kineme.labels.delimited import read_columns as columns_of
 from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span
@@ -89,31 +89,24 @@ def read(path: Path) -> Segmentation | Labels:
 def _attach_provenance(columns: dict[str, list[Any]], path: Path) -> Segmentation:
     """Return the table with the content of its provenance file, if there is one."""
     provenance_path = name_provenance(path)
-    if provenance_path.is_file():
-        # A shortened or extended table does not match its provenance file.
-        head = parse(provenance_path.read_text(encoding="utf-8-sig"), provenance_path)
-        if head.get("n_frames") != max(columns["stop_frame"]):
-            raise ReadError(
-                path,
-                f"ends at frame {max(columns['stop_frame'])}, but {provenance_path.name} "
-                f"states {head.get('n_frames')!r} frames: remove that file if it belongs to "
-                "another table",
-            )
-        rest = {name: value for name, value in head.items() if name != "hierarchy"}
-        table = join_head(columns, rest, path)
-        changes = find_differences(
+    if not provenance_path.is_file():
+        return join_head(columns, _guess_head(columns, path), path)
+    # A shortened or extended table does not match its provenance file.
+    head = parse(provenance_path.read_text(encoding="utf-8-sig"), provenance_path)
+    if head.get("n_frames") != max(columns["stop_frame"]):
+        raise ReadError(
             path,
-            provenance_path,
-            head,
-            _digest_columns(columns),
-            head_rate=table.fps,
-            row_rate=_read_rate(columns),
+            f"ends at frame {max(columns['stop_frame'])}, but {provenance_path.name} states "
+            f"{head.get('n_frames')!r} frames: remove that file if it belongs to another table",
         )
-        if not changes:
-            return join_head(columns, head, path)
-        notes = [*table.provenance.get("notes", ()), *changes]
-        return replace(table, provenance={**table.provenance, "notes": notes})
-    return join_head(columns, _guess_head(columns, path), path)
+    rest = {name: value for name, value in head.items() if name != "hierarchy"}
+    table = join_head(columns, rest, path)
+    rates = {"head_rate": table.fps, "row_rate": _read_rate(columns)}
+    changes = find_differences(path, provenance_path, head, _digest_columns(columns), **rates)
+    if not changes:
+        return join_head(columns, head, path)
+    notes = [*table.provenance.get("notes", ()), *changes]
+    return replace(table, provenance={**table.provenance, "notes": notes})
 
 
 def name_provenance(path: Path) -> Path:
@@ -251,7 +244,7 @@ def _format_cells(row: Segment) -> list[Any]:
 
 def _recognises(path: Path) -> bool:
     """Return whether the first line has the columns of segments or intervals."""
-    found = columns_of(path)
+    found = read_columns(path)
     return any({*names, "label"} <= found for names in SPANS.values())
 
 

@@ -24,6 +24,11 @@ from kineme.formats.delimited import as_text, from_text
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
+CUTS_KEY = "cuts_sha256"
+"""Key of the digest of a table's cuts in its side file."""
+SAME_RATE = 5e-4
+"""Relative difference of frame rates that count as equal; spreadsheets round seconds."""
+
 
 def read_rows(
     file: TextIO, path: Path, header: Iterable[Sequence[str]], *, delimiter: str = ","
@@ -131,13 +136,6 @@ def find_separator(first_line: str) -> str:
     if "\t" in first_line:
         return "\t"
     return ";" if ";" in first_line and "," not in first_line else ","
-
-
-CUTS_KEY = "cuts_sha256"
-"""Key of the digest of a table's cuts in its side file."""
-
-SAME_RATE = 5e-4
-"""Relative difference of frame rates that count as equal; spreadsheets round seconds."""
 
 
 def digest_cuts(cuts: Iterable[tuple[object, object, object]]) -> str:

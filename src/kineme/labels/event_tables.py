@@ -72,6 +72,28 @@ COLUMNS = {
     "border_confidence": {"Description": "Probability that its start is right"},
 }
 MISSING = "n/a"
+BORIS_COLUMNS = (
+    "Observation id",
+    "Observation date",
+    "Description",
+    "Observation type",
+    "Source",
+    "Time offset (s)",
+    "Media duration (s)",
+    "FPS (frame/s)",
+    "Subject",
+    "Behavior",
+    "Behavioral category",
+    "Behavior type",
+    "Time",
+    "Media file name",
+    "Image index",
+    "Image file path",
+    "Comment",
+)
+RATES = ("FPS (frame/s)", "FPS")
+LENGTHS = ("Media duration (s)", "Observation duration", "Total length")
+Cells = dict[str, str]
 
 
 def write_bids(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -101,8 +123,8 @@ def read_bids(path: Path) -> Labels:
             cuts.append((span.level, cells.get("start_frame"), cells.get("stop_frame")))
     sidecar_path = name_sidecar(path)
     sidecar = _read_sidecar(sidecar_path)
-    facts = _parse_facts(sidecar, sidecar_path)
-    rate, length = facts["SamplingFrequency"], facts["RecordingDuration"]
+    rate = _parse_positive(sidecar, "SamplingFrequency", sidecar_path)
+    length = _parse_positive(sidecar, "RecordingDuration", sidecar_path)
     row_rate = max(rates, default=(0.0, None), key=itemgetter(0))[1]
     notes = find_differences(
         path, sidecar_path, sidecar, digest_cuts(cuts), head_rate=rate, row_rate=row_rate
@@ -130,18 +152,12 @@ def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
     duration = cells["duration"]
     length = 0.0 if duration == MISSING else parse_number(duration, "duration", path, line)
     text = cells["trial_type"] if cells["trial_type"] != MISSING else ""
-    cluster = cells.get("cluster", MISSING)
-    confidence = cells.get("confidence", MISSING)
-    return Span(
-        onset,
-        onset + length,
-        text,
-        parse_level(cells.get("level")),
-        -1 if cluster in (MISSING, "") else parse_integer(cluster, "cluster", path, line),
-        math.nan
-        if confidence in (MISSING, "")
-        else parse_number(confidence, "confidence", path, line),
-    )
+    span = Span(onset, onset + length, text, parse_level(cells.get("level")))
+    if (cluster := cells.get("cluster", MISSING)) not in (MISSING, ""):
+        span = span._replace(cluster=parse_integer(cluster, "cluster", path, line))
+    if (confidence := cells.get("confidence", MISSING)) not in (MISSING, ""):
+        span = span._replace(confidence=parse_number(confidence, "confidence", path, line))
+    return span
 
 
 def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
@@ -152,14 +168,11 @@ def _parse_rate(cells: dict[str, str], stop_s: float) -> float | None:
     return int(text) / stop_s if valid else None
 
 
-def _parse_facts(sidecar: dict[str, Any], path: Path) -> dict[str, float | None]:
-    facts: dict[str, float | None] = {}
-    for name in ("SamplingFrequency", "RecordingDuration"):
-        value = sidecar.get(name)
-        if value is not None and (type(value) not in (int, float) or not 0 < value < 1e15):
-            raise ReadError(path, f"{name} must be a positive number, not {value!r:.60}")
-        facts[name] = value
-    return facts
+def _parse_positive(sidecar: dict[str, Any], name: str, path: Path) -> float | None:
+    value: float | None = sidecar.get(name)
+    if value is not None and (type(value) not in (int, float) or not 0 < value < 1e15):
+        raise ReadError(path, f"{name} must be a positive number, not {value!r:.60}")
+    return value
 
 
 def _read_sidecar_to_keep(path: Path) -> dict[str, Any]:
@@ -194,30 +207,6 @@ BIDS = LabelFormat(
     recognises=lambda path: set(NEEDED) <= read_columns(path),
     several=True,
 )
-
-
-BORIS_COLUMNS = (
-    "Observation id",
-    "Observation date",
-    "Description",
-    "Observation type",
-    "Source",
-    "Time offset (s)",
-    "Media duration (s)",
-    "FPS (frame/s)",
-    "Subject",
-    "Behavior",
-    "Behavioral category",
-    "Behavior type",
-    "Time",
-    "Media file name",
-    "Image index",
-    "Image file path",
-    "Comment",
-)
-RATES = ("FPS (frame/s)", "FPS")
-LENGTHS = ("Media duration (s)", "Observation duration", "Total length")
-Cells = dict[str, str]
 
 
 def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:

@@ -60,6 +60,7 @@ from kineme.segments.table import COLUMNS, COMMENT, Segment, SegmentTable, find_
 SCHEMA = "kineme.segments/2"
 INDEPENDENT = tuple(name for name, column in COLUMNS.items() if not column.derived)
 """Columns stored for tables at other details; the rest is derived from these."""
+KEY = b"kineme.segments"
 
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -253,11 +254,8 @@ FORMAT = LabelFormat(
 )
 
 
-KEY = b"kineme.segments"
-
-
 def write_parquet(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
-    """Leave everything at ``path``."""
+    """Write everything to a Parquet file."""
     with require_extra("pyarrow", "tables"):
         import pyarrow as pa
         from pyarrow import parquet
@@ -272,7 +270,7 @@ def write_parquet(_: Sequence[Segment], segmentation: Segmentation, path: Path) 
 
 
 def read_parquet(path: Path) -> Segmentation:
-    """Return the segmentation at ``path``."""
+    """Read a segmentation from a Parquet file."""
     content = load(path)
     file = open_parquet(content)
     metadata = file.schema_arrow.metadata or {}

@@ -40,8 +40,9 @@ from kineme.segments.table import Kind, Level, Segment, choose_kind
 TOO_FAR = 2**53
 """Frame number from which on a float cannot represent every integer."""
 COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
-
 Row = tuple[Level, Kind, int, int, int, str, float]
+NAMED = 4
+"""Number of labels that a note lists; it counts the others."""
 
 
 class Span(NamedTuple):
@@ -245,10 +246,6 @@ def _make_gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterat
     for left, right in pairwise([start, *inside, stop]):
         if left < right:
             yield level, "transition", left, right, -1, "", math.nan
-
-
-NAMED = 4
-"""Number of labels that a note lists; it counts the others."""
 
 
 def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:

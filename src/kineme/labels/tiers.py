@@ -62,6 +62,14 @@ SCHEMA = {
         "http://www.mpi.nl/tools/elan/EAFv3.0.xsd"
     )
 }
+_CLOCK = re.compile(r"(\d+):(\d\d):(\d\d\.\d+)")
+_TIME = re.compile(r"\d+(?:\.\d+)?|\d+:\d\d:\d\d\.\d+")
+_TIMES = re.compile(r"(begin|end) time - (.*)", re.IGNORECASE)
+_NO_TIERS = re.compile(
+    r"(begin|end) time|duration|tier|participant|annotation|file|$", re.IGNORECASE
+)
+Annotation = tuple[str, float, float, str]
+TOKEN = re.compile(r'"((?:[^"]|"")*+)"|(?<!\S)([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)%?(?!\S)')
 
 
 def write(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -215,15 +223,6 @@ ELAN = LabelFormat(
 )
 
 
-_CLOCK = re.compile(r"(\d+):(\d\d):(\d\d\.\d+)")
-_TIME = re.compile(r"\d+(?:\.\d+)?|\d+:\d\d:\d\d\.\d+")
-_TIMES = re.compile(r"(begin|end) time - (.*)", re.IGNORECASE)
-_NO_TIERS = re.compile(
-    r"(begin|end) time|duration|tier|participant|annotation|file|$", re.IGNORECASE
-)
-Annotation = tuple[str, float, float, str]
-
-
 def read_table(path: Path) -> Labels:
     """Read the annotations of ELAN's tab-delimited text."""
     with path.open(encoding="utf-8-sig", newline="") as file:
@@ -305,9 +304,6 @@ ELAN_TABLE = LabelFormat(
     read=read_table,
     recognises=lambda path: is_elan_table(read_first_bytes(path).decode(errors="replace")),
 )
-
-
-TOKEN = re.compile(r'"((?:[^"]|"")*+)"|(?<!\S)([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)%?(?!\S)')
 
 
 def write_textgrid(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:

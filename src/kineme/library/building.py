@@ -66,7 +66,6 @@ REMOVED = "left.json"
 ActivityColumns = tuple[list[float], list[float], list[int]]
 """Starts, stops (seconds) and clusters of activities."""
 DAMAGED = "is damaged: remove it. Clusters of recordings that are added again then get new numbers"
-
 NEVER_FOUND = "there is no such file or folder"
 NOT_FOUND = "is missing, so its recordings are kept: --remove removes them"
 
@@ -141,10 +140,6 @@ def build(
     progress : callable, optional
         Called with a description of the progress.
 
-    Returns
-    -------
-    Built
-
     Raises
     ------
     ParameterError
@@ -189,8 +184,13 @@ def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progre
         plan.sources, recursive=plan.recursive, without=make_absolute(plan.folder)
     )
     missing_sources = [source for source in plan.sources if not source.exists()]
-    not_found = {path: entry for path, entry in before.items() if path not in recordings}
-    absent = _group_missing(plan, not_found, missing_sources)
+    # Recordings of a missing source, such as a removed disk, and that source.
+    absent = {
+        path: source
+        for path, (_, key) in before.items()
+        for source in missing_sources
+        if path not in recordings and is_inside(path, source) and has_analysis(plan.analyses, key)
+    }
     gathered = gather(plan, list(recordings), executor, progress)
     failed = dict.fromkeys(missing_sources, NOT_FOUND) | gathered.failed
     keys = {path: plan.key(digest) for path, digest in gathered.digests.items()}
@@ -220,18 +220,6 @@ def _read_former_recordings(folder: Path, head: Head) -> FormerRecordings:
     table = read_table(folder, head["tables"], "recordings")
     columns = (table.column(name).to_pylist() for name in ("path", "recording", "piece"))
     return {make_path(path): (name, key) for path, name, key in zip(*columns, strict=True)}
-
-
-def _group_missing(
-    plan: Plan, not_found: FormerRecordings, missing_sources: Sequence[Path]
-) -> dict[Path, Path]:
-    """Return recordings with a missing source, such as a removed disk, and that source."""
-    return {
-        path: source
-        for path, (_, key) in not_found.items()
-        for source in missing_sources
-        if is_inside(path, source) and has_analysis(plan.analyses, key)
-    }
 
 
 def _update_tables(

@@ -32,7 +32,6 @@ PRELOADED = (
     "kineme.transfer.embeddings",
     "kineme.formats.skeletons._amc_kernels",
     "kineme.methods.kineme.pipeline",
-    "kineme.methods.kineme.pipeline",
     "pyarrow.parquet",
 )
 """Modules that take long to import."""
@@ -69,7 +68,7 @@ class InProcess:
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Yield each task and what came of it, as they come; see `Executor`."""
+        """Yield each task with its result; see `Executor`."""
         del workers  # always one
         for task in tasks:
             yield task, work(task)
@@ -180,7 +179,7 @@ class Cluster:
     def completed(
         self, work: Callable[[Task], Outcome], tasks: Sequence[Task], *, workers: int | None = None
     ) -> Iterator[tuple[Task, Outcome | None]]:
-        """Yield each task and what came of it, as they come; see `Executor`."""
+        """Yield each task with its result as they complete; see `Executor`."""
         del workers  # dask has started them
         done = _import_distributed().as_completed(loop=self._client.loop, raise_errors=False)
         waiting, running = iter(tasks), {}

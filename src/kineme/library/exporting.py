@@ -1,6 +1,4 @@
-"""Export from a library: tables, SQL queries, clips of hits, pictures of clusters.
-
-@@clipping: Measure which movements a library covers, and write the best loops of each cluster.
+"""Export from a library: tables, SQL queries, clips of hits, best loops, coverage and pictures.
 
 Loops of all recordings are ranked by the same cost as those of one recording. Near duplicates of a
 better loop are left out: their poses (head, hands and feet relative to the pelvis) are within
@@ -47,6 +45,11 @@ NEAR_M = 0.03
 """RMS distance of five points in metres below which two loops are the same movement."""
 NEAR_SHARE = 0.1
 """Largest difference in duration of two such loops, as a fraction of the longer one."""
+CLUSTERS = "clusters"
+"""Name of the table that is computed from the others on request."""
+MOST_STRIPS = 12
+"""Largest number of strips in the picture of all clusters."""
+ALL = "clusters.png"
 
 
 class Coverage(NamedTuple):
@@ -83,14 +86,148 @@ class Coverage(NamedTuple):
     stops: int
 
 
+def get_table(tables: OpenTables, name: str) -> Any:
+    """Return one of `DESCRIBED` or ``clusters`` with edits applied, as a pyarrow.Table."""
+    if name == CLUSTERS:
+        return tabulate_clusters(list_clusters(tables))
+    if name not in DESCRIBED:
+        raise ParameterError(
+            f"no table {name!r:.40}; there are {', '.join((*DESCRIBED, CLUSTERS))}"
+        )
+    return tables.table(name)
+
+
+def run_query(tables: OpenTables, sql: str) -> Any:
+    """Return the result of an SQL query over all tables of a library, as a pyarrow.Table."""
+    with require_extra("duckdb", EXTRA):
+        import duckdb
+    if not isinstance(sql, str):
+        raise ParameterError(f"a query must be a text of SQL, not {sql!r:.60}")
+    with duckdb.connect() as connection:
+        connection.execute("SET enable_external_access = false")
+        for name in (*DESCRIBED, CLUSTERS):
+            connection.register(name, get_table(tables, name))
+        try:
+            relation = connection.sql(sql)
+            if relation is None:
+                raise ParameterError("this query returns no rows: begin it with select")
+            return relation.to_arrow_table()
+        except duckdb.Error as error:
+            raise ParameterError(" ".join(str(error).split())[:400]) from error
+
+
+def write_table(table: Any, path: str | PathLike[str]) -> None:
+    """Write a pyarrow.Table as Parquet, CSV or TSV by suffix; text files omit embeddings."""
+    suffix = Path(path).suffix.lower()
+    if suffix == ".parquet":
+        _, parquet = import_arrow()
+        with atomic_write(path) as draft:
+            parquet.write_table(table, draft)
+    elif suffix in (".csv", ".tsv"):
+        names = [name for name in table.column_names if name != "embedding"]
+        rows = zip(
+            *(map(_format_cell, table.column(name).to_pylist()) for name in names), strict=True
+        )
+        with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
+            write_rows(file, names, rows, delimiter="," if suffix == ".csv" else "\t")
+    else:
+        raise WriteError(path, "the suffix must be one of .parquet, .csv, .tsv")
+
+
+def _format_cell(value: object) -> object:
+    """Return the cell of a text table: empty for None and nan."""
+    return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
+
+
+def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[str]) -> list[Path]:
+    """Write the hits of a search as clips, grouped by recording, to an empty folder."""
+    from kineme.clips.split import Source, write_clips
+
+    by_recording: dict[str, list[Hit]] = {}
+    for hit in hits:
+        by_recording.setdefault(hit.recording, []).append(hit)
+
+    def sources() -> Iterator[Source]:
+        for name, group in by_recording.items():
+            recording = tables.read(name)
+            yield recording, [_as_segment(hit, recording) for hit in group]
+
+    return write_clips(sources(), folder)
+
+
+def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
+    """Return a hit as a segment of its recording, at least one frame long."""
+    fps = recording.fps
+    start, stop = to_samples((hit.start_s, hit.stop_s), fps, recording.n_frames)
+    return Segment(
+        level="primitive",
+        kind="primitive",
+        start_frame=start,
+        stop_frame=stop,
+        start_s=start / fps,
+        stop_s=stop / fps,
+        cluster=hit.cluster,
+        activity=-1,
+        label=hit.label,
+        action=hit.cluster,
+    )
+
+
+def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
+    """Write a picture of each cluster, and one of the clusters with the most seconds.
+
+    Clusters whose recording cannot be read are skipped. The overview is first in the result.
+    """
+    from kineme.plot.strips import write_sheet
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise WriteError(folder, f"cannot be created: {error.strerror or error}") from error
+    strips: list[tuple[Cluster, Motion | Signals]] = []
+    written = []
+    for cluster in list_clusters(tables):
+        try:
+            recording = tables.read(cluster.example)
+        except KinemeError:  # missing file: go on with the others
+            continue
+        recording = recording.seconds(cluster.start_s, cluster.stop_s)
+        strips.append((cluster, recording))
+        label = re.sub(r"[^\w-]+", "-", cluster.label).strip("-")[:40]  # portable
+        name = "-".join(filter(None, [f"cluster-{cluster.cluster}", label]))
+        path = folder / f"{name}.png"
+        write_sheet([_make_strip(cluster, recording)], path)
+        written.append(path)
+    if strips:
+        write_sheet([_make_strip(*each) for each in strips[:MOST_STRIPS]], folder / ALL)
+        written.insert(0, folder / ALL)
+    return written
+
+
+def _make_strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
+    """Return the strip of a recording with a title that describes its cluster."""
+    from kineme.plot.strips import Strip
+
+    named = f"{cluster.cluster} {cluster.label}".strip()
+    times = cluster.repetitions or cluster.activities
+    n = cluster.recordings
+    title = (
+        f"{named}   {times} × {cluster.typical_s:.2f} s in {format_count(n, 'recording')}; "
+        f"here {cluster.example}"
+    )
+    return Strip(title, recording, cluster.cluster)
+
+
 def measure_coverage(tables: OpenTables) -> list[Coverage]:
     """Return the coverage of each cluster in each direction; reads all recordings of bodies."""
     facts_by_group: defaultdict[tuple[int, str], list[tuple[float, float, float, bool, bool]]]
     facts_by_group, labels = defaultdict(list), dict[int, str]()
     for motion, rows in _read_bodies(tables):
         travel = measure_travel(motion)
-        for row in rows if travel is not None else ():
-            if travel is None or row.level != "activity" or row.kind == "transition":
+        if travel is None:
+            continue
+        for row in rows:
+            if row.level != "activity" or row.kind == "transition":
                 continue
             span, labels[row.cluster] = (row.start_frame, row.stop_frame), row.label
             tags, speed = travel.tags(*span), float(np.hypot(*travel.velocity(*span)))
@@ -133,7 +270,9 @@ def write_best_loops(
     if not is_one_of(per, get_args(Per)):
         raise ParameterError(f"per is {per!r:.60}: choose from {', '.join(get_args(Per))}")
     groups: defaultdict[tuple[int, str], list[_Candidate]] = defaultdict(list)
-    repeated = _list_repeated(tables)
+    segments = tables.columns("segments")
+    primitives = (segments["level"] == "primitive") & (segments["kind"] != "transition")
+    repeated = set(segments["cluster"][primitives].tolist())
     for motion, rows in _read_bodies(tables):
         wanted = [
             index
@@ -220,13 +359,6 @@ def _choose_best(candidates: Sequence[_Candidate], most: int | None) -> list[_Ca
     return chosen
 
 
-def _list_repeated(tables: OpenTables) -> set[int]:
-    """Return the clusters with primitives."""
-    segments = tables.columns("segments")
-    primitives = (segments["level"] == "primitive") & (segments["kind"] != "transition")
-    return set(segments["cluster"][primitives].tolist())
-
-
 def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
     """Yield recordings of bodies with their edited segments; warn if a file cannot be read."""
     recordings, segments = tables.recordings, tables.columns("segments")
@@ -244,147 +376,3 @@ def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
                 zip(*columns, strict=True)]  # fmt: skip
         if isinstance(motion, Motion) and rows[-1].stop_frame <= motion.n_frames:
             yield motion, rows
-
-
-CLUSTERS = "clusters"
-"""Name of the table that is computed from the others on request."""
-MOST_STRIPS = 12
-"""Largest number of strips in the picture of all clusters."""
-ALL = "clusters.png"
-
-
-def get_table(tables: OpenTables, name: str) -> Any:
-    """Return one of `DESCRIBED` or ``clusters`` with edits applied, as a pyarrow.Table."""
-    if name == CLUSTERS:
-        return tabulate_clusters(list_clusters(tables))
-    if name not in DESCRIBED:
-        raise ParameterError(
-            f"no table {name!r:.40}; there are {', '.join((*DESCRIBED, CLUSTERS))}"
-        )
-    return tables.table(name)
-
-
-def run_query(tables: OpenTables, sql: str) -> Any:
-    """Return the result of an SQL query over all tables of a library, as a pyarrow.Table."""
-    with require_extra("duckdb", EXTRA):
-        import duckdb
-    if not isinstance(sql, str):
-        raise ParameterError(f"a query must be a text of SQL, not {sql!r:.60}")
-    with duckdb.connect() as connection:
-        connection.execute("SET enable_external_access = false")
-        for name in (*DESCRIBED, CLUSTERS):
-            connection.register(name, get_table(tables, name))
-        try:
-            relation = connection.sql(sql)
-            if relation is None:
-                raise ParameterError("this query returns no rows: begin it with select")
-            return relation.to_arrow_table()
-        except duckdb.Error as error:
-            raise ParameterError(" ".join(str(error).split())[:400]) from error
-
-
-def write_table(table: Any, path: str | PathLike[str]) -> None:
-    """Write a pyarrow.Table as Parquet, CSV or TSV by suffix; text files omit embeddings."""
-    suffix = Path(path).suffix.lower()
-    if suffix == ".parquet":
-        _, parquet = import_arrow()
-        with atomic_write(path) as draft:
-            parquet.write_table(table, draft)
-    elif suffix in (".csv", ".tsv"):
-        names = [name for name in table.column_names if name != "embedding"]
-        rows = zip(
-            *(map(_format_cell, table.column(name).to_pylist()) for name in names), strict=True
-        )
-        with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
-            write_rows(file, names, rows, delimiter="," if suffix == ".csv" else "\t")
-    else:
-        raise WriteError(path, "the suffix must be one of .parquet, .csv, .tsv")
-
-
-def write_hits(tables: OpenTables, hits: Sequence[Hit], folder: str | PathLike[str]) -> list[Path]:
-    """Write the hits of a search as clips, grouped by recording, to an empty folder."""
-    from kineme.clips.split import write_clips
-
-    by_recording: dict[str, list[Hit]] = {}
-    for hit in hits:
-        by_recording.setdefault(hit.recording, []).append(hit)
-    recordings = ((tables.read(name), group) for name, group in by_recording.items())
-    return write_clips(
-        (
-            (recording, [_as_segment(hit, recording) for hit in group])
-            for recording, group in recordings
-        ),
-        folder,
-    )
-
-
-def _format_cell(value: object) -> object:
-    """Return the cell of a text table: empty for None and nan."""
-    return "" if value is None or value != value else value  # noqa: PLR0124 (nan)
-
-
-def _as_segment(hit: Hit, recording: Motion | Signals) -> Segment:
-    """Return a hit as a segment of its recording, at least one frame long."""
-    fps = recording.fps
-    start, stop = to_samples((hit.start_s, hit.stop_s), fps, recording.n_frames)
-    return Segment(
-        level="primitive",
-        kind="primitive",
-        start_frame=start,
-        stop_frame=stop,
-        start_s=start / fps,
-        stop_s=stop / fps,
-        cluster=hit.cluster,
-        activity=-1,
-        label=hit.label,
-        action=hit.cluster,
-    )
-
-
-def write_pictures(tables: OpenTables, folder: Path) -> list[Path]:
-    """Write a picture of each cluster, and one of the clusters with the most seconds.
-
-    Clusters whose recording cannot be read are skipped. The overview is first in the result.
-    """
-    from kineme.plot.strips import write_sheet
-
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise WriteError(folder, f"cannot be created: {error.strerror or error}") from error
-    strips: list[tuple[Cluster, Motion | Signals]] = []
-    written = []
-    for cluster in list_clusters(tables):
-        try:
-            recording = tables.read(cluster.example)
-        except KinemeError:  # missing file: go on with the others
-            continue
-        recording = recording.seconds(cluster.start_s, cluster.stop_s)
-        strips.append((cluster, recording))
-        path = folder / f"{_make_file_name(cluster)}.png"
-        write_sheet([_make_strip(cluster, recording)], path)
-        written.append(path)
-    if strips:
-        write_sheet([_make_strip(*each) for each in strips[:MOST_STRIPS]], folder / ALL)
-        written.insert(0, folder / ALL)
-    return written
-
-
-def _make_strip(cluster: Cluster, recording: Motion | Signals) -> Strip:
-    """Return the strip of a recording with a title that describes its cluster."""
-    from kineme.plot.strips import Strip
-
-    named = f"{cluster.cluster} {cluster.label}".strip()
-    times = cluster.repetitions or cluster.activities
-    n = cluster.recordings
-    title = (
-        f"{named}   {times} × {cluster.typical_s:.2f} s in {format_count(n, 'recording')}; "
-        f"here {cluster.example}"
-    )
-    return Strip(title, recording, cluster.cluster)
-
-
-def _make_file_name(cluster: Cluster) -> str:
-    """Return a portable file name for a cluster, without suffix."""
-    label = re.sub(r"[^\w-]+", "-", cluster.label).strip("-")[:40]
-    return "-".join(filter(None, [f"cluster-{cluster.cluster}", label]))

@@ -1,6 +1,4 @@
-"""Search all recordings of a library for spans similar to examples.
-
-@@searching: Search recordings for spans similar to examples, but not to counter-examples.
+"""Search all recordings of a library for spans similar to examples, but not to counter-examples.
 
 In a large library an index finds the windows nearest to an example first
 (`kineme.library.windows`, `kineme.library.storage.tables`). Only the parts of recordings around
@@ -37,16 +35,25 @@ from kineme.library.storage.tables import Windows, open_index, read_features, re
 from kineme.library.windows import FINER, choose_length, compute_step, describe_at_speeds
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
-from kineme.transfer.matching import Matches, search
+from kineme.transfer.matching import Matches, choose_disjoint, search
 
 REFUSED = 0.5
 """Fraction of a match that a nearer match of a counter-example must cover to reject it."""
-
-
-class Named(str):
-    """Name of a recording of the library, even if a file has the same name."""
-
-    __slots__ = ()
+SHARE = 0.01
+"""Fraction of the windows around which samples are searched."""
+MORE = 20
+"""Least number of windows per wanted hit."""
+BLOCK = 1 << 16
+"""Number of windows compared at a time."""
+BATCH_SAMPLES = 1 << 15
+"""Samples that are searched at a time."""
+BETWEEN_PARTS = 1e3
+"""Value of all features between two parts, which no match can cross."""
+TYPICAL = 5
+"""Number of typical segments that represent a cluster in a search."""
+BEYOND = 0.1
+"""Seconds by which an example may exceed its recording without a warning."""
+LARGEST, MOST_HITS = 1e6, 1 << 31
 
 
 @dataclass(frozen=True)
@@ -84,6 +91,12 @@ class Example:
             )
 
 
+class Named(str):
+    """Name of a recording of the library, even if a file has the same name."""
+
+    __slots__ = ()
+
+
 class Hit(NamedTuple):
     """A span of a recording that is similar to an example.
 
@@ -113,89 +126,6 @@ class Hit(NamedTuple):
     label: str
 
 
-def find_matches(
-    features: Float32s,
-    examples: Sequence[Float32s],
-    counterexamples: Sequence[Float32s],
-    *,
-    threshold: float,
-    top: int | None,
-) -> Matches:
-    """Return disjoint spans of a recording that are similar to any example.
-
-    Spans that are nearer to a counter-example are rejected.
-    """
-    matches = _merge_matches(features, examples, threshold, None if counterexamples else top)
-    if counterexamples and len(matches.starts):
-        others = _merge_matches(features, counterexamples, threshold, None)
-        # (matches, others): samples shared by each pair of spans.
-        first = np.maximum(matches.starts[:, None], others.starts[None])
-        shared = np.minimum(matches.stops[:, None], others.stops[None]) - first
-        covers = shared >= REFUSED * (matches.stops - matches.starts)[:, None]
-        nearer = others.distances[None] < matches.distances[:, None]
-        rows = np.flatnonzero(~(covers & nearer).any(axis=1))
-        matches = _select_rows(matches, rows)
-    return _select_rows(matches, slice(top))
-
-
-def choose_best(
-    found: Sequence[Matches], *, top: int | None, most: int | None
-) -> list[tuple[int, tuple[int, int, float]]]:
-    """Return the recording, and start, stop and distance, of the nearest spans.
-
-    At most ``most`` spans of each recording.
-    """
-    spans = [
-        (distance, i, start, stop)
-        for i, each in enumerate(found)
-        for start, stop, distance in zip(*(column[:most].tolist() for column in each), strict=True)
-    ]
-    return [(i, (start, stop, distance)) for distance, i, start, stop in sorted(spans)[:top]]
-
-
-def _merge_matches(
-    features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
-) -> Matches:
-    """Return disjoint spans that are similar to any example, the best first."""
-    several = [search(example, features, threshold=threshold, top=top) for example in examples]
-    if len(several) == 1:
-        return several[0]
-    ordered = _order_matches(several)
-    covered = np.zeros(len(features), np.bool_)
-    chosen = []
-    for i, span in enumerate(map(slice, ordered.starts.tolist(), ordered.stops.tolist())):
-        if not covered[span].any():
-            covered[span] = True
-            chosen.append(i)
-    return _select_rows(ordered, np.array(chosen, np.int64))
-
-
-def _select_rows(matches: Matches, rows: slice | Ints) -> Matches:
-    return Matches(matches.starts[rows], matches.stops[rows], matches.distances[rows])
-
-
-SHARE = 0.01
-"""Fraction of the windows around which samples are searched."""
-MORE = 20
-"""Least number of windows per wanted hit."""
-BLOCK = 1 << 16
-"""Number of windows compared at a time."""
-
-
-BATCH_SAMPLES = 1 << 15
-"""Samples that are searched at a time."""
-BETWEEN_PARTS = 1e3
-"""Value of all features between two parts, which no match can cross."""
-
-
-class Parts(NamedTuple):
-    """Parts [start, stop) of recordings in samples, sorted by recording."""
-
-    rows: Ints
-    starts: Ints
-    stops: Ints
-
-
 @dataclass(frozen=True, eq=False)
 class Query:
     """Query: features (samples, dims) of examples; at most ``top`` matches per task."""
@@ -204,145 +134,6 @@ class Query:
     counterexamples: Sequence[Float32s]
     threshold: float
     top: int | None
-
-
-@dataclass(frozen=True, eq=False)
-class Task:
-    """Parts to search together, and the analysis keys of their recordings by row."""
-
-    folder: Path
-    analyses: dict[int, str]
-    parts: Parts
-    query: Query
-
-
-def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
-    """Return the parts of recordings around the windows that are nearest to an example."""
-    nearest = _find_nearest(windows, describe_at_speeds(example), top)
-    rows = np.searchsorted(windows.firsts, nearest, side="right") - 1
-    middles = (nearest - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
-    reach = compute_step(windows.length) + len(example)  # a match may be twice as long
-    lasts = windows.samples[rows]
-    return merge_overlapping(
-        Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
-    )
-
-
-def merge_overlapping(parts: Parts) -> Parts:
-    """Merge parts that overlap or touch."""
-    order = np.lexsort((parts.starts, parts.rows))
-    rows, starts, stops = (column[order] for column in parts)
-    far = int(stops.max(initial=0)) + 1
-    # Offsets by row keep the parts of different recordings apart in one running maximum.
-    reached = np.maximum.accumulate(stops + rows * far)
-    new = np.ones(len(rows), np.bool_)
-    new[1:] = starts[1:] + rows[1:] * far > reached[:-1]
-    first = np.flatnonzero(new)
-    last = np.append(first[1:], len(rows)) - 1 if len(rows) else first
-    return Parts(rows[first], starts[first], reached[last] - rows[first] * far)
-
-
-def find_matches_in_parts(
-    folder: Path,
-    analyses: Sequence[str],
-    parts: Parts,
-    query: Query,
-    executor: Executor | None,
-) -> dict[int, Matches]:
-    """Return the matches in parts of recordings by row, the best first."""
-    tasks = [
-        Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, query)
-        for batch in _make_batches(parts)
-    ]
-    if executor is None:
-        with threadpool_limits(1):  # tasks use all cores already
-            outcomes = map_threads(search_parts, tasks)
-    else:
-        outcomes = [
-            _require_outcome(outcome) for _, outcome in executor.completed(search_parts, tasks)
-        ]
-    by_row: dict[int, list[Matches]] = {}
-    for each in outcomes:
-        for row, matches in each.items():
-            by_row.setdefault(row, []).append(matches)
-    return {row: _order_matches(several) for row, several in sorted(by_row.items())}
-
-
-def search_parts(task: Task) -> dict[int, Matches]:
-    """Return the matches in the parts of a task by row, the best first."""
-    parts, query = task.parts, task.query
-    lasts = parts.stops - parts.starts
-    # Concatenate all parts, separated by one sample that matches nothing.
-    firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
-    features = np.full((firsts[-1], query.examples[0].shape[1]), BETWEEN_PARTS, np.float32)
-    for row, key in sorted(task.analyses.items()):
-        at = np.flatnonzero(parts.rows == row)
-        spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
-        read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
-    matches = find_matches(
-        features,
-        query.examples,
-        query.counterexamples,
-        threshold=query.threshold,
-        top=query.top,
-    )
-    # Convert positions in the concatenation back to samples of recordings.
-    owners = np.searchsorted(firsts, matches.starts, side="right") - 1
-    offsets = parts.starts[owners] - firsts[owners]
-    moved = Matches(matches.starts + offsets, matches.stops + offsets, matches.distances)
-    rows = parts.rows[owners]
-    return {row: Matches(*(column[rows == row] for column in moved)) for row in set(rows.tolist())}
-
-
-def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
-    """Return the indices of the windows nearest to any part of an example, sorted."""
-    n = len(windows.embedded)
-    least = np.empty(n, np.int32)
-
-    def compare(first: int) -> None:
-        block = slice(first, first + BLOCK)
-        find_smallest_distances(
-            np.asarray(windows.embedded[block]), parts, np.int32(FINER), least[block]
-        )
-
-    map_threads(compare, range(0, n, BLOCK))
-    most = min(max(round(SHARE * n), MORE * top), n)
-    # `argpartition` finds the smallest distances without sorting all.
-    chosen: NDArray[np.int64] = np.sort(np.argpartition(least, most - 1)[:most])
-    return chosen
-
-
-def _make_batches(parts: Parts) -> Iterator[Parts]:
-    """Yield batches of parts with about `BATCH_SAMPLES` samples; a longer part is alone."""
-    reached = np.cumsum(parts.stops - parts.starts)
-    batches = (reached - (parts.stops - parts.starts)) // BATCH_SAMPLES
-    # Borders between batches, including both ends.
-    edges = np.flatnonzero(np.diff(batches, prepend=-1, append=-1))
-    for first, stop in pairwise(edges.tolist()):
-        yield Parts(*(column[first:stop] for column in parts))
-
-
-def _require_outcome(outcome: dict[int, Matches] | None) -> dict[int, Matches]:
-    if outcome is None:
-        raise KinemeError("the search processes died: they may need more memory")
-    return outcome
-
-
-def _order_matches(several: Sequence[Matches]) -> Matches:
-    """Merge matches of one recording, the best first."""
-    if len(several) == 1:
-        return several[0]
-    starts, stops, distances = (np.concatenate(column) for column in zip(*several, strict=True))
-    order = np.lexsort((starts, distances))
-    return Matches(starts[order], stops[order], distances[order])
-
-
-TYPICAL = 5
-"""Number of typical segments that represent a cluster in a search."""
-
-BEYOND = 0.1
-"""Seconds by which an example may exceed its recording without a warning."""
-LARGEST, MOST_HITS = 1e6, 1 << 31
 
 
 def find_hits(
@@ -381,9 +172,14 @@ def find_hits(
     matches = find_matches_in_parts(
         tables.folder / ANALYSES, tables.recordings["piece"], parts, query, executor
     )
-    rows = list(matches)
-    chosen = choose_best(list(matches.values()), top=top, most=max_per_recording)
-    return [_make_hit(tables, rows[i], *span) for i, span in chosen]
+    spans = [
+        (distance, row, start, stop)
+        for row, each in matches.items()
+        for start, stop, distance in zip(
+            *(column[:max_per_recording].tolist() for column in each), strict=True
+        )
+    ]
+    return [_make_hit(tables, *span) for span in sorted(spans)[:top]]
 
 
 def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
@@ -403,74 +199,6 @@ def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | 
             span = to_samples((hit.start_s, hit.stop_s), travel.fps, len(travel.looks))
             found += [hit] if tag in travel.tags(*span) else []
     return found
-
-
-def _list_parts(tables: OpenTables, vocabulary: str) -> Parts:
-    """Return all recordings of a vocabulary as parts."""
-    rows = np.array(_find_rows(tables, vocabulary), np.int64)
-    samples = np.array(tables.recordings["samples"], np.int64)[rows]
-    return Parts(rows, np.zeros_like(rows), samples)
-
-
-def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
-    """Return the parts most similar to any example by the index; None if there is no index."""
-    found = []
-    for example in examples:
-        windows = open_index(
-            tables.folder, tables.head["tables"], tables.recordings, choose_length(example)
-        )
-        if windows is None:
-            return None
-        found.append(find_parts(windows, example, top))
-    return merge_overlapping(
-        Parts(*(np.concatenate(column) for column in zip(*found, strict=True)))
-    )
-
-
-def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
-    """Return the most typical segments of a cluster (by number or name) as examples."""
-    local = tables.columns("local_clusters")
-    rows = np.flatnonzero(np.isin(local["cluster"], find_cluster_numbers(tables, cluster)))
-    rows = rows[np.argsort(local["spread"][rows], kind="stable")][:TYPICAL]
-    columns = (local[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
-    return [Example(Named(name), *span) for name, *span in zip(*columns, strict=True)]
-
-
-def _find_rows(tables: OpenTables, vocabulary: str) -> list[int]:
-    """Return the rows of recordings with this vocabulary: bodies, or the same channels.
-
-    Raise ParameterError if there are none, as others cannot be compared with the example.
-    """
-    vocabularies = tables.recordings["vocabulary"]
-    rows = [row for row, own in enumerate(vocabularies) if own == vocabulary]
-    if not rows:
-        present = "; ".join(sorted(set(vocabularies) - {""}))
-        raise ParameterError(
-            f"the example has {vocabulary}, but the library has {present or 'nothing'}"
-        )
-    return rows
-
-
-def _make_hit(tables: OpenTables, row: int, start: int, stop: int, distance: float) -> Hit:
-    """Return a span of samples as a hit, with the cluster of the segment that covers most of it.
-
-    If two segments cover equally much, the primitive counts.
-    """
-    recording = tables.recordings["recording"][row]
-    fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
-    start_s, stop_s = start / fps, min(stop / fps, lasts)
-    segments = tables.columns("segments")
-    rows = slice(*tables.rows.get(recording, (0, 0)))
-    if rows.stop == rows.start:
-        return Hit(recording, start_s, stop_s, round(distance, 4), -1, "")
-    # Overlap of each segment with the span, rounded so that ties are exact.
-    shared = np.minimum(segments["stop_s"][rows], stop_s)
-    shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
-    # The last key of `lexsort` is the primary one: largest overlap, then primitives.
-    covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
-    cluster = int(segments["cluster"][rows][covers])
-    label = tables.edits.name(cluster) if cluster >= 0 else ""
-    return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)
 
 
 def as_examples(
@@ -496,6 +224,15 @@ def as_examples(
                 f"{example!r:.60}"
             )
     return examples
+
+
+def choose_typical_examples(tables: OpenTables, cluster: int | str) -> list[Example]:
+    """Return the most typical segments of a cluster (by number or name) as examples."""
+    local = tables.columns("local_clusters")
+    rows = np.flatnonzero(np.isin(local["cluster"], find_cluster_numbers(tables, cluster)))
+    rows = rows[np.argsort(local["spread"][rows], kind="stable")][:TYPICAL]
+    columns = (local[name][rows].tolist() for name in ("recording", "start_s", "stop_s"))
+    return [Example(Named(name), *span) for name, *span in zip(*columns, strict=True)]
 
 
 def describe_examples(
@@ -555,3 +292,224 @@ def _check_comparable(described: Description, name: str) -> Description:
         reason = described.reason or "no body was recognised in it"
         raise ReadError(name, f"cannot be searched for: {reason}")
     return described
+
+
+class Parts(NamedTuple):
+    """Parts [start, stop) of recordings in samples, sorted by recording."""
+
+    rows: Ints
+    starts: Ints
+    stops: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """Parts to search together, and the analysis keys of their recordings by row."""
+
+    folder: Path
+    analyses: dict[int, str]
+    parts: Parts
+    query: Query
+
+
+def _list_parts(tables: OpenTables, vocabulary: str) -> Parts:
+    """Return all recordings of a vocabulary (bodies, or certain channels) as parts.
+
+    Raise ParameterError if there are none, as others cannot be compared with the example.
+    """
+    vocabularies = tables.recordings["vocabulary"]
+    rows = np.array([i for i, own in enumerate(vocabularies) if own == vocabulary], np.int64)
+    if not len(rows):
+        present = "; ".join(sorted(set(vocabularies) - {""}))
+        raise ParameterError(
+            f"the example has {vocabulary}, but the library has {present or 'nothing'}"
+        )
+    samples = np.array(tables.recordings["samples"], np.int64)[rows]
+    return Parts(rows, np.zeros_like(rows), samples)
+
+
+def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
+    """Return the parts most similar to any example by the index; None if there is no index."""
+    found = []
+    for example in examples:
+        windows = open_index(
+            tables.folder, tables.head["tables"], tables.recordings, choose_length(example)
+        )
+        if windows is None:
+            return None
+        found.append(find_parts(windows, example, top))
+    return merge_overlapping(
+        Parts(*(np.concatenate(column) for column in zip(*found, strict=True)))
+    )
+
+
+def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
+    """Return the parts of recordings around the windows that are nearest to an example."""
+    nearest = _find_nearest(windows, describe_at_speeds(example), top)
+    rows = np.searchsorted(windows.firsts, nearest, side="right") - 1
+    middles = (nearest - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
+    reach = compute_step(windows.length) + len(example)  # a match may be twice as long
+    lasts = windows.samples[rows]
+    return merge_overlapping(
+        Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
+    )
+
+
+def _find_nearest(windows: Windows, parts: NDArray[np.int32], top: int) -> Ints:
+    """Return the indices of the windows nearest to any part of an example, sorted."""
+    n = len(windows.embedded)
+    least = np.empty(n, np.int32)
+
+    def compare(first: int) -> None:
+        block = slice(first, first + BLOCK)
+        find_smallest_distances(
+            np.asarray(windows.embedded[block]), parts, np.int32(FINER), least[block]
+        )
+
+    map_threads(compare, range(0, n, BLOCK))
+    most = min(max(round(SHARE * n), MORE * top), n)
+    # `argpartition` finds the smallest distances without sorting all.
+    chosen: NDArray[np.int64] = np.sort(np.argpartition(least, most - 1)[:most])
+    return chosen
+
+
+def merge_overlapping(parts: Parts) -> Parts:
+    """Merge parts that overlap or touch."""
+    order = np.lexsort((parts.starts, parts.rows))
+    rows, starts, stops = (column[order] for column in parts)
+    far = int(stops.max(initial=0)) + 1
+    # Offsets by row keep the parts of different recordings apart in one running maximum.
+    reached = np.maximum.accumulate(stops + rows * far)
+    new = np.ones(len(rows), np.bool_)
+    new[1:] = starts[1:] + rows[1:] * far > reached[:-1]
+    first = np.flatnonzero(new)
+    last = np.append(first[1:], len(rows)) - 1 if len(rows) else first
+    return Parts(rows[first], starts[first], reached[last] - rows[first] * far)
+
+
+def find_matches_in_parts(
+    folder: Path, analyses: Sequence[str], parts: Parts, query: Query, executor: Executor | None
+) -> dict[int, Matches]:
+    """Return the matches in parts of recordings by row, the best first."""
+    tasks = [
+        Task(folder, {row: analyses[row] for row in set(batch.rows.tolist())}, batch, query)
+        for batch in _make_batches(parts)
+    ]
+    if executor is None:
+        with threadpool_limits(1):  # tasks use all cores already
+            outcomes = map_threads(search_parts, tasks)
+    else:
+        outcomes = []
+        for _, outcome in executor.completed(search_parts, tasks):
+            if outcome is None:
+                raise KinemeError("the search processes died: they may need more memory")
+            outcomes.append(outcome)
+    by_row: dict[int, list[Matches]] = {}
+    for each in outcomes:
+        for row, matches in each.items():
+            by_row.setdefault(row, []).append(matches)
+    return {row: _order_matches(several) for row, several in sorted(by_row.items())}
+
+
+def _make_batches(parts: Parts) -> Iterator[Parts]:
+    """Yield batches of parts with about `BATCH_SAMPLES` samples; a longer part is alone."""
+    reached = np.cumsum(parts.stops - parts.starts)
+    batches = (reached - (parts.stops - parts.starts)) // BATCH_SAMPLES
+    # Borders between batches, including both ends.
+    edges = np.flatnonzero(np.diff(batches, prepend=-1, append=-1))
+    for first, stop in pairwise(edges.tolist()):
+        yield Parts(*(column[first:stop] for column in parts))
+
+
+def search_parts(task: Task) -> dict[int, Matches]:
+    """Return the matches in the parts of a task by row, the best first."""
+    parts, query = task.parts, task.query
+    lasts = parts.stops - parts.starts
+    # Concatenate all parts, separated by one sample that matches nothing.
+    firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
+    features = np.full((firsts[-1], query.examples[0].shape[1]), BETWEEN_PARTS, np.float32)
+    for row, key in sorted(task.analyses.items()):
+        at = np.flatnonzero(parts.rows == row)
+        spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
+        read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
+    matches = find_matches(
+        features, query.examples, query.counterexamples, threshold=query.threshold, top=query.top
+    )
+    # Convert positions in the concatenation back to samples of recordings.
+    owners = np.searchsorted(firsts, matches.starts, side="right") - 1
+    offsets = parts.starts[owners] - firsts[owners]
+    moved = Matches(matches.starts + offsets, matches.stops + offsets, matches.distances)
+    rows = parts.rows[owners]
+    return {row: Matches(*(column[rows == row] for column in moved)) for row in set(rows.tolist())}
+
+
+def find_matches(
+    features: Float32s,
+    examples: Sequence[Float32s],
+    counterexamples: Sequence[Float32s],
+    *,
+    threshold: float,
+    top: int | None,
+) -> Matches:
+    """Return disjoint spans of a recording that are similar to any example.
+
+    Spans that are nearer to a counter-example are rejected.
+    """
+    matches = _merge_matches(features, examples, threshold, None if counterexamples else top)
+    if counterexamples and len(matches.starts):
+        others = _merge_matches(features, counterexamples, threshold, None)
+        # (matches, others): samples shared by each pair of spans.
+        first = np.maximum(matches.starts[:, None], others.starts[None])
+        shared = np.minimum(matches.stops[:, None], others.stops[None]) - first
+        covers = shared >= REFUSED * (matches.stops - matches.starts)[:, None]
+        nearer = others.distances[None] < matches.distances[:, None]
+        rows = np.flatnonzero(~(covers & nearer).any(axis=1))
+        matches = _select_rows(matches, rows)
+    return _select_rows(matches, slice(top))
+
+
+def _merge_matches(
+    features: Float32s, examples: Sequence[Float32s], threshold: float, top: int | None
+) -> Matches:
+    """Return disjoint spans that are similar to any example, the best first."""
+    several = [search(example, features, threshold=threshold, top=top) for example in examples]
+    if len(several) == 1:
+        return several[0]
+    ordered = _order_matches(several)
+    spans = ordered.starts.tolist(), ordered.stops.tolist()
+    return _select_rows(ordered, choose_disjoint(*spans, len(features)))
+
+
+def _order_matches(several: Sequence[Matches]) -> Matches:
+    """Merge matches of one recording, the best first."""
+    if len(several) == 1:
+        return several[0]
+    starts, stops, distances = (np.concatenate(column) for column in zip(*several, strict=True))
+    order = np.lexsort((starts, distances))
+    return Matches(starts[order], stops[order], distances[order])
+
+
+def _select_rows(matches: Matches, rows: slice | Ints) -> Matches:
+    return Matches(matches.starts[rows], matches.stops[rows], matches.distances[rows])
+
+
+def _make_hit(tables: OpenTables, distance: float, row: int, start: int, stop: int) -> Hit:
+    """Return a span of samples as a hit, with the cluster of the segment that covers most of it.
+
+    If two segments cover equally much, the primitive counts.
+    """
+    recording = tables.recordings["recording"][row]
+    fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
+    start_s, stop_s = start / fps, min(stop / fps, lasts)
+    segments = tables.columns("segments")
+    rows = slice(*tables.rows.get(recording, (0, 0)))
+    if rows.stop == rows.start:
+        return Hit(recording, start_s, stop_s, round(distance, 4), -1, "")
+    # Overlap of each segment with the span, rounded so that ties are exact.
+    shared = np.minimum(segments["stop_s"][rows], stop_s)
+    shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
+    # The last key of `lexsort` is the primary one: largest overlap, then primitives.
+    covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
+    cluster = int(segments["cluster"][rows][covers])
+    label = tables.edits.name(cluster) if cluster >= 0 else ""
+    return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)

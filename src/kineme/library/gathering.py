@@ -1,4 +1,6 @@
-"""Collect the analyses of a build's recordings: reuse existing ones, make the others.
+"""Collect the analyses of a build's recordings, and compile them into tables.
+
+Existing analyses are reused, the others are made.
 
 Analyses run on any executor; an error affects one recording only. Importing the analysis code takes
 a second, so only the processes of the executor do it.
@@ -6,7 +8,7 @@ a second, so only the processes of the executor do it.
 Recordings with equal content are analysed once. Files are compared by size, then by a sample, and
 read as a whole only if both are equal.
 
-@@compiling: Compile the analyses of a library into tables with shared clusters.
+`compile_tables` then merges the clusters of all analyses and makes the tables of the library.
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ from kineme._util.arrays import Ints
 from kineme._util.checks import is_text
 from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
-from kineme.errors import KinemeError, KinemeWarning, MissingDependencyError, ReadError, WriteError
+from kineme.errors import KinemeError, KinemeWarning, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
 from kineme.library.executors import Executor, InProcess, Progress, track_progress
 from kineme.library.planning import (
@@ -90,6 +92,9 @@ SAMPLE = 4096
 PER_WORKER = 1 << 20
 """Bytes of recordings per process: starting one takes seconds."""
 DIED = "the process that read it died: it may need more memory than is available"
+Columns = dict[str, Any]
+CACHED = 500
+"""Number of local clusters whose features are cached: those of one round of comparisons."""
 
 
 @dataclass
@@ -114,9 +119,12 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     readable = [path for path in found if is_text(str(path))]
     states = read_states(readable, plan.read_options.skeleton)
     unreadable = [path for path in found if path not in states]
-    gathered = Gathered(
-        _find_unchanged(plan, states, former), failed=dict.fromkeys(unreadable, UNNAMED)
-    )
+    complete = {path.stem for path in plan.analyses.glob("*.parquet")}
+    gathered = Gathered(failed=dict.fromkeys(unreadable, UNNAMED))
+    for path, state in states.items():
+        former_state, digest = former.get(str(path), ("", ""))
+        if state and state == former_state and plan.key(digest) in complete:
+            gathered.digests[path] = digest
     waiting = [path for path in readable if path not in gathered.digests]
     if waiting:
         _make_analyses(plan, waiting, executor, progress, gathered)
@@ -126,6 +134,33 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
     return gathered
 
 
+@dataclass(frozen=True)
+class Task:
+    """A recording of ``size`` bytes to analyse; ``analyses`` is the folder for the result."""
+
+    path: Path
+    analyses: Path
+    read_options: ReadOptions
+    segment_options: SegmentOptions
+    options_digest: str
+    size: int
+
+    def __hash__(self) -> int:
+        return hash(self.path)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Outcome of a task: the digest of its analysed files, or an error."""
+
+    digest: str = ""
+    new: bool = False
+    """Whether the analysis was made now."""
+    error: str = ""
+    fatal: bool = False
+    """Whether all other tasks will fail, too, as on a full disk."""
+
+
 def _read_former_states(path: Path, progress: Progress) -> States:
     """Return the last state and digest of each recording; empty if the file is damaged."""
     try:
@@ -133,17 +168,6 @@ def _read_former_states(path: Path, progress: Progress) -> States:
     except ReadError as error:
         progress(f"{path.name} was ignored and all recordings are read again: it {error.reason}")
         return {}
-
-
-def _find_unchanged(plan: Plan, states: Mapping[Path, str], former: States) -> dict[Path, str]:
-    """Return the digests of unchanged recordings that have an analysis."""
-    digests = {}
-    complete = {path.stem for path in plan.analyses.glob("*.parquet")}
-    for path, state in states.items():
-        former_state, digest = former.get(str(path), ("", ""))
-        if former_state and former_state == state and plan.key(digest) in complete:
-            digests[path] = digest
-    return digests
 
 
 def _make_analyses(
@@ -182,6 +206,13 @@ def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) ->
     into.new += outcome.new
 
 
+def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
+    """Return tasks for recordings, the largest first, so that processes finish together."""
+    common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
+    tasks = [Task(path, *common, measure_size(path)) for path in paths]
+    return sorted(tasks, key=lambda task: (-task.size, task.path))
+
+
 class Group(NamedTuple):
     """Tasks with equal content, and the digest; empty for a single task."""
 
@@ -194,7 +225,7 @@ def group_by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Gr
     criteria: tuple[Callable[[Task], str], ...] = (
         lambda task: "" if is_remote(task.path) else f"{task.size}",
         _digest_sample,
-        lambda task: _digest_files(task, skeleton),
+        lambda task: compute_digest(task.path, skeleton),
     )
     groups = [Group(list(tasks), "")]
     for criterion in criteria:
@@ -206,77 +237,34 @@ def _split_group(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
     """Split a group by the value of a criterion; tasks with an empty value are alone."""
     if len(group.tasks) < 2:
         return [group]
+
+    def compute(task: Task) -> str:
+        try:
+            return criterion(task)
+        except (OSError, ReadError):  # the analysis will report it
+            return ""
+
     parts: defaultdict[str | Task, list[Task]] = defaultdict(list)
-    for task, value in zip(group.tasks, map_threads(criterion, group.tasks), strict=True):
+    for task, value in zip(group.tasks, map_threads(compute, group.tasks), strict=True):
         parts[value or task].append(task)
     return [Group(part, key if isinstance(key, str) else "") for key, part in parts.items()]
 
 
 def _digest_sample(task: Task) -> str:
-    """Return a digest of the middle of a file; empty if it cannot be read."""
+    """Return a digest of the middle of a file."""
     if task.path.is_dir():
         return "folder"
-    try:
-        refuse_pipe(task.path)
-        with task.path.open("rb") as file:
-            file.seek(max(task.size - SAMPLE, 0) // 2)
-            return sha256(file.read(SAMPLE)).hexdigest()
-    except (OSError, ReadError):  # the analysis will report it
-        return ""
-
-
-def _digest_files(task: Task, skeleton: AnyPath | None) -> str:
-    try:
-        return compute_digest(task.path, skeleton)
-    except ReadError:  # the analysis will report it
-        return ""
-
-
-@dataclass(frozen=True)
-class Task:
-    """A recording of ``size`` bytes to analyse; ``analyses`` is the folder for the result."""
-
-    path: Path
-    analyses: Path
-    read_options: ReadOptions
-    segment_options: SegmentOptions
-    options_digest: str
-    size: int
-
-    def __hash__(self) -> int:
-        return hash(self.path)
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """Outcome of a task: the digest of its analysed files, or an error."""
-
-    digest: str = ""
-    new: bool = False
-    """Whether the analysis was made now."""
-    error: str = ""
-    fatal: bool = False
-    """Whether all other tasks will fail, too, as on a full disk."""
-
-
-def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
-    """Return tasks for recordings, the largest first, so that processes finish together."""
-    common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
-    tasks = [Task(path, *common, measure_size(path)) for path in paths]
-    return sorted(tasks, key=lambda task: (-task.size, task.path))
+    refuse_pipe(task.path)
+    with task.path.open("rb") as file:
+        file.seek(max(task.size - SAMPLE, 0) // 2)
+        return sha256(file.read(SAMPLE)).hexdigest()
 
 
 def run_tasks(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
     """Yield each task with its outcome as they complete."""
-    for task, outcome in executor.completed(
-        analyze_recording, tasks, workers=choose_workers(tasks)
-    ):
+    workers = 1 + sum(task.size for task in tasks) // PER_WORKER
+    for task, outcome in executor.completed(analyze_recording, tasks, workers=workers):
         yield task, outcome or Outcome(error=DIED)
-
-
-def choose_workers(tasks: Iterable[Task]) -> int:
-    """Return the number of processes worth starting for these recordings."""
-    return 1 + sum(task.size for task in tasks) // PER_WORKER
 
 
 def analyze_recording(task: Task) -> Outcome:
@@ -294,22 +282,12 @@ def analyze_recording(task: Task) -> Outcome:
                     return Outcome(digest)
                 recording = read_quietly(path, options)
             write_analysis(task.analyses, key, *make_analysis(recording, task.segment_options))
-    except (WriteError, MissingDependencyError) as error:
-        return Outcome(error=_shorten_reason(error), fatal=isinstance(error, WriteError))
     except Exception as error:  # noqa: BLE001 (one recording must not end a build)
-        return Outcome(error=_shorten_reason(error))
+        reason = " ".join(str(error).split())
+        if not isinstance(error, KinemeError):
+            reason = f"{type(error).__name__}: {reason}"
+        return Outcome(error=reason, fatal=isinstance(error, WriteError))
     return Outcome(digest, new=True)
-
-
-def _shorten_reason(error: BaseException) -> str:
-    text = " ".join(str(error).split())
-    return text if isinstance(error, KinemeError) else f"{type(error).__name__}: {text}"
-
-
-Columns = dict[str, Any]
-
-CACHED = 500
-"""Number of local clusters whose features are cached: those of one round of comparisons."""
 
 
 def compile_tables(
@@ -363,15 +341,9 @@ def list_activities(folder: Path, tables: str | None) -> dict[str, Spans]:
 
 
 def _join_clusters(
-    analyses: Sequence[Analysis],
-    keys: Sequence[str],
-    folder: Path,
-    progress: Progress,
+    analyses: Sequence[Analysis], keys: Sequence[str], folder: Path, progress: Progress
 ) -> tuple[list[LocalCluster], Assignment]:
-    """Return the local clusters of all recordings, and the shared cluster of each.
-
-    ``keys`` name the analyses in ``folder``.
-    """
+    """Return the local clusters of all recordings, and the shared cluster of each."""
     none = np.empty(0, np.int64)
     all_clusters, parts, count = [], [Assignment(none, none, np.empty(0), np.empty(0))], 0
     for kind in sorted({analysis.facts["vocabulary"] for analysis in analyses} - {""}):

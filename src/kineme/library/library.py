@@ -5,16 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, Unpack
+from typing import Any, Self, Unpack
 
 import numpy as np
 
 from kineme._util.checks import check_flag, check_path, format_count
 from kineme._util.files import AnyPath
+from kineme.clips.options import ClipOptions
+from kineme.clips.root_motion import Tag
 from kineme.errors import ParameterError
 from kineme.formats import ReadOptions
 from kineme.library.executors import connect
-from kineme.library.exporting import get_table, run_query, write_hits, write_pictures, write_table
+from kineme.library.exporting import (
+    Coverage,
+    Per,
+    get_table,
+    measure_coverage,
+    run_query,
+    write_best_loops,
+    write_hits,
+    write_pictures,
+    write_table,
+)
 from kineme.library.finding import (
     Example,
     Hit,
@@ -33,11 +45,6 @@ from kineme.library.storage.layout import (
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.transfer.matching import THRESHOLD
-
-if TYPE_CHECKING:
-    from kineme.clips.options import ClipOptions
-    from kineme.clips.root_motion import Tag
-    from kineme.library.exporting import Coverage, Per
 
 
 class Library:
@@ -177,8 +184,8 @@ class Library:
             Also search for mirror images of the examples (bodies only). Their distances are
             estimates (see `kineme.features.canonical.mirror_features`).
         tag : str, optional
-            Return only hits with this tag, such as "backwards" (see `kineme.clips.root_motion`). This
-            reads the recordings of the hits.
+            Return only hits with this tag, such as "backwards" (see `kineme.clips.root_motion`).
+            This reads the recordings of the hits.
         client : dask.distributed.Client or str, optional
             Search on this Dask cluster, or on that of the scheduler at an address.
 
@@ -214,16 +221,10 @@ class Library:
 
     def coverage(self) -> list[Coverage]:
         """Return the coverage of each cluster in each direction; reads all recordings of bodies."""
-        from kineme.library.exporting import measure_coverage
-
         return measure_coverage(self._tables)
 
     def loops(
-        self,
-        folder: AnyPath,
-        *,
-        per: Per = "cluster",
-        **options: Unpack[ClipOptions],
+        self, folder: AnyPath, *, per: Per = "cluster", **options: Unpack[ClipOptions]
     ) -> list[Path]:
         """Write the best loops of each group, without near duplicates, to a new folder.
 
@@ -243,8 +244,6 @@ class Library:
         WriteError
             The folder is not empty, or cannot be written.
         """
-        from kineme.library.exporting import write_best_loops
-
         return write_best_loops(self._tables, folder, per=per, **options)
 
     def query(self, sql: str) -> Any:
@@ -338,8 +337,6 @@ class Library:
 
     def __repr__(self) -> str:
         numbers = self._tables.columns("local_clusters")["cluster"].tolist()
-        recordings, clusters = (
-            format_count(len(self), "recording"),
-            format_count(len(set(numbers)), "cluster"),
-        )
+        recordings = format_count(len(self), "recording")
+        clusters = format_count(len(set(numbers)), "cluster")
         return f"<Library of {recordings} ({self.hours:.2g} h), {clusters}>"

@@ -38,11 +38,13 @@ from kineme.recordings import Motion, Signals
 
 Entry = tuple[str, Path, str]
 """A recording: its name, its path, and the key of its analysis."""
-
 ANALYSIS = "kineme.library.piece/4"
 """Schema of an analysis; increment the number if the stored content changes."""
 NOTHING = "{}: nothing to build from: name recordings or folders"
 """Error for a new library without sources."""
+CHUNK = 1 << 20
+"""Bytes that are read at a time for a digest."""
+_AMC = ".amc"
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,19 @@ class Plan:
 
     @cached_property
     def options_digest(self) -> str:
-        return digest_options(self.read_options, self.segment_options)
+        """Return a digest of the version and all options and constants that affect results.
+
+        Raise ParameterError for options that a library cannot store.
+        """
+        self.segment_options.resolved()
+        presets = []
+        for signals in (False, True):
+            with suppress(ParameterError):  # constants that only the other preset has
+                chosen = self.segment_options.resolved(signals=signals)
+                presets.append([chosen.name, dict(chosen.parameters())])
+        options = [options_to_json(each) for each in (self.read_options, self.segment_options)]
+        content = [ANALYSIS, __version__, presets, options]
+        return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     def key(self, digest: str) -> str:
         """Return the name of the analysis of a recording whose files have this digest."""
@@ -108,22 +122,6 @@ def read_kept_options(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOption
         reason = f"is damaged, build the library again: {error}"
         raise ReadError(folder / HEAD, reason) from error
     return read_options, segment_options
-
-
-def digest_options(read_options: ReadOptions, segment_options: SegmentOptions) -> str:
-    """Return a digest of the version and all options and constants that affect results.
-
-    Raise ParameterError for options that a library cannot store.
-    """
-    segment_options.resolved()
-    presets = []
-    for signals in (False, True):
-        with suppress(ParameterError):  # constants that only the other preset has
-            chosen = segment_options.resolved(signals=signals)
-            presets.append([chosen.name, dict(chosen.parameters())])
-    options = [options_to_json(each) for each in (read_options, segment_options)]
-    content = [ANALYSIS, __version__, presets, options]
-    return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def make_analysis_key(options_digest: str, digest: str) -> str:
@@ -182,48 +180,49 @@ def make_absolute(path: Path) -> Path:
     return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
 
 
-CHUNK = 1 << 20
-"""Bytes that are read at a time for a digest."""
-_AMC = ".amc"
+def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
+    """Return the path of each recording in the sources, and the first source that holds it.
+
+    Files in the folder ``without``, that of the library, are left out.
+    """
+    found: dict[Path, Path] = {}
+    for source in sources:
+        inside = [source]
+        if source.is_dir():
+            inside = find_recordings(source, recursive=recursive)
+        for path in inside:
+            if path.exists() and not is_inside(path, without):
+                found.setdefault(path, source)
+    return found
 
 
-def list_files(path: Path, skeleton: AnyPath | None) -> list[Path]:
-    """Return the files of a recording, the main one first."""
-    if path.is_dir():
-        return [file for _, file in list_frame_files(path)]
-    if skeleton is not None:
-        return [path, Path(skeleton)]
-    if path.suffix.lower() != _AMC:
-        return [path]
-    try:
-        return [path, find_skeleton(path)]
-    except ReadError:  # the reader will report the missing skeleton
-        return [path]
+def find_recordings(folder: Path, *, recursive: bool) -> list[Path]:
+    """Return the recordings in a folder; in a remote one only those of a single file."""
+    if not is_remote(folder):
+        return scan_folder(folder, recursive=recursive).recordings
+    remote: Any = folder
+    inside = remote.fs.find(remote.path, maxdepth=None if recursive else 1)
+    home = remote.path.rstrip("/") + "/"
+    paths = [folder / name.removeprefix(home) for name in sorted(inside)]
+    return [path for path in paths if not path.name.startswith(".") and holds_recording(path)]
 
 
-def measure_size(path: Path) -> int:
-    """Return the size of a recording in bytes; 0 if unknown."""
-    try:
-        files = path.iterdir() if path.is_dir() else [path]
-        return sum(file.stat().st_size for file in files)
-    except OSError:
-        return 0
+def name_recordings(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
+    """Return a name for each recording: its path in its source, with more folders if not unique.
 
-
-def compute_digest(path: Path, skeleton: AnyPath | None) -> str:
-    """Return the SHA-256 of a recording's files and of its suffix, which selects the format."""
-    digest = sha256(path.suffix.lower().encode())
-    try:
-        for file in list_files(path, skeleton):
-            refuse_pipe(file)
-            of_file = sha256()
-            with file.open("rb") as content:
-                while chunk := content.read(CHUNK):
-                    of_file.update(chunk)
-            digest.update(of_file.digest())
-    except OSError as error:
-        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
-    return digest.hexdigest()
+    Former names are kept.
+    """
+    names = {path: former[path] for path in found if path in former}
+    used = set(names.values())
+    for path, source in found.items():
+        if path in names:
+            continue
+        depth = 1 if path == source else len(path.parts) - len(source.parts)
+        while (name := "/".join(path.parts[-depth:])) in used and depth < len(path.parts):
+            depth += 1
+        names[path] = name
+        used.add(name)
+    return {path: names[path] for path in found}
 
 
 def read_states(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, str]:
@@ -251,40 +250,6 @@ def read_states(paths: Iterable[Path], skeleton: AnyPath | None) -> dict[Path, s
     return states
 
 
-def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:
-    """Return the path of each recording in the sources, and the first source that holds it.
-
-    Files in the folder ``without``, that of the library, are left out.
-    """
-    found: dict[Path, Path] = {}
-    for source in sources:
-        inside = [source]
-        if source.is_dir():
-            inside = find_recordings(source, recursive=recursive)
-        for path in inside:
-            if path.exists() and not is_inside(path, without):
-                found.setdefault(path, source)
-    return found
-
-
-def name_recordings(found: Mapping[Path, Path], former: Mapping[Path, str]) -> dict[Path, str]:
-    """Return a name for each recording: its path in its source, with more folders if not unique.
-
-    Former names are kept.
-    """
-    names = {path: former[path] for path in found if path in former}
-    used = set(names.values())
-    for path, source in found.items():
-        if path in names:
-            continue
-        depth = 1 if path == source else len(path.parts) - len(source.parts)
-        while (name := "/".join(path.parts[-depth:])) in used and depth < len(path.parts):
-            depth += 1
-        names[path] = name
-        used.add(name)
-    return {path: names[path] for path in found}
-
-
 def _read_state(files: Iterable[Path]) -> str:
     stats = ((file.name, file.stat()) for file in files)
     return " ".join(f"{name}:{found.st_size}:{found.st_mtime_ns}" for name, found in stats)
@@ -298,15 +263,52 @@ def _list_skeletons(folder: Path) -> str:
     return sha256(_read_state(files).encode()).hexdigest()[:16] if files else ""
 
 
-def find_recordings(folder: Path, *, recursive: bool) -> list[Path]:
-    """Return the recordings in a folder; in a remote one only those of a single file."""
-    if not is_remote(folder):
-        return scan_folder(folder, recursive=recursive).recordings
-    remote: Any = folder
-    inside = remote.fs.find(remote.path, maxdepth=None if recursive else 1)
-    home = remote.path.rstrip("/") + "/"
-    paths = [folder / name.removeprefix(home) for name in sorted(inside)]
-    return [path for path in paths if not path.name.startswith(".") and holds_recording(path)]
+def measure_size(path: Path) -> int:
+    """Return the size of a recording in bytes; 0 if unknown."""
+    try:
+        files = path.iterdir() if path.is_dir() else [path]
+        return sum(file.stat().st_size for file in files)
+    except OSError:
+        return 0
+
+
+def compute_digest(path: Path, skeleton: AnyPath | None) -> str:
+    """Return the SHA-256 of a recording's files and of its suffix, which selects the format."""
+    digest = sha256(path.suffix.lower().encode())
+    try:
+        for file in list_files(path, skeleton):
+            refuse_pipe(file)
+            of_file = sha256()
+            with file.open("rb") as content:
+                while chunk := content.read(CHUNK):
+                    of_file.update(chunk)
+            digest.update(of_file.digest())
+    except OSError as error:
+        raise ReadError(path, f"cannot be opened: {error.strerror or error}") from error
+    return digest.hexdigest()
+
+
+def list_files(path: Path, skeleton: AnyPath | None) -> list[Path]:
+    """Return the files of a recording, the main one first."""
+    if path.is_dir():
+        return [file for _, file in list_frame_files(path)]
+    if skeleton is not None:
+        return [path, Path(skeleton)]
+    if path.suffix.lower() != _AMC:
+        return [path]
+    try:
+        return [path, find_skeleton(path)]
+    except ReadError:  # the reader will report the missing skeleton
+        return [path]
+
+
+def read_recording(path: Path, options: ReadOptions) -> Motion | Signals:
+    """Read a local or remote recording; warn like `kineme.read`."""
+    if not is_remote(path):
+        return read(path, **vars(options))
+    with fetch(path, options.skeleton) as local:
+        recording = read(local, **vars(options))
+    return replace(recording, provenance=replace(recording.provenance, path=str(path)))
 
 
 @contextmanager
@@ -318,10 +320,10 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
     if not is_remote(path):
         yield path
         return
-    files = [path]
     with TemporaryDirectory(prefix="kineme-") as home:
         with translate_remote_errors(path):
-            if path.suffix.lower() == ".amc" and skeleton is None:
+            files = [path]
+            if path.suffix.lower() == _AMC and skeleton is None:
                 files.append(find_skeleton(path))
             for file in files:
                 (Path(home) / file.name).write_bytes(file.read_bytes())
@@ -329,12 +331,3 @@ def fetch(path: Path, skeleton: AnyPath | None) -> Iterator[Path]:
             yield Path(home) / path.name
         except FileError as error:
             raise ReadError(path, error.reason) from error
-
-
-def read_recording(path: Path, options: ReadOptions) -> Motion | Signals:
-    """Read a local or remote recording; warn like `kineme.read`."""
-    if not is_remote(path):
-        return read(path, **vars(options))
-    with fetch(path, options.skeleton) as local:
-        recording = read(local, **vars(options))
-    return replace(recording, provenance=replace(recording.provenance, path=str(path)))

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Float32s, Ints, interpolate_frames
 
 Bytes = NDArray[np.int8]
-
 LENGTHS = (15, 30, 60)
 """Lengths of windows in samples: 1, 2 and 4 s of a body. Windows overlap by half."""
 SPEEDS = (0.7, 1.0, 1.4)

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
 
 from kineme._util.arrays import Floats
 from kineme.cycles.table import Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.plot.timeline import make_axes
 from kineme.segments.display import PALETTE, get_cluster_color
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 FIRST, SECOND = "#777777", "#332288"
 """Colours of two sessions; the first is also dashed, for prints without colour."""
@@ -33,10 +28,6 @@ def plot_curves(
         Whether the first and the last cycle of an activity count as well.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
 
     Raises
     ------
@@ -69,13 +60,7 @@ def plot_curves(
 
 
 def plot_sides(
-    cycles: Cycles,
-    left: str,
-    right: str,
-    group: str,
-    *,
-    ends: bool = False,
-    ax: Axes | None = None,
+    cycles: Cycles, left: str, right: str, group: str, *, ends: bool = False, ax: Axes | None = None
 ) -> Axes:
     """Draw mean and standard deviation of a left and a right channel over a group's cycles.
 
@@ -89,10 +74,6 @@ def plot_sides(
         Whether the first and the last cycle of an activity count as well.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
 
     Raises
     ------

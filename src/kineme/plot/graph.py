@@ -10,7 +10,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -23,7 +22,6 @@ def plot_graph(graph: MotionGraph, path: Path) -> None:
     """Write the plot as PNG, PDF or SVG, by suffix."""
     colors = [get_cluster_color(node.cluster) for node in graph.nodes]
     figure = Figure(figsize=(12, 6), layout="constrained")
-    FigureCanvasAgg(figure)
     ring, matrix = figure.subplots(1, 2)
     # Clockwise from the top.
     angle = np.pi / 2 - 2 * np.pi * np.arange(len(colors)) / len(colors)

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -37,7 +36,6 @@ from kineme.segments.display import (
     get_segment_color,
 )
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Segment
 
 SUFFIXES = (".png", ".pdf", ".svg")
 MAX_PIXELS = 1600  # largest side of the matrix
@@ -67,10 +65,6 @@ def plot_matrix(
         Joints of a motion to use as head, hands and feet if their names are unknown.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
 
     Raises
     ------
@@ -168,7 +162,6 @@ def plot_segmentation(
     if Path(path).suffix.lower() not in SUFFIXES:
         raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
     figure = Figure(figsize=(9.4, 8.2))
-    FigureCanvasAgg(figure)
     axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
     plot_matrix(segmentation, recording, effectors=effectors, ax=axes)
     axes.set_title(
@@ -197,12 +190,15 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
     # Frame only the activity if its primitives are narrower than a line.
     is_wide = lengths > counts * MIN_FRAMED
-    cuts = [
-        line
-        for row in primitives
-        if row.start_s > activities.start_s[row.activity] and is_wide[row.activity]
-        for line in _make_cross_lines(row.start_s, activities[row.activity])
-    ]
+    cuts = []
+    for row in primitives:
+        activity, at = activities[row.activity], row.start_s
+        if at > activity.start_s and is_wide[row.activity]:
+            # A vertical and a horizontal line across the activity.
+            cuts += [
+                [(at, activity.start_s), (at, activity.stop_s)],
+                [(activity.start_s, at), (activity.stop_s, at)],
+            ]
     axes.add_collection(LineCollection(cuts, colors=BORDER, linewidths=0.5, alpha=0.75))
     framed = activities[activities.kind == "activity"]
     squares = _make_boxes(framed.start_s, framed.stop_s, framed.start_s, framed.stop_s)
@@ -210,14 +206,6 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
     axes.add_collection(
         PolyCollection(squares, facecolor="none", edgecolor=BORDER, linewidth=width, clip_on=False)
     )
-
-
-def _make_cross_lines(at: float, activity: Segment) -> list[list[tuple[float, float]]]:
-    """Return a horizontal and a vertical line across an activity."""
-    return [
-        [(at, activity.start_s), (at, activity.stop_s)],
-        [(activity.start_s, at), (activity.stop_s, at)],
-    ]
 
 
 def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
@@ -260,9 +248,5 @@ def _make_legend(segmentation: Segmentation) -> list[Patch]:
 def _make_title(segmentation: Segmentation) -> str:
     source = segmentation.provenance.get("input", {}).get("path") or "recording"
     preset = segmentation.provenance.get("preset")
-    parts = [
-        as_display_name(Path(source).name),
-        segmentation.describe(),
-        *([preset] if preset else []),
-    ]
-    return "  ·  ".join(parts)
+    parts = [as_display_name(Path(source).name), segmentation.describe(), preset]
+    return "  ·  ".join(filter(None, parts))

@@ -1,19 +1,17 @@
 """Plot a span of a recording as a strip: a body as a row of poses, channels as lines.
 
-A body is seen from the side that shows most of its movement. Heights are kept.
-
-@@sheets: Contact sheets: strips of several recordings in one picture, each with a title.
+A body is seen from the side that shows most of its movement. Heights are kept. A contact sheet is a
+picture of several strips, each with a title.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
@@ -26,9 +24,6 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
 from kineme.segments.display import get_cluster_color
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
 POSES = 7
 """Default number of poses."""
 MAX_CHANNELS = 12
@@ -37,6 +32,12 @@ POSE_SPACING = 1.15
 """Distance between two poses, relative to the width of a pose."""
 MIN_WIDTH = 0.35
 """Smallest width of a pose, relative to the height of the body."""
+WIDTH, HEIGHT = 7.0, 1.4
+"""Width and height of a strip in inches."""
+MAX_SINGLE_COLUMN = 12
+"""Strips up to which one column is used; above, there are three."""
+MAX_STRIPS = 300
+"""Strips on a sheet; the rest is left out."""
 
 
 def plot_strip(
@@ -61,10 +62,6 @@ def plot_strip(
         A matplotlib colour.
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
 
     Raises
     ------
@@ -176,29 +173,12 @@ def _draw_channels(axes: Axes, signals: Signals, first: int, last: int, color: s
     axes.margins(0.01)
 
 
-WIDTH, HEIGHT = 7.0, 1.4
-"""Width and height of a strip in inches."""
-MAX_SINGLE_COLUMN = 12
-"""Strips up to which one column is used; above, there are three."""
-MAX_STRIPS = 300
-"""Strips on a sheet; the rest is left out."""
-
-
-class Strip(NamedTuple):
-    """A span of a recording, and the cluster that sets its colour."""
-
-    title: str
-    recording: Motion | Signals
-    cluster: int
-
-
 def write_sheet(strips: Sequence[Strip], path: str | PathLike[str]) -> None:
     """Write strips as one picture: ``.png``, ``.pdf`` or ``.svg``."""
     drawn_strips = strips[:MAX_STRIPS]
     columns = 1 if len(drawn_strips) <= MAX_SINGLE_COLUMN else 3
     rows = max(1, -(-len(drawn_strips) // columns))
     figure = Figure(figsize=(WIDTH * columns, HEIGHT * rows), layout="constrained")
-    FigureCanvasAgg(figure)
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid:
         axes.set_axis_off()
@@ -209,3 +189,11 @@ def write_sheet(strips: Sequence[Strip], path: str | PathLike[str]) -> None:
         figure.suptitle(f"the first {MAX_STRIPS} of {len(strips)}", fontsize=8)
     with atomic_write(path) as draft:
         figure.savefig(draft, dpi=120)
+
+
+class Strip(NamedTuple):
+    """A span of a recording, and the cluster that sets its colour."""
+
+    title: str
+    recording: Motion | Signals
+    cluster: int

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
@@ -35,10 +34,6 @@ def plot_timeline(segmentation: Segmentation, *, ax: Axes | None = None) -> Axes
     segmentation : Segmentation
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
-
-    Returns
-    -------
-    Axes
 
     Raises
     ------
@@ -82,10 +77,6 @@ def compare(
     ax : Axes, optional
         Where to draw; Axes of a new figure of pyplot by default.
 
-    Returns
-    -------
-    Axes
-
     Raises
     ------
     ParameterError
@@ -118,73 +109,11 @@ def compare(
         if not len(table):
             raise ParameterError(f"{name} has no segments of level {level!r}")
     first = rows[row_names[0]]
-    tables = [_renumber(table, match_clusters(first, table)) for table in rows.values()]
-    labels = choose_label_colors(segment for table in tables for segment in table)
-    return draw_timeline(
-        rows,
-        max(result.n_frames / result.fps for result in results),
-        colors=[[get_segment_color(segment, labels) for segment in table] for table in tables],
-        ax=ax,
-    )
-
-
-def draw_timeline(
-    rows: Mapping[str, SegmentTable],
-    seconds: float,
-    *,
-    colors: Sequence[Sequence[str]] | None = None,
-    ax: Axes | None = None,
-) -> Axes:
-    """Draw rows of segments below each other, with their names on the left."""
-    axes = make_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
-    if colors is None:
-        labels = choose_label_colors(segment for table in rows.values() for segment in table)
-        colors = [
-            [get_segment_color(segment, labels) for segment in table] for table in rows.values()
-        ]
-    for number, (table, shades) in enumerate(zip(rows.values(), colors, strict=True)):
-        axes.broken_barh(
-            list(zip(table.start_s, table.duration_s, strict=True)),
-            (number - BAR_HEIGHT / 2, BAR_HEIGHT),
-            facecolors=shades,
-            edgecolors="white",
-            linewidth=0.6 if len(table) < MAX_EDGES else 0.0,
-        )
-        for segment, color in zip(table, shades, strict=True):
-            if segment.label and segment.duration_s > MIN_LABELLED * seconds:
-                _write_label(axes, segment, number, color)
-    axes.set_yticks(range(len(rows)), list(rows))
-    # The first row is at the top.
-    axes.set_ylim(len(rows) - 0.5, -0.5)
-    axes.set_xlim(0, seconds)
-    axes.set_xlabel("seconds")
-    axes.spines[["left", "right", "top"]].set_visible(False)
-    axes.tick_params(axis="y", length=0)
-    return axes
-
-
-def make_axes(width: float, height: float) -> Axes:
-    """Return the axes of a new pyplot figure of this size in inches."""
-    from matplotlib import pyplot as plt  # notebooks show pyplot figures automatically
-
-    return plt.subplots(figsize=(width, height), layout="constrained")[1]
-
-
-def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
-    # Red, green and blue from "#rrggbb".
-    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
-    # Perceived brightness (weights of ITU-R BT.601), 0 to 255.
-    dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
-    axes.text(
-        (segment.start_s + segment.stop_s) / 2,
-        row,
-        segment.label.replace("$", r"\$"),  # no formula
-        ha="center",
-        va="center",
-        fontsize=8,
-        color="white" if dark else "black",
-        clip_on=True,
-    )
+    for name, table in rows.items():
+        numbers = match_clusters(first, table)
+        clusters = [numbers.get(cluster, -1) for cluster in table.cluster.tolist()]
+        rows[name] = table.with_columns(cluster=np.array(clusters, np.int64))
+    return draw_timeline(rows, max(result.n_frames / result.fps for result in results), ax=ax)
 
 
 def match_clusters(first: SegmentTable, other: SegmentTable) -> dict[int, int]:
@@ -224,10 +153,6 @@ def _find_clusters(table: SegmentTable, times: NDArray[np.float64]) -> NDArray[n
     return np.where(inside, table.cluster[row], -1)
 
 
-def _renumber(table: SegmentTable, numbers: dict[int, int]) -> list[Segment]:
-    return [replace(segment, cluster=numbers.get(segment.cluster, -1)) for segment in table]
-
-
 def _choose_names(results: Sequence[Segmentation]) -> list[str]:
     """Return names of the results: presets, else files, else numbers, if they are unique."""
     numbers = [f"result {number}" for number in range(1, len(results) + 1)]
@@ -239,3 +164,55 @@ def _choose_names(results: Sequence[Segmentation]) -> list[str]:
         if len(set(chosen)) == len(chosen):
             return chosen
     return numbers
+
+
+def draw_timeline(
+    rows: Mapping[str, SegmentTable], seconds: float, *, ax: Axes | None = None
+) -> Axes:
+    """Draw rows of segments below each other, with their names on the left."""
+    axes = make_axes(9, 0.9 + 0.4 * len(rows)) if ax is None else ax
+    labels = choose_label_colors(segment for table in rows.values() for segment in table)
+    for number, table in enumerate(rows.values()):
+        shades = [get_segment_color(segment, labels) for segment in table]
+        axes.broken_barh(
+            list(zip(table.start_s, table.duration_s, strict=True)),
+            (number - BAR_HEIGHT / 2, BAR_HEIGHT),
+            facecolors=shades,
+            edgecolors="white",
+            linewidth=0.6 if len(table) < MAX_EDGES else 0.0,
+        )
+        for segment, color in zip(table, shades, strict=True):
+            if segment.label and segment.duration_s > MIN_LABELLED * seconds:
+                _write_label(axes, segment, number, color)
+    axes.set_yticks(range(len(rows)), list(rows))
+    # The first row is at the top.
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.set_xlim(0, seconds)
+    axes.set_xlabel("seconds")
+    axes.spines[["left", "right", "top"]].set_visible(False)
+    axes.tick_params(axis="y", length=0)
+    return axes
+
+
+def _write_label(axes: Axes, segment: Segment, row: int, color: str) -> None:
+    # Red, green and blue from "#rrggbb".
+    red, green, blue = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    # Perceived brightness (weights of ITU-R BT.601), 0 to 255.
+    dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
+    axes.text(
+        (segment.start_s + segment.stop_s) / 2,
+        row,
+        segment.label.replace("$", r"\$"),  # no formula
+        ha="center",
+        va="center",
+        fontsize=8,
+        color="white" if dark else "black",
+        clip_on=True,
+    )
+
+
+def make_axes(width: float, height: float) -> Axes:
+    """Return the axes of a new pyplot figure of this size in inches."""
+    from matplotlib import pyplot as plt  # notebooks show pyplot figures automatically
+
+    return plt.subplots(figsize=(width, height), layout="constrained")[1]

@@ -35,6 +35,20 @@ from kineme.recordings.kinematics import (
 from kineme.recordings.motion import check_motion
 from kineme.synthesis.graph import MotionGraph
 
+Spans = list[tuple[int, int]]
+HEIGHT = 0.06
+"""Largest height of a standing ankle above its lowest 5 % of the motion, metres."""
+SPEED = 0.3
+"""Largest speed of a standing ankle, metres per second."""
+SHORTEST = 0.1
+"""Shortest contact that is corrected, seconds."""
+REACH = 0.05
+"""Metres of sliding after which a contact is split into a new one."""
+FADE = 0.15
+"""Seconds over which a correction fades in and out."""
+STRAIGHT = 0.999
+"""Largest extension of a leg relative to its length."""
+
 
 @dataclass(frozen=True)
 class Placement:
@@ -99,10 +113,6 @@ def synthesize(
         Placement of the first node; as recorded by default.
     plant : bool
         Whether to remove foot sliding.
-
-    Returns
-    -------
-    Motion
 
     Raises
     ------
@@ -184,9 +194,15 @@ def _blend_spans(
     ]
 
     def place_frames(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
-        motion = motions[span.source]
-        rotations = np.array(motion.rotations)[start:stop]
-        return _place_motion(motion, rotations, shifts[span.source][start:stop], span.at)
+        rotations = np.array(motions[span.source].rotations)[start:stop]
+        shift = shifts[span.source][start:stop].copy()
+        # Roots only: all other joints are relative to their parents.
+        roots = [j for j, parent in enumerate(motions[0].skeleton.parents) if parent < 0]
+        about_y = rot.rotate_about_y(span.at.angle)
+        rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
+        shift[:, roots] = rot.rotate(about_y, shift[:, roots])
+        shift[:, roots] += [span.at.shift.real, 0, span.at.shift.imag]
+        return rotations, shift
 
     placed_spans = [place_frames(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
@@ -205,35 +221,6 @@ def _blend_spans(
     return rotations, translations
 
 
-def _place_motion(
-    motion: Motion, rotations: Floats, shifts: Floats, at: Placement
-) -> tuple[Floats, Floats]:
-    roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
-    about_y = rot.rotate_about_y(at.angle)
-    rotations, shifts = rotations.copy(), shifts.copy()
-    # Roots only: all other joints are relative to their parents.
-    rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
-    shifts[:, roots] = rot.rotate(about_y, shifts[:, roots])
-    shifts[:, roots] += [at.shift.real, 0, at.shift.imag]
-    return rotations, shifts
-
-
-Spans = list[tuple[int, int]]
-
-HEIGHT = 0.06
-"""Largest height of a standing ankle above its lowest 5 % of the motion, metres."""
-SPEED = 0.3
-"""Largest speed of a standing ankle, metres per second."""
-SHORTEST = 0.1
-"""Shortest contact that is corrected, seconds."""
-REACH = 0.05
-"""Metres of sliding after which a contact is split into a new one."""
-FADE = 0.15
-"""Seconds over which a correction fades in and out."""
-STRAIGHT = 0.999
-"""Largest extension of a leg relative to its length."""
-
-
 def plant_feet(motion: Motion) -> Motion:
     """Return the motion with each standing foot held in place; unchanged if no feet are found.
 
@@ -241,10 +228,6 @@ def plant_feet(motion: Motion) -> Motion:
     ----------
     motion : Motion
         With rotations.
-
-    Returns
-    -------
-    Motion
 
     Examples
     --------
@@ -280,10 +263,6 @@ def find_foot_contacts(path: Floats, fps: float) -> Spans:
         Positions of the ankle, metres, y up.
     fps : float
         Frames per second.
-
-    Returns
-    -------
-    list of pairs of int
 
     Examples
     --------
@@ -357,7 +336,8 @@ def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Mo
     bent = np.arccos(np.clip((thigh * shin).sum(1) / (a * b), -1, 1))
     # Law of cosines for the length wanted.
     angle = np.arccos(np.clip((length**2 - a**2 - b**2) / (2 * a * b), -1, 1))
-    bend = _rotate_about(_find_hinge(thigh, shin, world[:, leg[0]]), angle - bent)
+    hinge = _find_hinge(thigh, shin, world[:, leg[0]])
+    bend = rot.from_rotation_vectors(hinge * (angle - bent)[:, None])
     reached = thigh + rot.rotate(bend, shin)
     # The bent leg turns about the hip so that the ankle points to the target.
     swing = _rotate_onto(reached, target - hip)
@@ -396,11 +376,6 @@ def _find_hinge(thigh: Floats, shin: Floats, above: Floats) -> Floats:
     clear = size > 0.02 * np.linalg.norm(thigh, axis=1, keepdims=True) ** 2
     hinge: Floats = np.where(clear, axis / np.maximum(size, 1e-12), rot.rotate(above, usual))
     return hinge
-
-
-def _rotate_about(axis: Floats, angle: Floats) -> Floats:
-    half = angle[:, None] / 2
-    return np.concatenate([np.cos(half), np.sin(half) * axis], axis=1)
 
 
 def _rotate_onto(a: Floats, b: Floats) -> Floats:

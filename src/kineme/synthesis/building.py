@@ -38,104 +38,8 @@ RADIUS = 0.25
 CANDIDATES = 12
 """Pairs of frames compared for each pair of nodes; this finds 99.8 % of the jumps that comparing
 all pairs of frames finds on three takes of subject 86 and the bundled recording."""
-
 POSES = KINEME.replace(offsets=(-0.2, -0.1, 0.0, 0.1, 0.2))
 """Preset whose features include neighbouring poses, so that jumps preserve movement."""
-
-
-@dataclass(frozen=True)
-class _EndFrames:
-    """Frames at which nodes may be left or entered, and their nodes."""
-
-    frames: Ints
-    nodes: Ints
-
-
-def find_jumps(
-    motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
-) -> list[Edge]:
-    """Return the best jump below the threshold for each pair of nodes."""
-    rate = POSES.working_fps
-    slow = [resample(motion, rate) for motion in motions]
-    # Sources are concatenated: first frame of each, and the end of the last.
-    firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
-    points = np.concatenate([motion.positions[:, motion.skeleton.body] for motion in slow])
-    # Features are at the working rate, like `slow`.
-    features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
-    half = round(window * rate / 2)
-    ratio = motions[0].fps / rate
-    ends, starts = (
-        _sample_ends(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0)
-    )
-    if not (len(ends.frames) and len(starts.frames)):
-        return []
-    near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
-    # Row of each neighbour pair, from the counts of the sparse search.
-    rows = np.repeat(np.arange(len(near)), near.counts)
-    # Encode each pair of nodes as one number.
-    pairs = _find_nearest(
-        ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
-    )
-    leave, enter = rows[pairs], near.indices[pairs]
-    distances, angles, shifts = fit_clouds(
-        points, ends.frames[leave], starts.frames[enter], half=half
-    )
-    # Of the measured pairs below the threshold, the best of each pair of nodes becomes an edge.
-    accepted = np.flatnonzero(distances <= threshold)
-    key = ends.nodes[leave[accepted]] * len(nodes) + starts.nodes[enter[accepted]]
-    edges = []
-    for i in accepted[_find_nearest(key, distances[accepted], 1)].tolist():
-        tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
-        at = (
-            # Frames are counted within their own recording again, at its own rate.
-            _convert_to_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
-            _convert_to_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
-        )
-        shift = (float(shifts[i, 0]), float(shifts[i, 1]))
-        edges.append(Edge(tail, head, *at, float(distances[i]), float(angles[i]), shift))
-    return edges
-
-
-def _sample_ends(
-    nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
-) -> _EndFrames:
-    """Return frames near the ends (side 1) or starts (side 0) of all nodes.
-
-    Only frames with a full window inside their recording, and close enough to the border that a
-    node is never left before it is entered.
-    """
-    frames, owners = [], []
-    for number, node in enumerate(nodes):
-        # In frames of the working rate, possibly fractional.
-        border = (node.start, node.stop)[side] / ratio
-        # A quarter of the node: an entry at its start lies before any exit at its end.
-        reach = min((node.stop - node.start) / ratio / 4, widest)
-        # The cloud needs half a window on both sides.
-        low, high = half, firsts[node.source + 1] - firsts[node.source] - half
-        frames_of_node = np.arange(
-            max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1)
-        )
-        frames.append(frames_of_node + firsts[node.source])
-        owners.append(np.full(len(frames_of_node), number))
-    return _EndFrames(np.concatenate(frames), np.concatenate(owners))
-
-
-def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
-    """Return the indices of the ``count`` smallest distances of each group."""
-    # Sorted by group, and by distance within each group: the last key counts first.
-    order = np.lexsort((distances, groups))
-    sizes = np.unique(groups[order], return_counts=True)[1]
-    # Index at which the group of each entry begins.
-    starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
-    # The rank within the group.
-    chosen: Ints = order[np.arange(len(order)) - starts < count]
-    return chosen
-
-
-def _convert_to_source(frame: int, ratio: float) -> int:
-    return round(float(frame) * ratio)
-
-
 THRESHOLD = 0.08
 """Largest distance of a jump in metres, RMS over the joints. On three takes of subject 86 and the
 bundled recording, 0.05 already connects all but at most two nodes of each."""
@@ -166,10 +70,6 @@ def motion_graph(
         Seconds that are compared and blended around a jump.
     prune : bool
         Whether to keep only the largest strongly connected component, which has no dead ends.
-
-    Returns
-    -------
-    MotionGraph
 
     Raises
     ------
@@ -276,3 +176,96 @@ def _make_nodes(segmentations: Sequence[Segmentation]) -> tuple[list[Node], list
         for a, b in pairwise(range(first, len(nodes))):
             edges.append(Edge(a, b, nodes[a].stop, nodes[b].start, jump=False))
     return nodes, edges
+
+
+def find_jumps(
+    motions: Sequence[Motion], nodes: Sequence[Node], threshold: float, window: float
+) -> list[Edge]:
+    """Return the best jump below the threshold for each pair of nodes."""
+    rate = POSES.working_fps
+    slow = [resample(motion, rate) for motion in motions]
+    # Sources are concatenated: first frame of each, and the end of the last.
+    firsts = np.cumsum([0, *(motion.n_frames for motion in slow)])
+    points = np.concatenate([motion.positions[:, motion.skeleton.body] for motion in slow])
+    # Features are at the working rate, like `slow`.
+    features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
+    half = round(window * rate / 2)
+    ratio = motions[0].fps / rate
+    ends, starts = (
+        _sample_ends(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0)
+    )
+    if not (len(ends.frames) and len(starts.frames)):
+        return []
+    near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
+    # Row of each neighbour pair, from the counts of the sparse search.
+    rows = np.repeat(np.arange(len(near)), near.counts)
+    # Encode each pair of nodes as one number.
+    pairs = _find_nearest(
+        ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
+    )
+    leave, enter = rows[pairs], near.indices[pairs]
+    distances, angles, shifts = fit_clouds(
+        points, ends.frames[leave], starts.frames[enter], half=half
+    )
+    # Of the measured pairs below the threshold, the best of each pair of nodes becomes an edge.
+    accepted = np.flatnonzero(distances <= threshold)
+    key = ends.nodes[leave[accepted]] * len(nodes) + starts.nodes[enter[accepted]]
+    edges = []
+    for i in accepted[_find_nearest(key, distances[accepted], 1)].tolist():
+        tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
+        at = (
+            # Frames are counted within their own recording again, at its own rate.
+            _convert_to_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
+            _convert_to_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
+        )
+        shift = (float(shifts[i, 0]), float(shifts[i, 1]))
+        edges.append(Edge(tail, head, *at, float(distances[i]), float(angles[i]), shift))
+    return edges
+
+
+@dataclass(frozen=True)
+class _EndFrames:
+    """Frames at which nodes may be left or entered, and their nodes."""
+
+    frames: Ints
+    nodes: Ints
+
+
+def _sample_ends(
+    nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
+) -> _EndFrames:
+    """Return frames near the ends (side 1) or starts (side 0) of all nodes.
+
+    Only frames with a full window inside their recording, and close enough to the border that a
+    node is never left before it is entered.
+    """
+    frames, owners = [], []
+    for number, node in enumerate(nodes):
+        # In frames of the working rate, possibly fractional.
+        border = (node.start, node.stop)[side] / ratio
+        # A quarter of the node: an entry at its start lies before any exit at its end.
+        reach = min((node.stop - node.start) / ratio / 4, widest)
+        # The cloud needs half a window on both sides.
+        low, high = half, firsts[node.source + 1] - firsts[node.source] - half
+        frames_of_node = np.arange(
+            max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1)
+        )
+        frames.append(frames_of_node + firsts[node.source])
+        owners.append(np.full(len(frames_of_node), number))
+    return _EndFrames(np.concatenate(frames), np.concatenate(owners))
+
+
+def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
+    """Return the indices of the ``count`` smallest distances of each group."""
+    # Sorted by group, and by distance within each group: the last key counts first.
+    order = np.lexsort((distances, groups))
+    sizes = np.unique(groups[order], return_counts=True)[1]
+    # Index at which the group of each entry begins.
+    starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
+    # The rank within the group.
+    chosen: Ints = order[np.arange(len(order)) - starts < count]
+    return chosen
+
+
+def _convert_to_source(frame: int, ratio: float) -> int:
+    return round(float(frame) * ratio)

@@ -212,9 +212,14 @@ class MotionGraph:
         Ties go to the component with more edges, then to the earlier one. A single node counts
         only if it has an edge to itself. Empty if there is no component.
         """
+        from scipy.sparse import csr_array
         from scipy.sparse.csgraph import connected_components
 
-        component = connected_components(self._adjacency(), connection="strong")[1]
+        # The reshape keeps two columns if there are no edges.
+        ends = np.array([(e.tail, e.head) for e in self.edges], np.int64).reshape(-1, 2)
+        shape = (len(self.nodes), len(self.nodes))
+        adjacency: Any = csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=shape)
+        component = connected_components(adjacency, connection="strong")[1]
         inner = [edge for edge in self.edges if component[edge.tail] == component[edge.head]]
         # Only components with an internal edge count.
         edges = Counter(int(component[edge.tail]) for edge in inner)
@@ -238,14 +243,6 @@ class MotionGraph:
             if edge.tail in number and edge.head in number
         ]
         return replace(self, nodes=tuple(self.nodes[i] for i in nodes), edges=tuple(edges))
-
-    def _adjacency(self) -> Any:
-        from scipy.sparse import csr_array
-
-        # The reshape keeps two columns if there are no edges.
-        ends = np.array([(e.tail, e.head) for e in self.edges], np.int64).reshape(-1, 2)
-        shape = (len(self.nodes), len(self.nodes))
-        return csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=shape)
 
 
 def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
@@ -297,10 +294,6 @@ def read_graph(path: str | os.PathLike[str]) -> MotionGraph:
     ----------
     path : path-like
 
-    Returns
-    -------
-    MotionGraph
-
     Raises
     ------
     ReadError
@@ -337,10 +330,6 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     Parameters
     ----------
     graph : MotionGraph
-
-    Returns
-    -------
-    list of Motion
 
     Raises
     ------

@@ -27,11 +27,22 @@ from kineme.synthesis.blending import Placement
 from kineme.synthesis.graph import MotionGraph
 
 Complex = NDArray[np.complex128]
-
 SPACING = 0.05
 """Distance in metres between the points that sample the line."""
 FAR = 0.25
 """Metres of progress that count as equal; also the shortest line."""
+TOLERANCE = 0.5
+"""Largest distance of the root from the line, metres."""
+AHEAD = 0.6
+"""Length of the line in which the next nearest point is searched, metres."""
+STEP = 0.1
+"""Seconds between compared poses."""
+TIME = 0.1
+"""Cost per second in m²: equals a distance of 32 cm for that time."""
+TURN = np.pi / 12
+"""Radians of direction that count as equal."""
+WIDTH = 400
+"""Beam width: candidates kept among those with equal progress."""
 
 
 def parse_line(text: str) -> list[tuple[float, float]]:
@@ -40,10 +51,6 @@ def parse_line(text: str) -> list[tuple[float, float]]:
     Parameters
     ----------
     text : str
-
-    Returns
-    -------
-    list of (float, float)
 
     Raises
     ------
@@ -66,64 +73,6 @@ def parse_line(text: str) -> list[tuple[float, float]]:
             "as in 0,0;2,0;2,3"
         )
     return [(x, z) for x, z in points]
-
-
-def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
-    """Return equidistant points of a line as complex numbers x + iz."""
-    corners = np.array([complex(x, z) for x, z in line])
-    lengths = np.abs(np.diff(corners))
-    total = lengths.sum()
-    if len(corners) < 2 or not FAR <= total < 1e4:
-        raise ParameterError(
-            f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
-        )
-    # Length of the line up to each corner.
-    at = np.concatenate([[0], np.cumsum(lengths)])
-    places = np.linspace(0, total, round(total / SPACING) + 1)
-    x, z = (np.interp(places, at, part) for part in (corners.real, corners.imag))
-    return np.asarray(x + 1j * z, np.complex128)
-
-
-TOLERANCE = 0.5
-"""Largest distance of the root from the line, metres."""
-AHEAD = 0.6
-"""Length of the line in which the next nearest point is searched, metres."""
-STEP = 0.1
-"""Seconds between compared poses."""
-TIME = 0.1
-"""Cost per second in m²: equals a distance of 32 cm for that time."""
-TURN = np.pi / 12
-"""Radians of direction that count as equal."""
-WIDTH = 400
-"""Beam width: candidates kept among those with equal progress."""
-
-
-@dataclass(frozen=True)
-class _Progress:
-    """Progress of a candidate: point reached, cost, largest distance and its point."""
-
-    point: int = 0
-    cost: float = 0.0
-    worst: float = 0.0
-    worst_at: int = 0
-
-
-@dataclass(frozen=True)
-class _Candidate:
-    """A route up to a node that is entered at a frame but not yet played."""
-
-    node: int
-    enter: int
-    at: Placement
-    progress: _Progress
-    before: _Candidate | None = None
-
-    def route(self) -> list[int]:
-        route, last = [self.node], self
-        while last.before is not None:
-            last = last.before
-            route.append(last.node)
-        return route[::-1]
 
 
 def line_route(
@@ -193,6 +142,50 @@ def line_route(
         )
     route = last.route()
     return route, _place_start(graph, floors, route[0], points)
+
+
+def space_evenly(line: Sequence[tuple[float, float]]) -> Complex:
+    """Return equidistant points of a line as complex numbers x + iz."""
+    corners = np.array([complex(x, z) for x, z in line])
+    lengths = np.abs(np.diff(corners))
+    total = lengths.sum()
+    if len(corners) < 2 or not FAR <= total < 1e4:
+        raise ParameterError(
+            f"the line is {total:g} m long: it must have a length from {FAR} m to 10 km"
+        )
+    # Length of the line up to each corner.
+    at = np.concatenate([[0], np.cumsum(lengths)])
+    places = np.linspace(0, total, round(total / SPACING) + 1)
+    x, z = (np.interp(places, at, part) for part in (corners.real, corners.imag))
+    return np.asarray(x + 1j * z, np.complex128)
+
+
+@dataclass(frozen=True)
+class _Progress:
+    """Progress of a candidate: point reached, cost, largest distance and its point."""
+
+    point: int = 0
+    cost: float = 0.0
+    worst: float = 0.0
+    worst_at: int = 0
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """A route up to a node that is entered at a frame but not yet played."""
+
+    node: int
+    enter: int
+    at: Placement
+    progress: _Progress
+    before: _Candidate | None = None
+
+    def route(self) -> list[int]:
+        route, last = [self.node], self
+        while last.before is not None:
+            last = last.before
+            route.append(last.node)
+        return route[::-1]
 
 
 def _search_route(

@@ -30,10 +30,6 @@ def parse_actions(text: str) -> list[tuple[str, int]]:
     ----------
     text : str
 
-    Returns
-    -------
-    list of (str, int)
-
     Raises
     ------
     ParameterError
@@ -66,10 +62,6 @@ def action_route(graph: MotionGraph, actions: Sequence[tuple[str, int]]) -> list
     graph : MotionGraph
     actions : sequence of (str, int)
         Names of super-nodes with the number of repetitions.
-
-    Returns
-    -------
-    list of int
 
     Raises
     ------
@@ -121,10 +113,6 @@ def random_route(graph: MotionGraph, duration: float, seed: int) -> list[int]:
         Seconds.
     seed : int
 
-    Returns
-    -------
-    list of int
-
     Raises
     ------
     ParameterError
@@ -168,10 +156,6 @@ def find_following(graph: MotionGraph, name: str) -> list[str]:
     ----------
     graph : MotionGraph
     name : str
-
-    Returns
-    -------
-    list of str
 
     Raises
     ------

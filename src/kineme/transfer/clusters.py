@@ -49,7 +49,6 @@ SEPARATOR = 1e3
 """Value of each feature between two contexts, so that no match crosses from one to the other."""
 BLOCK = 100
 """Number of local clusters that are compared at a time."""
-
 MAX_SAMPLES = 20_000
 """Largest number of samples for k-means; of more, every n-th of each recording is used."""
 N_STARTS = 5
@@ -60,7 +59,6 @@ COUNTING_SAMPLES = 10_000
 """Largest number of samples from which the number of clusters is estimated."""
 PATIENCE = 3
 """Number of larger numbers of clusters that are tried after the best."""
-
 Features = Sequence[Float32s]
 """Features (samples, dims) of an example, and of its context."""
 Spans = tuple[Floats, Floats, Ints]
@@ -219,10 +217,10 @@ def link_clusters(
         ordered = linked.cluster[order]
         rank = np.arange(len(order)) - np.searchsorted(ordered, ordered)
         chosen = order[rank < constants.typical]
-        typical = Representatives(clusters.select(sample[chosen]), linked.cluster[chosen])
+        typical = clusters.select(sample[chosen]), linked.cluster[chosen]
         for first in range(0, len(others), BLOCK):
             block = others[first : first + BLOCK]
-            store(block, assign(clusters.select(block), typical, constants))
+            store(block, _assign_to_nearest(clusters.select(block), *typical, constants))
         count += int(linked.cluster.max()) + 1
         waiting = others[result.cluster[others] < 0]
     return _number_by_seconds(result, [each.seconds for each in clusters.local])
@@ -255,12 +253,6 @@ def group_by_distance(distances: Floats, constants: ClusterConstants = CONSTANTS
     ----------
     .. [1] Rousseeuw, "Silhouettes: a graphical aid to the interpretation and validation of cluster
        analysis", Journal of Computational and Applied Mathematics 20 (1987).
-
-    Examples
-    --------
-    >>> points = np.array([0.0, 0.1, 0.2, 0.6, 0.7, 0.8, 5.0])
-    >>> group_by_distance(np.abs(points[:, None] - points)).tolist()
-    [0, 0, 0, 1, 1, 1, 2]
     """
     from scipy.cluster.hierarchy import linkage, to_tree
     from scipy.spatial.distance import squareform
@@ -298,27 +290,23 @@ def _are_apart(
     return float(np.mean(silhouettes)) > constants.apart
 
 
-class Representatives(NamedTuple):
-    """Representatives of the clusters of a round, and the cluster of each."""
-
-    clusters: ClusterSet
-    cluster: Ints
-
-
-def assign(
-    clusters: ClusterSet, typical: Representatives, constants: ClusterConstants
+def _assign_to_nearest(
+    clusters: ClusterSet, typical: ClusterSet, numbers: Ints, constants: ClusterConstants
 ) -> Assignment:
-    """Return the nearest cluster of each local cluster, -1 if none is within the threshold."""
+    """Return the nearest cluster of each local cluster, -1 if none is within the threshold.
+
+    ``numbers`` are the clusters of the representatives in ``typical``.
+    """
     # Compare only with the representatives of the clusters with the nearest embeddings.
-    is_near = np.zeros((len(clusters.local), len(typical.cluster)), np.bool_)
+    is_near = np.zeros((len(clusters.local), len(numbers)), np.bool_)
     for row, embedding in enumerate(clusters.embeddings):
-        distances_to = ((typical.clusters.embeddings - embedding) ** 2).sum(axis=1)
-        order = typical.cluster[np.argsort(distances_to, kind="stable")].tolist()
-        is_near[row] = np.isin(typical.cluster, list(dict.fromkeys(order))[: constants.nearest])
-    distances = measure_distances(clusters, typical.clusters, is_near)
-    same = clusters.recording[:, None] == typical.clusters.recording
+        distances_to = ((typical.embeddings - embedding) ** 2).sum(axis=1)
+        order = numbers[np.argsort(distances_to, kind="stable")].tolist()
+        is_near[row] = np.isin(numbers, list(dict.fromkeys(order))[: constants.nearest])
+    distances = measure_distances(clusters, typical, is_near)
+    same = clusters.recording[:, None] == typical.recording
     distances = np.where(is_near, np.where(same, SAME_RECORDING, distances), 0.0)
-    members = np.eye(int(typical.cluster.max()) + 1)[typical.cluster]
+    members = np.eye(int(numbers.max()) + 1)[numbers]
     counts = is_near @ members
     means = np.where(counts > 0, distances @ members / np.maximum(counts, 1), np.inf)
     least = means.min(axis=1)
@@ -397,17 +385,10 @@ def assign_to_centres(
 ) -> Assignment:
     """Assign each group of spans to a cluster, by the samples of channels in them.
 
-    Parameters
-    ----------
-    loads : sequence of callable
-        ``load(n)`` returns every n-th row of the `ChannelSamples.rows` of a recording. Sums depend
-        on the order of recordings, so sort them by content, not by name.
-    counts : sequence of int
-        Number of rows of each recording.
-    spans : sequence of sequence of (segments, 2) array
-        Groups of spans of each recording, for example the segments of a local cluster, in seconds.
-    n_clusters : int, optional
-        By default `estimate_n_clusters` decides.
+    ``load(n)`` of a recording returns every n-th of its `ChannelSamples.rows`, ``counts`` holds
+    their number. Sums depend on the order of recordings, so sort them by content, not by name.
+    ``spans`` holds groups of spans (segments, 2) of each recording in seconds, for example the
+    segments of a local cluster.
     """
     step = -(-sum(counts) // MAX_SAMPLES)
     rows = np.concatenate([load(step) for load in loads])

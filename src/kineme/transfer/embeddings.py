@@ -1,11 +1,11 @@
-"""Compute embeddings: describe a whole segment by a unit vector of 32 numbers.
+"""Compute embeddings of segments of bodies, and comparable samples of channels.
 
-The curve of each number of a pose is resampled to a fixed length and described by four numbers: its
-mean, two slow cosines (the first terms of a discrete cosine transform), and the root mean square of
-the residual. A fixed mean is subtracted from the 68 numbers, and they are projected on fixed axes.
-In these axes, variants of a segment (faster, slower, larger, smaller, mirrored, noisy) differ
-little, and different segments differ much. The result is normalised to length 1. Embeddings are
-compared by Euclidean distance.
+An embedding describes a whole segment by a unit vector of 32 numbers. The curve of each number of a
+pose is resampled to a fixed length and described by four numbers: its mean, two slow cosines (the
+first terms of a discrete cosine transform), and the root mean square of the residual. A fixed mean
+is subtracted from the 68 numbers, and they are projected on fixed axes. In these axes, variants of
+a segment (faster, slower, larger, smaller, mirrored, noisy) differ little, and different segments
+differ much. The result is normalised to length 1. Embeddings are compared by Euclidean distance.
 
 Mean and axes are stored in ``axes.npz``. They were fitted to 1600 spans of 0.7 to 4 s, drawn in
 equal parts from HDM05, UTKinect, CMU's subject 86 and single takes without regard to labels, and to
@@ -14,12 +14,10 @@ each end, with uneven time, a fifth mirrored, with a shift of 0.05 and noise of 
 The axes are those of a linear discriminant analysis: the variance of spans is largest relative to
 that of variants. Half of the mean variance of variants is added to that of each axis.
 
-@@channel_samples: Compute samples of channels that can be compared across the recordings of a collection.
-
-A sample holds the mean of each channel over one second, and the logarithm of its deviation within
-this second, five times a second. All recordings are scaled by the deviations of the collection,
-and not each by its own: a sensor at rest in one recording must not look like one that moves in
-another.
+Channels are sampled five times a second. A sample holds the mean of each channel over one second,
+and the logarithm of its deviation within this second. All recordings are scaled by the deviations
+of the collection, and not each by its own: a sensor at rest in one recording must not look like one
+that moves in another.
 """
 
 from __future__ import annotations
@@ -43,6 +41,69 @@ WINDOW = 1.0
 """Window around each sample, s."""
 STILL = 0.05
 """Smallest movement that counts, as a share of the deviation of a channel in the collection."""
+DIMS = 32
+"""Numbers in an embedding."""
+POSE_DIMS = 17
+"""Numbers in a pose."""
+_N_TERMS = 3
+"""Number of terms of the cosine transform that are used directly."""
+_MAX_TERMS = 32
+"""Number of terms in total; faster variation is noise."""
+_LENGTH = 64
+"""Number of samples to which a curve is resampled."""
+_RESIDUAL_WEIGHT = 1.5
+"""Weight of the root mean square of the further terms."""
+# Orthonormal, and divided by the root of the length, so that values do not depend on it.
+_COSINES = np.cos(np.pi / _LENGTH * np.arange(_MAX_TERMS)[:, None] * (np.arange(_LENGTH) + 0.5))
+_COSINES *= np.sqrt(np.where(np.arange(_MAX_TERMS) == 0, 1.0, 2.0))[:, None] / _LENGTH
+
+
+def embedding(poses: ArrayLike) -> NDArray[np.float32]:
+    """Compute the embedding of a whole segment: a unit vector (32,).
+
+    Parameters
+    ----------
+    poses : (n, 17) array
+        Poses of the canonical body, as returned by `kineme.features.canonical.matching_poses`.
+
+    Raises
+    ------
+    ParameterError
+        The array is empty, not finite, or does not hold poses.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.features.canonical import matching_poses
+    >>> poses = matching_poses(kineme.read(kineme.bundled_recording()))
+    >>> embedding(poses[:60]).shape
+    (32,)
+    """
+    array = as_features(poses, "poses")
+    if array.shape[1] != POSE_DIMS:
+        raise ParameterError(
+            f"poses have {POSE_DIMS} numbers each, not {array.shape[1]}: matching_poses(motion) "
+            "gives them"
+        )
+    mean, axes = load_axes()
+    values = (describe_curve(array) - mean) @ axes
+    return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)
+
+
+def describe_curve(features: Floats) -> Floats:
+    """Return mean, two slow cosines and residual (4 * dims,) of any features (n, dims)."""
+    resampled = interpolate_frames(features, np.linspace(0, len(features) - 1, _LENGTH))
+    terms = _COSINES @ resampled
+    residual = np.sqrt((terms[_N_TERMS:] ** 2).sum(axis=0))
+    numbers: Floats = np.concatenate([*terms[:_N_TERMS], _RESIDUAL_WEIGHT * residual])
+    return numbers
+
+
+@cache
+def load_axes() -> tuple[Floats, Floats]:
+    """Return the mean (68,) and the axes (68, 32)."""
+    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
+        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 
 class ChannelSamples(NamedTuple):
@@ -117,77 +178,3 @@ def _compute_means(values: Floats, first: Ints, last: Ints) -> Floats:
     sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
     means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
     return means
-
-
-DIMS = 32
-"""Numbers in an embedding."""
-POSE_DIMS = 17
-"""Numbers in a pose."""
-
-_N_TERMS = 3
-"""Number of terms of the cosine transform that are used directly."""
-_MAX_TERMS = 32
-"""Number of terms in total; faster variation is noise."""
-_LENGTH = 64
-"""Number of samples to which a curve is resampled."""
-_RESIDUAL_WEIGHT = 1.5
-"""Weight of the root mean square of the further terms."""
-# Orthonormal, and divided by the root of the length, so that values do not depend on it.
-_COSINES = np.cos(np.pi / _LENGTH * np.arange(_MAX_TERMS)[:, None] * (np.arange(_LENGTH) + 0.5))
-_COSINES *= np.sqrt(np.where(np.arange(_MAX_TERMS) == 0, 1.0, 2.0))[:, None] / _LENGTH
-
-
-def embedding(poses: ArrayLike) -> NDArray[np.float32]:
-    """Compute the embedding of a whole segment: a unit vector (32,).
-
-    Parameters
-    ----------
-    poses : (n, 17) array
-        Poses of the canonical body, as returned by `kineme.features.canonical.matching_poses`.
-
-    Returns
-    -------
-    ndarray of float32
-
-    Raises
-    ------
-    ParameterError
-        The array is empty, not finite, or does not hold poses.
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.features.canonical import matching_poses
-    >>> poses = matching_poses(kineme.read(kineme.bundled_recording()))
-    >>> embedding(poses[:60]).shape
-    (32,)
-    """
-    array = as_features(poses, "poses")
-    if array.shape[1] != POSE_DIMS:
-        raise ParameterError(
-            f"poses have {POSE_DIMS} numbers each, not {array.shape[1]}: matching_poses(motion) "
-            "gives them"
-        )
-    return embed_curve(array, *load_axes())
-
-
-def embed_curve(poses: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
-    """Return the unit vector of the direction of a curve from the mean, along the axes."""
-    values = (describe_curve(poses) - mean) @ axes
-    return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)
-
-
-def describe_curve(features: Floats) -> Floats:
-    """Return mean, two slow cosines and residual (4 * dims,) of any features (n, dims)."""
-    resampled = interpolate_frames(features, np.linspace(0, len(features) - 1, _LENGTH))
-    terms = _COSINES @ resampled
-    residual = np.sqrt((terms[_N_TERMS:] ** 2).sum(axis=0))
-    numbers: Floats = np.concatenate([*terms[:_N_TERMS], _RESIDUAL_WEIGHT * residual])
-    return numbers
-
-
-@cache
-def load_axes() -> tuple[Floats, Floats]:
-    """Return the mean (68,) and the axes (68, 32)."""
-    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
-        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)

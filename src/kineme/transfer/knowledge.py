@@ -1,8 +1,8 @@
 """Knowledge base: labelled primitives of any recordings, for label transfer.
 
-A primitive consists of its label, its source, and its matching features, fifteen
-per second (see `kineme.features.canonical`). These are features of a
-canonical body, so people, skeletons and frame rates may differ.
+A primitive consists of its label, its source, and its matching features, fifteen per second (see
+`kineme.features.canonical`). These are features of a canonical body, so people, skeletons and frame
+rates may differ.
 
 A knowledge base is stored as one ``.npz``, a zip of plain numpy arrays without pickle:
 
@@ -19,8 +19,8 @@ A knowledge base is stored as one ``.npz``, a zip of plain numpy arrays without 
 ``stop_s``   float64          where it stops
 ============ ================ ==================================================
 
-Readers ignore unknown arrays. A change that old readers would misunderstand gets a
-new schema number.
+Readers ignore unknown arrays. A change that old readers would misunderstand gets a new schema
+number.
 
 Source: Vögele, Krüger and Klein 2014, section 6.1.
 """
@@ -43,12 +43,7 @@ from kineme._util.files import atomic_write, translate_read_errors
 from kineme._util.json import decode_json
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.features.canonical import (
-    FEATURE_DIMS,
-    MATCHING_FPS,
-    OFFSETS_S,
-    matching_features,
-)
+from kineme.features.canonical import FEATURE_DIMS, MATCHING_FPS, OFFSETS_S, matching_features
 from kineme.features.effectors import Names
 from kineme.formats.arrays.numpy_files import read_arrays
 from kineme.formats.files import load
@@ -69,64 +64,6 @@ KINDS = {
     "stop_s": "f",
 }
 TYPES = {"features": np.float32, "lengths": np.int64}
-
-
-def _write(
-    arrays: dict[str, NDArray[Any]], settings: dict[str, Any], path: str | PathLike[str]
-) -> None:
-    """Write the arrays of a knowledge base to ``path``, with the settings of its features."""
-    if Path(path).suffix.lower() != ".npz":
-        raise WriteError(path, "a knowledge base must be a .npz file: change the suffix")
-    head = json.dumps({"schema": SCHEMA, "kineme": __version__, **settings})
-    with atomic_write(path) as draft, draft.open("wb") as file:
-        np.savez(file, allow_pickle=False, head=np.array(head), **arrays)
-
-
-def _read(path: str | PathLike[str], settings: dict[str, Any]) -> dict[str, NDArray[Any]]:
-    """Read the arrays of the knowledge base at ``path``; raise ReadError for other settings."""
-    if not Path(path).exists():
-        raise ReadError(path, "cannot be read: there is no such file")
-    content = load(path)
-    try:
-        stored = read_arrays(content)
-        head = decode_json(str(stored["head"]), path)
-    except KeyError as error:
-        raise ReadError(path, "is not a knowledge base: it has no head") from error
-    except (ReadError, ValueError) as error:
-        reason = f": {error.reason}" if isinstance(error, ReadError) else ""
-        raise ReadError(path, f"is not a knowledge base, or is damaged{reason}") from error
-    _check_head(head, settings, path)
-    if missing := [name for name in KINDS if name not in stored]:
-        raise ReadError(path, f"is not a knowledge base, or is damaged: it has no {missing[0]!r}")
-    arrays = {name: stored[name] for name in KINDS}
-    for name, kind in KINDS.items():
-        if arrays[name].dtype.kind != kind:
-            raise ReadError(path, f"is damaged: {name} holds {arrays[name].dtype}")
-    return arrays | {name: arrays[name].astype(kind) for name, kind in TYPES.items()}
-
-
-def _check_head(head: Any, settings: dict[str, Any], path: str | PathLike[str]) -> None:
-    schema = head.get("schema") if isinstance(head, dict) else head
-    if schema != SCHEMA:
-        reason = f"has version {schema!r}, this kineme reads {SCHEMA}: label its recordings again"
-        raise ReadError(path, reason)
-    for name, value in settings.items():
-        if head.get(name) != value:
-            reason = f"has features with {name} {head.get(name)}, not {value}: build it again"
-            raise ReadError(path, reason)
-
-
-def holds_knowledge(path: Path) -> bool:
-    """Return whether a file is a knowledge base, judged by the file names in its archive."""
-    if path.suffix.lower() != ".npz":
-        return False
-    try:
-        with zipfile.ZipFile(path) as parts:
-            return {"head.npy", "lengths.npy", "labels.npy"} <= set(parts.namelist())
-    except (OSError, zipfile.BadZipFile, NotImplementedError, ValueError, LookupError):
-        return False
-
-
 FPS = MATCHING_FPS
 SETTINGS = {"fps": FPS, "offsets_s": list(OFFSETS_S), "unit": "directions"}
 
@@ -210,10 +147,6 @@ class KnowledgeBase:
         effectors : joints, optional
             Joints to use as head, hands and feet if their names are not recognised.
 
-        Returns
-        -------
-        KnowledgeBase
-
         Raises
         ------
         EndEffectorError
@@ -229,17 +162,14 @@ class KnowledgeBase:
                 f"{motion.n_frames}"
             )
         rows = _select_labelled(segments)
-        # Features have their own rate, so spans are converted to it.
         features = matching_features(motion, effectors=effectors)
-        starts, stops = find_working_frames(rows, segments.fps, len(features))
         source = motion.provenance
         path, digest = source.path, source.sha256
         # Several people in one file are distinct sources.
         if digest and len(source.people) > 1:
             digest = f"{digest} {source.person}"
         return cls(
-            np.concatenate([features[a:b] for a, b in zip(starts, stops, strict=True)]),
-            stops - starts,
+            *join_features(rows, segments.fps, features),
             rows.label,
             np.full(len(rows), Path(path).name if path else ""),
             np.full(len(rows), digest or ""),
@@ -281,7 +211,7 @@ class KnowledgeBase:
             The file is missing, damaged, not a knowledge base, or of another version.
         """
         with translate_read_errors(path):
-            return cls(**_read(path, SETTINGS))
+            return cls(**_read(path))
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the knowledge base to one ``.npz`` file; on failure an existing file is kept.
@@ -291,12 +221,16 @@ class KnowledgeBase:
         WriteError
             The suffix is not ``.npz``, or the file cannot be written.
         """
-        _write({"features": self.features, **self.columns()}, SETTINGS, path)
+        if Path(path).suffix.lower() != ".npz":
+            raise WriteError(path, "a knowledge base must be a .npz file: change the suffix")
+        head = np.array(json.dumps({"schema": SCHEMA, "kineme": __version__, **SETTINGS}))
+        arrays = {"features": self.features, **self.columns()}
+        with atomic_write(path) as draft, draft.open("wb") as file:
+            np.savez(file, allow_pickle=False, head=head, **arrays)
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Return the columns with one entry per primitive, by name."""
-        names = ("lengths", "labels", "sources", "digests", "start_s", "stop_s")
-        return {name: getattr(self, name) for name in names}
+        return {name: getattr(self, name) for name in KINDS if name != "features"}
 
     def select(self, mask: NDArray[np.bool_]) -> Self:
         """Return the primitives for which the mask is True."""
@@ -339,10 +273,61 @@ def _select_labelled(segments: Segmentation) -> SegmentTable:
     return rows
 
 
-def find_working_frames(
-    rows: SegmentTable, fps: float, n_features: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the first frame and the end of each row in the features; at least one frame each."""
-    starts = np.minimum(np.rint(rows.start_frame * (FPS / fps)).astype(np.int64), n_features - 1)
-    stops = np.minimum(np.rint(rows.stop_frame * (FPS / fps)).astype(np.int64), n_features)
-    return starts, np.maximum(stops, starts + 1)
+def join_features(
+    rows: SegmentTable, fps: float, features: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[np.int64]]:
+    """Return the features of all rows end to end, and the number of samples of each, at least one.
+
+    Features have their own rate, to which spans of frames are converted.
+    """
+    n = len(features)
+    starts = np.minimum(np.rint(rows.start_frame * (FPS / fps)).astype(np.int64), n - 1)
+    stops = np.minimum(np.rint(rows.stop_frame * (FPS / fps)).astype(np.int64), n)
+    stops = np.maximum(stops, starts + 1)
+    parts = [features[a:b] for a, b in zip(starts, stops, strict=True)]
+    return np.concatenate(parts), stops - starts
+
+
+def _read(path: str | PathLike[str]) -> dict[str, NDArray[Any]]:
+    """Read the arrays of the knowledge base at ``path``; raise ReadError for other settings."""
+    if not Path(path).exists():
+        raise ReadError(path, "cannot be read: there is no such file")
+    content = load(path)
+    try:
+        stored = read_arrays(content)
+        head = decode_json(str(stored["head"]), path)
+    except KeyError as error:
+        raise ReadError(path, "is not a knowledge base: it has no head") from error
+    except (ReadError, ValueError) as error:
+        reason = f": {error.reason}" if isinstance(error, ReadError) else ""
+        raise ReadError(path, f"is not a knowledge base, or is damaged{reason}") from error
+    _check_head(head, path)
+    if missing := [name for name in KINDS if name not in stored]:
+        raise ReadError(path, f"is not a knowledge base, or is damaged: it has no {missing[0]!r}")
+    arrays = {name: stored[name] for name in KINDS}
+    for name, kind in KINDS.items():
+        if arrays[name].dtype.kind != kind:
+            raise ReadError(path, f"is damaged: {name} holds {arrays[name].dtype}")
+    return arrays | {name: arrays[name].astype(kind) for name, kind in TYPES.items()}
+
+
+def _check_head(head: Any, path: str | PathLike[str]) -> None:
+    schema = head.get("schema") if isinstance(head, dict) else head
+    if schema != SCHEMA:
+        reason = f"has version {schema!r}, this kineme reads {SCHEMA}: label its recordings again"
+        raise ReadError(path, reason)
+    for name, value in SETTINGS.items():
+        if head.get(name) != value:
+            reason = f"has features with {name} {head.get(name)}, not {value}: build it again"
+            raise ReadError(path, reason)
+
+
+def holds_knowledge(path: Path) -> bool:
+    """Return whether a file is a knowledge base, judged by the file names in its archive."""
+    if path.suffix.lower() != ".npz":
+        return False
+    try:
+        with zipfile.ZipFile(path) as parts:
+            return {"head.npy", "lengths.npy", "labels.npy"} <= set(parts.namelist())
+    except (OSError, zipfile.BadZipFile, NotImplementedError, ValueError, LookupError):
+        return False

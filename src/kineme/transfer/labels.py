@@ -28,10 +28,11 @@ from kineme.errors import ParameterError
 from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable, choose_kind
-from kineme.transfer.knowledge import FPS, KnowledgeBase, find_working_frames
+from kineme.transfer.knowledge import FPS, KnowledgeBase, join_features
 from kineme.transfer.matching import (
     THRESHOLD,
     Primitives,
+    choose_disjoint,
     compute_label_costs,
     number_movements,
     search,
@@ -39,91 +40,8 @@ from kineme.transfer.matching import (
 
 Row = tuple[int, int, str]
 """Start, stop and label."""
-
 _MAX_GAP_S = 0.3
 """Largest gap between two matches of one activity, s."""
-
-
-class LabelMatch(NamedTuple):
-    """A match of a labelled primitive: span in samples, label, and distance."""
-
-    start: int
-    stop: int
-    label: str
-    distance: float
-
-
-def find_by_search(
-    features: NDArray[np.floating], knowledge: KnowledgeBase, threshold: float
-) -> list[LabelMatch]:
-    """Find matches of labelled primitives that do not overlap, in time order."""
-    borders = np.concatenate([[0], np.cumsum(knowledge.lengths)])
-    matches: list[LabelMatch] = []
-    for label, start, stop in zip(knowledge.labels, borders[:-1], borders[1:], strict=True):
-        example_matches = search(knowledge.features[start:stop], features, threshold=threshold)
-        spans = zip(*(column.tolist() for column in example_matches), strict=True)
-        matches += [LabelMatch(a, b, str(label), distance) for a, b, distance in spans]
-    occupied = np.zeros(len(features), np.bool_)
-    kept = []
-    # Nearest first, so that the nearest of overlapping matches is kept.
-    for match in sorted(matches, key=lambda match: match.distance):
-        if not occupied[match.start : match.stop].any():
-            occupied[match.start : match.stop] = True
-            kept.append(match)
-    return sorted(kept)
-
-
-def segment_by_matches(segmentation: Segmentation, matches: list[LabelMatch]) -> Segmentation:
-    """Replace the segments of a recording by matches: labelled activities and primitives."""
-    frames_per_sample = segmentation.fps / FPS
-    primitives: list[Row] = []
-    for match in matches:
-        start = round(match.start * frames_per_sample)
-        stop = min(round(match.stop * frames_per_sample), segmentation.n_frames)
-        if primitives and primitives[-1][2] == match.label:
-            last = primitives[-1]
-            # Close a small gap to the previous match of the same label.
-            if start - last[1] <= _MAX_GAP_S * segmentation.fps:
-                primitives[-1] = (last[0], start, last[2])
-        primitives.append((start, stop, match.label))
-    activities: list[Row] = []
-    for start, stop, label in primitives:
-        # Adjacent primitives with the same label extend the activity.
-        follows = bool(activities) and activities[-1][1:] == (start, label)
-        activities.append((activities.pop()[0] if follows else start, stop, label))
-    names = {label: number for number, label in enumerate(sorted({row[2] for row in activities}))}
-    levels: tuple[tuple[Level, list[Row]], ...]
-    levels = ("activity", activities), ("primitive", primitives)
-    rows = [
-        Segment(
-            level,
-            choose_kind(level, transition=not label),
-            start,
-            stop,
-            start / segmentation.fps,
-            stop / segmentation.fps,
-            cluster=names.get(label, -1),
-            label=label,
-        )
-        for level, spans in levels
-        for start, stop, label in _fill_between(spans, segmentation.n_frames)
-    ]
-    return replace_rows(segmentation, rows, [])
-
-
-def _fill_between(rows: list[Row], n_frames: int) -> list[Row]:
-    """Fill the spans between rows with rows without a label."""
-    filled: list[Row] = []
-    last_stop = 0
-    for start, stop, label in [*rows, (n_frames, n_frames, "")]:
-        if start > last_stop:
-            filled.append((last_stop, start, ""))
-        if stop > start:
-            filled.append((start, stop, label))
-        last_stop = stop
-    return filled
-
-
 SEARCH_FACTOR = 2.0
 """Factor of the threshold up to which costs are searched, to measure the margin."""
 SIMILAR = 0.6
@@ -162,10 +80,6 @@ def transfer_labels(
         Whether all members of a cluster take the label that most of them got. The
         confidence of the others is the share of members with this label.
 
-    Returns
-    -------
-    Segmentation
-
     Raises
     ------
     ParameterError
@@ -202,9 +116,8 @@ def transfer_labels(
     unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
     if len(unnamed) and len(knowledge):
         unknown = _list_primitives(rows.select(unnamed), features, segmentation.fps)
-        label_costs, names = _compute_costs(unknown, knowledge, SEARCH_FACTOR * threshold)
         # Label, margin and cost of each.
-        best = _choose_cheapest(label_costs, names, threshold)
+        best = _choose_cheapest(unknown, knowledge, threshold)
         other = _find_other_movements(best[0], best[2], number_movements(unknown, SIMILAR))
         best[0][other], best[1][other], best[2][other] = "", np.nan, np.nan
         labels[unnamed], margins[unnamed], costs[unnamed] = best
@@ -230,10 +143,6 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
     labels : Segmentation
         Labels of the same recording by a person. Its activities are used. A segment gets no
         label if most of its frames have none.
-
-    Returns
-    -------
-    Segmentation
 
     Raises
     ------
@@ -263,43 +172,37 @@ def name_primitives(segmentation: Segmentation, labels: Segmentation) -> Segment
     return replace(segmentation, table=table, hierarchy=None)
 
 
-def _search_labels(
-    segmentation: Segmentation,
-    features: Floats,
-    knowledge: KnowledgeBase,
-    threshold: float,
-    *,
-    spread: bool,
-) -> Segmentation:
-    """Search labelled primitives in a recording without activities, and divide it into matches."""
-    matches = find_by_search(features, knowledge, threshold)
-    result = segment_by_matches(segmentation, matches) if matches else segmentation
-    labels = np.array([match.label for match in matches], np.str_)
-    costs = np.array([match.distance for match in matches])
-    provenance = _make_provenance(segmentation, labels, costs, threshold, spread=spread)
-    return replace(result, provenance=provenance, hierarchy=None)
+def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
+    array = as_floats(features, "features")
+    # Tolerate two samples, for rounding of the rate and the length.
+    expected = segmentation.n_frames * FPS / segmentation.fps
+    if array.ndim != 2 or abs(len(array) - expected) > 2:
+        raise ParameterError(
+            f"features have the shape {array.shape}, the recording {expected:.0f} frames at "
+            f"{FPS:g} Hz: make them with transfer_features()"
+        )
+    return array
 
 
-def _compute_costs(
-    unknown: Primitives, knowledge: KnowledgeBase, radius: float
-) -> tuple[Floats, NDArray[np.str_]]:
-    """Return costs (primitives, names) of at most the radius, and the names."""
-    names, codes = np.unique(knowledge.labels, return_inverse=True)
-    costs = compute_label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
-    return np.minimum(costs, radius), names
+def _list_primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
+    """Return the rows as primitives; adjacent ones of a cluster form a run."""
+    follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
+        rows.cluster[1:] == rows.cluster[:-1]
+    )
+    runs = np.concatenate([[0], np.cumsum(~follows)])
+    return Primitives(*join_features(rows, fps, features), runs)
 
 
 def _choose_cheapest(
-    costs: Floats, names: NDArray[np.str_], threshold: float
+    unknown: Primitives, knowledge: KnowledgeBase, threshold: float
 ) -> tuple[NDArray[Any], Floats, Floats]:
     """Return label, margin and cost of each row; empty and nan if none is within the threshold."""
-    # Cheapest label, and the cost of the next cheapest.
-    best = costs.argmin(axis=1)
-    cost = costs[np.arange(len(costs)), best]
-    others = costs.copy()
-    others[np.arange(len(costs)), best] = np.inf
+    names, codes = np.unique(knowledge.labels, return_inverse=True)
+    radius = SEARCH_FACTOR * threshold
+    costs = compute_label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
     # Matches beyond the search radius are unknown, so the next label costs at most this much.
-    following = np.minimum(others.min(axis=1), SEARCH_FACTOR * threshold)
+    ordered = np.sort(np.column_stack([costs, np.full(len(costs), radius)]), axis=1)
+    best, cost, following = costs.argmin(axis=1), ordered[:, 0], ordered[:, 1]
     margin = 1 - cost / np.maximum(following, 1e-12)
     valid = cost <= threshold
     return (
@@ -354,28 +257,6 @@ def _label_activities(segmentation: Segmentation, labels: NDArray[Any]) -> list[
     return names
 
 
-def _check_features(features: ArrayLike, segmentation: Segmentation) -> Floats:
-    array = as_floats(features, "features")
-    # Tolerate two samples, for rounding of the rate and the length.
-    expected = segmentation.n_frames * FPS / segmentation.fps
-    if array.ndim != 2 or abs(len(array) - expected) > 2:
-        raise ParameterError(
-            f"features have the shape {array.shape}, the recording {expected:.0f} frames at "
-            f"{FPS:g} Hz: make them with transfer_features()"
-        )
-    return array
-
-
-def _list_primitives(rows: SegmentTable, features: Floats, fps: float) -> Primitives:
-    """Return the rows as primitives; adjacent ones of a cluster form a run."""
-    starts, stops = find_working_frames(rows, fps, len(features))
-    follows = (rows.start_frame[1:] == rows.stop_frame[:-1]) & (
-        rows.cluster[1:] == rows.cluster[:-1]
-    )
-    frames = np.concatenate([features[a:b] for a, b in zip(starts, stops, strict=True)])
-    return Primitives(frames, stops - starts, np.concatenate([[0], np.cumsum(~follows)]))
-
-
 def _make_provenance(
     segmentation: Segmentation,
     labels: NDArray[Any],
@@ -396,3 +277,96 @@ def _make_provenance(
         },
         "notes": [*segmentation.provenance.get("notes", []), note],
     }
+
+
+def _search_labels(
+    segmentation: Segmentation,
+    features: Floats,
+    knowledge: KnowledgeBase,
+    threshold: float,
+    *,
+    spread: bool,
+) -> Segmentation:
+    """Search labelled primitives in a recording without activities, and divide it into matches."""
+    matches = find_by_search(features, knowledge, threshold)
+    result = segment_by_matches(segmentation, matches) if matches else segmentation
+    labels = np.array([match.label for match in matches], np.str_)
+    costs = np.array([match.distance for match in matches])
+    provenance = _make_provenance(segmentation, labels, costs, threshold, spread=spread)
+    return replace(result, provenance=provenance, hierarchy=None)
+
+
+class LabelMatch(NamedTuple):
+    """A match of a labelled primitive: span in samples, label, and distance."""
+
+    start: int
+    stop: int
+    label: str
+    distance: float
+
+
+def find_by_search(
+    features: NDArray[np.floating], knowledge: KnowledgeBase, threshold: float
+) -> list[LabelMatch]:
+    """Find matches of labelled primitives that do not overlap, in time order."""
+    borders = np.concatenate([[0], np.cumsum(knowledge.lengths)])
+    matches: list[LabelMatch] = []
+    for label, start, stop in zip(knowledge.labels, borders[:-1], borders[1:], strict=True):
+        example_matches = search(knowledge.features[start:stop], features, threshold=threshold)
+        spans = zip(*(column.tolist() for column in example_matches), strict=True)
+        matches += [LabelMatch(a, b, str(label), distance) for a, b, distance in spans]
+    # Nearest first, so that the nearest of overlapping matches is kept.
+    matches.sort(key=lambda match: match.distance)
+    starts, stops = [match.start for match in matches], [match.stop for match in matches]
+    return sorted(matches[i] for i in choose_disjoint(starts, stops, len(features)).tolist())
+
+
+def segment_by_matches(segmentation: Segmentation, matches: list[LabelMatch]) -> Segmentation:
+    """Replace the segments of a recording by matches: labelled activities and primitives."""
+    frames_per_sample = segmentation.fps / FPS
+    primitives: list[Row] = []
+    for match in matches:
+        start = round(match.start * frames_per_sample)
+        stop = min(round(match.stop * frames_per_sample), segmentation.n_frames)
+        if primitives and primitives[-1][2] == match.label:
+            last = primitives[-1]
+            # Close a small gap to the previous match of the same label.
+            if start - last[1] <= _MAX_GAP_S * segmentation.fps:
+                primitives[-1] = (last[0], start, last[2])
+        primitives.append((start, stop, match.label))
+    activities: list[Row] = []
+    for start, stop, label in primitives:
+        # Adjacent primitives with the same label extend the activity.
+        follows = bool(activities) and activities[-1][1:] == (start, label)
+        activities.append((activities.pop()[0] if follows else start, stop, label))
+    names = {label: number for number, label in enumerate(sorted({row[2] for row in activities}))}
+    levels: tuple[tuple[Level, list[Row]], ...]
+    levels = ("activity", activities), ("primitive", primitives)
+    rows = [
+        Segment(
+            level,
+            choose_kind(level, transition=not label),
+            start,
+            stop,
+            start / segmentation.fps,
+            stop / segmentation.fps,
+            cluster=names.get(label, -1),
+            label=label,
+        )
+        for level, spans in levels
+        for start, stop, label in _fill_between(spans, segmentation.n_frames)
+    ]
+    return replace_rows(segmentation, rows, [])
+
+
+def _fill_between(rows: list[Row], n_frames: int) -> list[Row]:
+    """Fill the spans between rows with rows without a label."""
+    filled: list[Row] = []
+    last_stop = 0
+    for start, stop, label in [*rows, (n_frames, n_frames, "")]:
+        if start > last_stop:
+            filled.append((last_stop, start, ""))
+        if stop > start:
+            filled.append((start, stop, label))
+        last_stop = stop
+    return filled

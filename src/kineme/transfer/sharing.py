@@ -66,10 +66,6 @@ def share_clusters(
     n_clusters : int, optional
         For signals: number of clusters; estimated by default.
 
-    Returns
-    -------
-    list of Segmentation
-
     Raises
     ------
     EndEffectorError
@@ -109,21 +105,8 @@ def assign_to_labels(
 ) -> Ints:
     """Label each span of other signals by the label whose samples are nearest on average.
 
-    Parameters
-    ----------
-    signals : Signals
-        Labelled signals.
-    labels : (frames,) array of int
-        Label of each of their frames.
-    others : Signals
-        Signals with the same channels.
-    spans : sequence of (int, int)
-        Frames [start, stop) of the others.
-
-    Raises
-    ------
-    ParameterError
-        The channels differ.
+    ``labels`` (frames,) are those of ``signals``; ``spans`` are frames [start, stop) of ``others``.
+    Raise ParameterError if the channels differ.
     """
     if signals.names != others.names:
         raise ParameterError(

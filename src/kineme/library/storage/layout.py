@@ -1,6 +1,6 @@
 """File names in the folder of a library, and access to its JSON files and Arrow columns.
 
-@@places: Handle paths and URLs alike: convert, write atomically, and cache.
+Paths and URLs are handled alike: converted, written atomically, and cached.
 """
 
 from __future__ import annotations
@@ -25,16 +25,36 @@ from numpy.typing import NDArray
 from kineme._util.checks import check_path, is_number, require_extra
 from kineme._util.files import atomic_write, refuse_link, refuse_pipe
 from kineme._util.json import load_json
-from kineme.errors import (
-    KinemeError,
-    ParameterError,
-    ReadError,
-    WriteError,
-)
+from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
+
+if sys.platform != "win32":
+    import fcntl
 
 REMOTE_EXTRA = "remote"
 """Extra that installs the dependencies of URLs."""
 _URL = re.compile(r"[a-z][a-z0-9+.-]+://", re.IGNORECASE)
+SCHEMA = "kineme.library/5"
+"""Schema of the folder; increment the number for changes that old readers would misread."""
+HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
+LOCK, LOCK_EDITS = ".lock", ".edits.lock"
+TABLES, ANALYSES = "tables", "pieces"
+EMBEDDED = 32
+"""Length of an embedding."""
+BODIES = "bodies"
+"""Vocabulary of all recordings of bodies."""
+MOST_CLUSTERS = 1 << 62
+"""Upper limit of cluster numbers, which fits into int64 columns."""
+_KINDS = {
+    "clustering": dict,
+    "failed": dict,
+    "following": int,
+    "read_options": dict,
+    "segment_options": dict,
+    "sources": list,
+    "tables": str,
+}
+EXTRA = "library"
+"""Extra that installs the dependencies of libraries."""
 
 
 def make_path(path: str | PathLike[str], caller: str = "make_path") -> Path:
@@ -123,33 +143,6 @@ def copy_nearby(path: Path) -> Path:
         with atomic_write(copy) as draft:
             draft.write_bytes(content)
     return copy
-
-
-if sys.platform != "win32":
-    import fcntl
-
-SCHEMA = "kineme.library/5"
-"""Schema of the folder; increment the number for changes that old readers would misread."""
-HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
-LOCK, LOCK_EDITS = ".lock", ".edits.lock"
-TABLES, ANALYSES = "tables", "pieces"
-EMBEDDED = 32
-"""Length of an embedding."""
-BODIES = "bodies"
-"""Vocabulary of all recordings of bodies."""
-MOST_CLUSTERS = 1 << 62
-"""Upper limit of cluster numbers, which fits into int64 columns."""
-_KINDS = {
-    "clustering": dict,
-    "failed": dict,
-    "following": int,
-    "read_options": dict,
-    "segment_options": dict,
-    "sources": list,
-    "tables": str,
-}
-EXTRA = "library"
-"""Extra that installs the dependencies of libraries."""
 
 
 def read_head(folder: str | PathLike[str]) -> dict[str, Any]:

@@ -1,16 +1,15 @@
-"""Read and write the tables of a library, Parquet files with results over all recordings.
+"""Read and write the tables, analyses and search index of a library.
 
-``DESCRIBED`` documents every column. The tables of a build lie in one folder, which is named by a
-digest of its content; the head of the library names the current one.
+**Tables** are Parquet files with results over all recordings. ``DESCRIBED`` documents every column.
+The tables of a build lie in one folder, which is named by a digest of its content; the head of the
+library names the current one.
 
-@@analyses: Read and write analyses: the stored results of one recording on its own.
+**Analyses** are the results of one recording on its own. A Parquet file holds the segments with
+their embeddings, and facts about the recording as metadata. Features, their windows for an index,
+and samples of channels are npy files beside it. These are written first: if the Parquet file
+exists, the analysis is complete.
 
-A Parquet file holds the segments with their embeddings, and facts about the recording as metadata.
-Features, their windows for an index, and samples of channels are npy files beside it. These are
-written first: if the Parquet file exists, the analysis is complete.
-
-@@index: The search index: the windows of all recordings of a library, stored beside its tables.
-
+**The search index** holds the windows of all recordings, beside the tables.
 ``windows.LENGTH.npy`` holds the windows of one length, in the order of the table of recordings.
 Libraries below `FROM_HOURS` have no index: they are searched as a whole.
 """
@@ -100,16 +99,24 @@ DESCRIBED: Mapping[str, Mapping[str, Column]] = {
     },
 }
 """Columns of each table with edits applied, and their descriptions."""
-
 _FOLDER = re.compile(r"[0-9a-f]{16}|\.[0-9a-f]{12}")
 """Matches folders of tables, and drafts of them."""
 _WINDOWS = re.compile(r"windows\.\d+\.npy")
-
 LARGEST = 1e30
 """Largest absolute value in a table."""
-
 ADDED = ("label", "action_label")
 """Columns that `apply_edits` adds if a table lacks them."""
+METADATA = b"kineme.library"
+FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
+KEY_LENGTH = 32
+"""Length of the key of an analysis; see `kineme.library.planning.make_analysis_key`."""
+_FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
+LARGEST_SUM = 1e30
+"""Largest sum of squares of a recording's features for which no distance overflows."""
+LARGEST_SAMPLE = 1e18
+"""Largest absolute value in the samples of channels."""
+FROM_HOURS = 100.0
+"""Hours of recordings of bodies from which on a library has an index."""
 
 
 def is_tables_folder(name: str) -> bool:
@@ -209,34 +216,16 @@ def _is_valid(column: Any, kind: type) -> bool:
     return kind is not float or not (np.abs(as_array(column)) > LARGEST).any()
 
 
-METADATA = b"kineme.library"
-FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
-KEY_LENGTH = 32
-"""Length of the key of an analysis; see `kineme.library.planning.make_analysis_key`."""
-_FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
-LARGEST_SUM = 1e30
-"""Largest sum of squares of a recording's features for which no distance overflows."""
-LARGEST_SAMPLE = 1e18
-"""Largest absolute value in the samples of channels."""
-
-
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """Stored results of a recording.
-
-    Attributes
-    ----------
-    facts : dict
-        About the recording and its features; see `kineme.library.descriptions.make_analysis`.
-    table : SegmentTable
-        Its segments, with the clusters of this recording alone.
-    embeddings : (segments, 32) array of float32
-        Zero for transitions, and for recordings without features.
-    """
+    """Stored results of a recording."""
 
     facts: dict[str, Any]
+    """About the recording and its features; see `kineme.library.descriptions.make_analysis`."""
     table: SegmentTable
+    """Its segments, with the clusters of this recording alone."""
     embeddings: NDArray[np.float32]
+    """(segments, 32); zero for transitions, and for recordings without features."""
 
 
 def write_analysis(
@@ -403,28 +392,15 @@ def _read_column(table: Any, name: str) -> NDArray[Any]:
     return column.astype(np.str_) if column.dtype == object else column
 
 
-FROM_HOURS = 100.0
-"""Hours of recordings of bodies from which on a library has an index."""
-
-
 class Windows(NamedTuple):
-    """The windows of one length.
-
-    Attributes
-    ----------
-    length : int
-    embedded : (windows, 32) array of int8
-        Memory-mapped.
-    firsts : (recordings + 1,) array
-        First window of each recording, and the total number.
-    samples : (recordings,) array
-        Number of feature samples of each recording.
-    """
+    """The windows of one length: ``embedded`` (windows, 32) is memory-mapped."""
 
     length: int
     embedded: Bytes
     firsts: Ints
+    """First window of each recording, and the total number."""
     samples: Ints
+    """Number of feature samples of each recording."""
 
 
 def write_index(folder: Path, tables: str, recordings: dict[str, list[Any]]) -> None:
