@@ -12,8 +12,7 @@ from scipy.optimize import linear_sum_assignment
 
 from _joined import list_clusters
 from kineme._util.arrays import bridge_line
-from kineme.features.channels import resample_channels
-from kineme.features.filters import filter_low
+from kineme.features.channels import filter_low, resample_channels
 from kineme.formats.keypoints.poses import CUTOFF
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn

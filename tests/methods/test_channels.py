@@ -13,9 +13,8 @@ from presets import OWN
 
 from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
-from kineme.features.channels import resample_channels
+from kineme.features.channels import emg_envelope, resample_channels
 from kineme.features.channels import standardize_channels as standard
-from kineme.features.filters import emg_envelope
 from kineme.methods import resolve_preset
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014

@@ -5,23 +5,19 @@ that move most: both feet, the head and both hands. They are found
 
 1. by the names that the user gives;
 2. by the usual names, see `kineme.recordings.joint_names`;
-3. by the shape of the skeleton, see ``topology``.
+3. by the shape of the skeleton, see `find_by_shape`.
 
 For the joint names of CMU's ASF files they are the points of the authors' program:
 the tips of ltibia, rtibia, head, lwrist and rwrist. Otherwise they are the ankle and
 wrist joints, and the crown of the head or the head joint.
 
-@@topology: Find legs, arms and head of a skeleton by its shape.
-
-Limbs are pairs of branches of one joint whose longest paths have the same bone
-lengths. The two longest pairs are legs and arms; the pair that ends lower in the
-given pose is the legs. The two longest bones of a limb (thigh and shin, upper arm and
-forearm) end at the ankle or wrist; bones that begin at the same place on both sides
+In the shape of a skeleton, limbs are pairs of branches of one joint whose longest paths
+have the same bone lengths. The two longest pairs are legs and arms; the pair that ends
+lower in the given pose is the legs. The two longest bones of a limb (thigh and shin, upper
+arm and forearm) end at the ankle or wrist; bones that begin at the same place on both sides
 (clavicles) do not count. The head is the end of the longest other branch at the joint
 where the arms begin. Left and right follow from the direction f of the feet: with y
 up, left is y x f.
-
-@@feet: Find frames in which a point of a foot is low and slow, so that the foot stands.
 """
 
 from __future__ import annotations
@@ -46,6 +42,13 @@ _MAX_BRANCHES = 32
 """Largest number of branches of one joint that are compared in pairs: the longest ones."""
 _MIN_FOOT = 0.1
 """Shortest foot that gives a direction, as a share of the length of the leg."""
+PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
+Names = Mapping[str, str] | Sequence[str]
+MAX_SHOWN = 60
+"""Largest number of joints that a message lists by name."""
+_NAMED = (("*_ankle", "*_foot"), ("head",), ("*_wrist", "*_hand"))
+GROUND_PERCENTILE = 5.0
+"""Percentile of the heights of a point that counts as its lowest height."""
 
 
 @dataclass(frozen=True)
@@ -170,14 +173,6 @@ def _find_head(
     chest, used = arms[0].parent, {arm.branch for arm in arms}
     others = [j for j, parent in enumerate(parents) if parent == chest and j not in used]
     return {"head": paths[max(others, key=lambda j: lengths[j])][-1]} if others else {}
-
-
-PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
-Names = Mapping[str, str] | Sequence[str]
-
-MAX_SHOWN = 60
-"""Largest number of joints that a message lists by name."""
-_NAMED = (("*_ankle", "*_foot"), ("head",), ("*_wrist", "*_hand"))
 
 
 @dataclass(frozen=True)
@@ -383,10 +378,6 @@ def _measure_chain(motion: Motion, joint: int) -> float:
             length += float(np.linalg.norm(motion.skeleton.offsets[joint]))
         joint, parent = parent, motion.skeleton.parents[parent]
     return length
-
-
-GROUND_PERCENTILE = 5.0
-"""Percentile of the heights of a point that counts as its lowest height."""
 
 
 def measure_speed(path: Floats, fps: float) -> Floats:

@@ -1,29 +1,23 @@
 """Compute pose features, and stack them with neighbouring frames.
 
 A pose is 15 numbers: x, y, z of the left ankle, right ankle, head, left wrist
-and right wrist in the body's own frame (see ``compute_body_frame``), in metres. Stacked
-with the poses some frames before and after it, it also shows the direction of
-movement.
+and right wrist in the body's own frame, in metres. Stacked with the poses some frames
+before and after it, it also shows the direction of movement.
 
-@@body_frame: Transform positions to the body's own frame: origin at the pelvis, y up, facing +z, left at +x.
+The body's own frame has its origin at the pelvis, y up, and faces +z with left at +x. Each
+frame is turned about the vertical, so that the body always faces the same way. Height
+differences, pitch and roll are kept; limbs are not scaled. The heading follows from the axis of
+the pelvis that points from the right hip to the left at rest. In the authors' program this is the
+root's +x, as in CMU's files. Other exporters rotate the root frame, so the axis is found in the
+skeleton: the nearest of +-x, +-y, +-z. For a motion without rotations it is the line through the
+hips. If this axis is vertical (a body on its side, as in a cartwheel), the frame has no heading and
+takes that of the nearest frame with one; at a tie the earlier frame. A motion without any heading
+is not turned.
 
-Each frame is turned about the vertical, so that the body always faces the same way.
-Height differences, pitch and roll are kept; limbs are not scaled.
-
-The heading follows from the axis of the pelvis that points from the right hip to the left at rest.
-In the authors' program this is the root's +x, as in CMU's files. Other exporters rotate the root
-frame, so the axis is found in the skeleton: the nearest of +-x, +-y, +-z. For a motion without
-rotations it is the line through the hips.
-
-If this axis is vertical (a body on its side, as in a cartwheel), the frame has no heading and takes
-that of the nearest frame with one; at a tie the earlier frame. A motion without any heading is not
-turned.
-
-@@rotations: Compute rotations of joints, for presets whose features are rotations.
-
-Barbič et al. (2004) chose 14 joints without the root, and Zhou et al. (2013) use the same. Their
-program maps the raw Euler angles of AMC files. ``Motion.rotations`` are the same rotations in other
-axes, constant per joint. This rotates each log map as a whole and does not change distances.
+Presets whose features are rotations use those of 14 joints without the root, chosen by Barbič et
+al. (2004) and Zhou et al. (2013). Their program maps the raw Euler angles of AMC files.
+``Motion.rotations`` are the same rotations in other axes, constant per joint. This rotates each log
+map as a whole and does not change distances.
 """
 
 from __future__ import annotations
@@ -43,6 +37,11 @@ from kineme.recordings.motion import check_motion
 
 _UPRIGHT = 1e-6
 """Length of the horizontal part of the unit axis below which there is no heading."""
+JOINTS = (
+    *("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head"),
+    *("rhumerus", "rradius", "lhumerus", "lradius"),
+    *("rfemur", "rtibia", "lfemur", "ltibia"),
+)
 
 
 def compute_body_frame(
@@ -302,13 +301,6 @@ def _extrapolate(features: Floats, before: int, after: int) -> Floats:
     head = features[0] - np.arange(before, 0, -1)[:, None] * first
     tail = features[-1] + np.arange(1, after + 1)[:, None] * last
     return np.concatenate([head, features, tail])
-
-
-JOINTS = (
-    *("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head"),
-    *("rhumerus", "rradius", "lhumerus", "lradius"),
-    *("rfemur", "rtibia", "lfemur", "ltibia"),
-)
 
 
 def compute_joint_quaternions(motion: Motion) -> Floats:

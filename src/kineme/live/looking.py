@@ -15,7 +15,7 @@ import numpy as np
 from kineme._util.arrays import Floats, Ints, Masks
 from kineme.errors import KinemeWarning
 from kineme.live.events import Finals, Look, Row
-from kineme.methods.kineme.constants import KinemeConstants
+from kineme.methods.kineme.preset import KinemeConstants
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import find_spans

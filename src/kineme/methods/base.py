@@ -8,13 +8,8 @@ To add a method from another package, subclass `Preset` and register an instance
 with `kineme.methods.register`, or declare it as an entry point in the group
 ``kineme.presets``.
 
-@@constants: Constants: the fields of a preset, each with its meaning, unit and limits.
-
-`constant` creates a field with all that the command line, studio and docs show of
-it, so a constant added to a preset appears in each of them. `check` validates the
-types, limits and choices of a preset. `suggest_names` corrects misspelt names.
-
-@@stages: Announce and time the stages of an analysis.
+`constant` creates a field of a preset with all that the command line, studio and docs
+show of it, so a constant added to a preset appears in each of them.
 """
 
 from __future__ import annotations
@@ -53,6 +48,11 @@ MAX_LENGTH = 1e4
 """Largest value of a constant that is a length: metres, body sizes or standard deviations."""
 MAX_COUNT = 1_000_000
 """Largest value of a constant that is a count."""
+Progress = Callable[[str], None]
+Columns = dict[str, NDArray[Any]]
+Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+View = Literal["poses", "quaternions", "rotation vectors"]
+Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 
 
 class Limits(NamedTuple):
@@ -290,9 +290,6 @@ def _get_type_hints(kind: Hashable) -> dict[str, Any]:
     return get_type_hints(cast(Any, kind))
 
 
-Progress = Callable[[str], None]
-
-
 def time_stages(
     timings: dict[str, float], progress: Progress | None
 ) -> Callable[[str], AbstractContextManager[None]]:
@@ -308,11 +305,6 @@ def time_stages(
 
     return stage
 
-
-Columns = dict[str, NDArray[Any]]
-Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
-View = Literal["poses", "quaternions", "rotation vectors"]
-Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 
 RATE = Limits(0.1, 1000.0)
 """Limits of a sampling rate, Hz."""

@@ -33,15 +33,22 @@ from kineme.features import (
     round_offsets,
     stack,
 )
-from kineme.features.channels import resample_channels, standardize_channels
+from kineme.features.channels import emg_envelope, resample_channels, standardize_channels
 from kineme.features.distances import SIZE, have_bones
 from kineme.features.effectors import Names, suggest_remedy
-from kineme.features.filters import emg_envelope
 from kineme.features.pose import compute_joint_quaternions, compute_log_maps
 from kineme.methods.base import Mirror, Preset
 from kineme.recordings import Motion, Signals
 from kineme.recordings.column_names import group_axes, is_body
 from kineme.recordings.operations import resample, split_at_gaps
+
+MAX_NAMED_CHANNELS = 8
+"""Largest number of channels that a note names."""
+Indices = NDArray[np.intp]
+AXES = "xyz"
+SMOOTHING = 0.15
+"""Standard deviation of the Gaussian filter of joint positions, s. Joints estimated from video
+jitter as much as hands move."""
 
 
 @dataclass(frozen=True)
@@ -188,10 +195,6 @@ def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
     return stacked
 
 
-MAX_NAMED_CHANNELS = 8
-"""Largest number of channels that a note names."""
-
-
 def prepare_signals(
     signals: Signals,
     preset: Preset,
@@ -272,14 +275,6 @@ def _describe_channels(
     if emg:
         notes.append("muscle signals: rectified and low-passed")
     return notes
-
-
-Indices = NDArray[np.intp]
-
-AXES = "xyz"
-SMOOTHING = 0.15
-"""Standard deviation of the Gaussian filter of joint positions, s. Joints estimated from video
-jitter as much as hands move."""
 
 
 def find_joints(signals: Signals) -> Indices | None:

@@ -30,6 +30,9 @@ from kineme.segments.table import make_segment_table
 
 FEW_CHANNELS = 20
 """Number of channels up to which a short table is not suspected to be transposed."""
+Spans = Sequence[tuple[int, int]]
+GAP_TOLERANCE = 0.2
+"""Borders this close to a gap are moved to it, s. Shorter gaps do not count as gaps."""
 
 
 def segment(
@@ -435,12 +438,6 @@ def rescale_spans(prepared: Prepared, recording: Motion | Signals, fps: float) -
     if not recording.gaps or recording.gaps[-1][1] < n:
         spans[-1] = replace(spans[-1], stop=n)
     return replace(prepared, spans=spans)
-
-
-Spans = Sequence[tuple[int, int]]
-
-GAP_TOLERANCE = 0.2
-"""Borders this close to a gap are moved to it, s. Shorter gaps do not count as gaps."""
 
 
 def convert_to_frames(

@@ -1,17 +1,42 @@
-"""Build the columns of a segment table from borders; number clusters by appearance.
+"""Build segment tables from the borders and clusters of a method, at several levels of detail.
 
-@@doubts: List the least certain results of a segment table as sentences.
+Detail 1 is the default result of a method. Finer segments form clusters within
+its clusters. The pair of clusters whose union has the least ratio of cost to
+saving is merged repeatedly: first within the clusters of detail 1, then these
+(weakest-link pruning, after Breiman, Friedman, Olshen and Stone 1984). The cost
+is the increase of the differences between samples of a cluster. The saving is the
+price of one cluster and of the borders between the two.
+
+- Above 1, clusters are merged if this saves more than it costs at prices divided by the detail.
+- Below 1, clusters are merged until ``detail`` times those of detail 1 are left.
+
+So every border at one detail is a border at any finer one, and every cluster is a
+union of finer ones.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats, Ints
 from kineme.methods.base import Columns
+
+Doubt = tuple[float, str]
+"""Confidence of a result, and the sentence about it."""
+MAX_SENTENCES = 5
+"""Largest number of sentences: nobody reads a longer list."""
+MIN_CONFIDENCE = 0.5
+"""Confidence below which a result is listed."""
+COARSER = (0.125, 0.25, 0.5, 0.75)
+FINER = (2.0, 4.0, 8.0)
+DETAILS = (*COARSER, *FINER)
+"""Details offered besides 1."""
+ClusterMerge = tuple[int, int, float]
+"""Cluster that is kept, cluster that is merged into it, and the detail below which this happens."""
 
 
 def make_columns(
@@ -78,15 +103,6 @@ def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
     return numbered
 
 
-Doubt = tuple[float, str]
-"""Confidence of a result, and the sentence about it."""
-
-MAX_SENTENCES = 5
-"""Largest number of sentences: nobody reads a longer list."""
-MIN_CONFIDENCE = 0.5
-"""Confidence below which a result is listed."""
-
-
 def list_doubts(columns: Columns, fps: float) -> list[str]:
     """Return one sentence for each doubtful cluster, count or border: the five least certain.
 
@@ -138,3 +154,256 @@ def _append_confidence(text: str, probability: float) -> str:
 def _format_span(columns: Columns, row: np.integer, fps: float) -> str:
     start, stop = (columns[f"{name}_frame"][row] / fps for name in ("start", "stop"))
     return f"at {start:.2f} to {stop:.2f} s"
+
+
+@dataclass(frozen=True, eq=False)
+class FineSegments:
+    """Segments of the finest level, and the clusters of detail 1 that contain them.
+
+    Attributes
+    ----------
+    borders : (segments + 1,) array
+        Samples, including the borders of detail 1.
+    labels : (segments,) array
+        Cluster at the finest level, from 0; -1 for transitions.
+    parents : (clusters,) array
+        Cluster at detail 1 of each cluster.
+    differences : (clusters, clusters) array
+        Differences of two clusters, summed over pairs of samples; 0 if they are equal.
+    """
+
+    borders: Ints
+    labels: Ints
+    parents: Ints
+    differences: Floats
+
+
+def assign_clusters(
+    fine: FineSegments, details: tuple[float, ...], *, border_price: float, cluster_price: float
+) -> dict[float, Ints]:
+    """Return the cluster of each fine segment at each detail, -1 for transitions.
+
+    Parameters
+    ----------
+    fine : FineSegments
+    details : tuple of float
+    border_price, cluster_price : float
+        Costs of a border and of a cluster at detail 1.
+    """
+    finer, coarser = _list_merges(fine, border_price, cluster_price)
+    labels_by_detail = {}
+    # Merged cluster of each fine cluster; at first each is its own.
+    merged, done = np.arange(len(fine.parents)), 0
+    for detail in sorted(details, reverse=True):  # a coarser detail has all merges of a finer one
+        merges = [(kept, absorbed) for kept, absorbed, least in finer if detail < least]
+        if detail < 1:
+            # n clusters need n - 1 merges to become one.
+            left = max(1, round(detail * (len(coarser) + 1)))
+            merges += [(kept, absorbed) for kept, absorbed, _ in coarser[: len(coarser) + 1 - left]]
+        # Skip the merges that the previous detail has done.
+        for kept, absorbed in merges[done:]:
+            merged[merged == merged[absorbed]] = merged[kept]
+        done = len(merges)
+        # Appended -1: label -1 as an index stays -1.
+        labels_by_detail[detail] = np.where(fine.labels < 0, -1, np.append(merged, -1)[fine.labels])
+    return {detail: labels_by_detail[detail] for detail in details}
+
+
+def make_tables(
+    columns: Columns, borders: Ints, clusters: Mapping[float, Ints], longest: float
+) -> dict[float, Columns]:
+    """Return the table at each detail; of equal tables only the coarsest.
+
+    Tables that equal the one at detail 1 are left out.
+
+    Parameters
+    ----------
+    columns : dict of str to array
+        Columns at detail 1.
+    borders, clusters
+        As in `FineSegments`, and as returned by `assign_clusters`.
+    longest : float
+        Samples. At details below 1, two segments of one cluster are merged across a transition
+        that lasts no longer than ``longest / detail``.
+    """
+    is_activity = columns["level"] == "activity"
+    activities, primitives = (
+        {name: column[rows] for name, column in columns.items()}
+        for rows in (is_activity, ~is_activity)
+    )
+    tables: dict[float, Columns] = {}
+    # Details with equal labels have equal tables. Sorted, so the coarsest comes first.
+    coarsest: dict[tuple[bool, bytes], float] = {}
+    for detail in sorted(clusters):
+        labels = clusters[detail]
+        if detail < 1:
+            labels = _bridge_transitions(borders, labels, longest / detail)
+        if coarsest.setdefault((detail < 1, labels.tobytes()), detail) == detail:
+            # Finer than 1: borders of detail 1 stay. Coarser: only frame 0 is fixed.
+            is_fixed = np.isin(borders[:-1], activities["start_frame"] if detail > 1 else 0)
+            # Segments begin where the label changes; -2 differs from every label.
+            first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | is_fixed)
+            # Numbers by appearance can be compared between details.
+            starts, numbers = borders[:-1][first], number_by_appearance(labels[first])
+            if not (
+                np.array_equal(starts, activities["start_frame"])
+                and np.array_equal(numbers, number_by_appearance(activities["cluster"]))
+            ):
+                tables[detail] = change_detail(
+                    activities, primitives, starts, numbers, int(borders[-1])
+                )
+    return tables
+
+
+def change_detail(
+    before: Columns, inner: Columns, starts: Ints, clusters: Ints, end: int
+) -> Columns:
+    """Return the columns of a table with other activities; every primitive border stays.
+
+    Parameters
+    ----------
+    before, inner : dict of str to array
+        Activities and primitives at detail 1.
+    starts, clusters : array of int
+        New activities: first samples, and clusters (-1 for transitions).
+    end : int
+        Where the last one ends.
+
+    Returns
+    -------
+    dict of str to array
+    """
+    # Borders of activities are also borders of primitives.
+    cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
+    kinds = np.where(clusters < 0, "transition", "activity")
+    activities = _make_rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
+    primitives = _make_rows(inner, cuts, end)
+    # The activity of each primitive: the last that begins at or before it.
+    parents = np.searchsorted(starts, cuts, side="right") - 1
+    in_cluster = primitives["kind"] == "activity"
+    if _is_inherited(before, inner):
+        primitives["cluster"] = np.where(in_cluster, clusters[parents], -1)
+    else:
+        # A part of a repetition differs from a whole one: parts get new clusters.
+        parts = in_cluster & ~_find_same_spans(primitives, inner)
+        pairs = np.column_stack([primitives["cluster"], clusters[parents]])[parts]
+        # One new number for each pair of old cluster and activity's cluster.
+        numbers = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+        primitives["cluster"][parts] = inner["cluster"].max(initial=-1) + 1 + numbers
+    return {name: np.concatenate([activities[name], primitives[name]]) for name in before}
+
+
+def _list_merges(
+    fine: FineSegments, border_price: float, cluster_price: float
+) -> tuple[list[ClusterMerge], list[ClusterMerge]]:
+    """Return the merges within the clusters of detail 1, and the merges of these clusters."""
+    labels = fine.labels[fine.labels >= 0]
+    k = len(fine.parents)
+    # How often each cluster follows another one: each is a border that a merge saves.
+    adjacent = np.zeros((k, k))
+    np.add.at(adjacent, (labels[:-1], labels[1:]), 1.0)
+    # Between segments of one cluster a merge saves nothing.
+    np.fill_diagonal(adjacent, 0)
+    prices = border_price * (adjacent + adjacent.T)
+    lengths = np.diff(fine.borders)[fine.labels >= 0]
+    # A cluster without samples counts as one, to avoid a division by 0.
+    sizes = np.maximum(np.bincount(labels, lengths, k), 1.0)
+    state = (fine.differences.copy(), prices, sizes)
+    finer: list[ClusterMerge] = []
+    for parent in np.unique(fine.parents):
+        finer += _order_merges(*state, np.flatnonzero(fine.parents == parent), cluster_price)
+    # `nextafter`: merges within a cluster of detail 1 happen at detail 1, whatever they cost.
+    finer = [(kept, absorbed, max(detail, np.nextafter(1, 2))) for kept, absorbed, detail in finer]
+    # One representative for each cluster of detail 1.
+    roots = np.setdiff1d(np.arange(k), [absorbed for _, absorbed, _ in finer])
+    # `sorted` is stable, so merges within one cluster stay in order.
+    return sorted(finer, key=lambda merge: -merge[2]), _order_merges(*state, roots, cluster_price)
+
+
+def _order_merges(
+    differences: Floats, prices: Floats, sizes: Floats, among: Ints, cluster_price: float
+) -> list[ClusterMerge]:
+    """Return the merges of the clusters `among` into one, cheapest first; details never rise.
+
+    Change the arrays: rows and columns of merged clusters are summed.
+    """
+
+    def compute_details(clusters: Ints) -> Floats:
+        """Return the detail below which each cluster is merged with each of `among`."""
+        within = np.diagonal(differences)
+        rows, others = within[clusters][:, None], within[among]
+        sums = rows + others + 2 * differences[clusters[:, None], among]
+        size = sizes[clusters][:, None]
+        # Ward's criterion: cost of the union less the costs of both clusters apart.
+        losses = sums / (size + sizes[among]) - rows / size - others / sizes[among]
+        savings = prices[clusters[:, None], among] + cluster_price
+        details: Floats = savings / np.maximum(losses, 1e-9)
+        # A cluster is not merged with itself, nor with one that is already merged.
+        return np.where(alive & (among != clusters[:, None]), details, -1.0)
+
+    alive = np.full(len(among), True)
+    matrix = compute_details(among)
+    merges: list[ClusterMerge] = []
+    detail = np.inf
+    for _ in range(len(among) - 1):
+        # Largest detail: the pair with the least ratio of cost to saving.
+        first, second = sorted(divmod(int(np.argmax(matrix)), len(among)))
+        # A later merge may have a larger detail, but it cannot happen before this one.
+        detail = min(detail, float(matrix[first, second]))
+        kept, absorbed = int(among[first]), int(among[second])
+        for sums in (differences, prices):
+            sums[kept] += sums[absorbed]
+            sums[:, kept] += sums[:, absorbed]
+        prices[kept, kept] = 0
+        sizes[kept] += sizes[absorbed]
+        alive[second] = False
+        matrix[second] = matrix[:, second] = -1
+        # Only the row and column of the union change.
+        matrix[first] = matrix[:, first] = compute_details(among[[first]])[0]
+        merges.append((kept, absorbed, detail))
+    return merges
+
+
+def _bridge_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
+    """Give short transitions between two segments of one cluster the label of that cluster."""
+    bridged = labels.copy()
+    # Three segments in a row: the middle one is the transition.
+    before, after, short = labels[:-2], labels[2:], np.diff(borders)[1:-1] <= longest
+    between = (labels[1:-1] < 0) & (before == after) & (after >= 0) & short
+    bridged[1:-1][between] = before[between]
+    return bridged
+
+
+def _make_rows(source: Columns, starts: Ints, end: int) -> Columns:
+    """Return rows with these starts, copied from the source rows that contain them.
+
+    Their confidence is nan if their span differs from that of the source row.
+    """
+    order = np.argsort(source["start_frame"], kind="stable")
+    # The source row in which each start lies.
+    source_rows = order[np.searchsorted(source["start_frame"][order], starts, side="right") - 1]
+    rows = {name: column[source_rows] for name, column in source.items()}
+    same_start = rows["start_frame"] == starts
+    rows["start_frame"] = starts
+    stops = np.append(starts[1:], end)
+    same_span = same_start & (rows["stop_frame"] == stops)
+    rows["stop_frame"] = stops
+    # A confidence is valid only for the span, or the start, it was computed from.
+    for name, same in (("confidence", same_span), ("border_confidence", same_start)):
+        if name in rows:
+            rows[name] = np.where(same, rows[name], np.nan)
+    return rows
+
+
+def _find_same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
+    """Mark the rows whose span is also a span of the source."""
+    spans = {*zip(source["start_frame"].tolist(), source["stop_frame"].tolist(), strict=True)}
+    row_spans = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)
+    return np.array([span in spans for span in row_spans], bool)
+
+
+def _is_inherited(activities: Columns, primitives: Columns) -> bool:
+    """Return whether every primitive is in the cluster of its activity."""
+    parents = np.searchsorted(activities["start_frame"], primitives["start_frame"], "right") - 1
+    in_cluster = primitives["kind"] == "activity"
+    return bool((activities["cluster"][parents] == primitives["cluster"])[in_cluster].all())

@@ -30,7 +30,7 @@ from kineme.methods.kineme.primitives import Segments
 from kineme.methods.kineme.repetitions import PLACES, trace_movement
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
 
 Frames = NDArray[np.int64]
 

@@ -25,7 +25,7 @@ from kineme.methods.kineme import _event_kernels as kernels
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
 
 Paths = tuple[Ints, Ints, Floats, Floats, Ints, Ints]
 

@@ -12,7 +12,7 @@ Features are an array of frames x dims, of bodies or of sensors.
 5. *events*: find spans that recur occasionally.
 6. *confidence*: collect the statistics for confidence. No other stage reads them.
 
-@@found: Results of all stages of the method, and the segment table made from them.
+`KinemeFound` holds the results, and makes tables of them at several levels of detail.
 """
 
 from __future__ import annotations
@@ -58,11 +58,17 @@ from kineme.methods.kineme.tree import (
     link_parts,
 )
 from kineme.methods.kineme.views import Views, choose_view, compute_views
-from kineme.methods.levels import DETAILS, FineSegments, assign_clusters, make_tables
-from kineme.methods.segments import list_doubts, make_columns
+from kineme.methods.segments import (
+    DETAILS,
+    FineSegments,
+    assign_clusters,
+    list_doubts,
+    make_columns,
+    make_tables,
+)
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
 
 Frames = NDArray[np.int64]
 
@@ -72,6 +78,9 @@ FINE_PER_SEGMENT = 8
 """Largest number of fine segments per segment of the default level, for levels of detail."""
 MAX_FINE = 1000
 """Largest number of fine segments in total, unless the default level has more."""
+SIDE = 2.0
+"""Seconds before and after a candidate end of a part that are compared to choose it."""
+Rows = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,11 +198,6 @@ class KinemeFound:
             )
             sentences.append(f"not periodic: {', '.join(spans[:MAX_LISTED])}{more}; {note}")
         return sentences
-
-
-SIDE = 2.0
-"""Seconds before and after a candidate end of a part that are compared to choose it."""
-Rows = NDArray[np.float32]
 
 
 class Part(NamedTuple):

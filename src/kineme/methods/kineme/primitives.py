@@ -21,14 +21,13 @@ from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
-from kineme.methods.kineme.borders import fit_ends
+from kineme.methods.kineme.borders import Sets, fit_ends, join_sets
 from kineme.methods.kineme.events import Occurrences, find_occurrences
-from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions, trace_movement
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
 
 Bools = NDArray[np.bool_]
 Frames = NDArray[np.int64]

@@ -1,4 +1,4 @@
-"""Count the repetitions of an activity and find the start of each.
+"""Count the repetitions of an activity, find the start of each, and measure what they save.
 
 Each repetition passes every pose of the activity once. So the distance to a fixed pose has a dip
 in each repetition: the repetition *visits* the pose. Not all dips are visits. So the deepest two,
@@ -17,11 +17,10 @@ If there is a rest between repetitions, they begin at rest. People perceive the 
 movement is slowest (Zacks, Kumar, Abrams and Mehta 2009), and clips that begin at rest are easier
 to use.
 
-@@repeating: Decide whether a segment repeats, and how much this shortens its description.
-
-A segment can be described in two ways. By its samples it costs half of their mean distances to
-each other. If it repeats, one repetition describes all. It repeats if the mean of the other
-repetitions, scaled, explains most of each one. Then this share of the cost is saved:
+`Repeating` measures how much repetitions shorten the description of a segment. By its samples a
+segment costs half of their mean distances to each other. If it repeats, one repetition describes
+all. It repeats if the mean of the other repetitions, scaled, explains most of each one. Then this
+share of the cost is saved:
 
     (1 - max((chance_period / period)², few)) · evenness
     few = min(chance_count / count, chance_duration / (count · period), 1)
@@ -30,9 +29,7 @@ Fast repetitions save little, because the averaged view does not show them. Few 
 little, because they may be similar by chance, unless they last long. Two different movements in
 sequence save nothing. They are detected by comparing two means, of the first and of the last
 repetitions, with a single mean: once for the shapes of the repetitions, once for which channels
-move.
-
-The method is ours; see ``docs/method.md``.
+move. The method is ours; see ``docs/method.md``.
 """
 
 from __future__ import annotations
@@ -49,7 +46,7 @@ from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
 
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
@@ -74,6 +71,12 @@ REST_SPEED = 0.25
 """Share of the mean speed below which there is a rest."""
 REST_RANGE = 0.15
 """Share of a repetition within which each rest is searched."""
+SPAN = (1.0, 90.0)
+"""Shortest and longest segment that is tested, s."""
+MAX_COMPARED = 32
+"""Largest number of samples whose distances give the cost of a segment."""
+RAMP = 0.05
+"""Half width of the linear ramp around a threshold."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -318,14 +321,6 @@ def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     nearby = np.clip(rests[:, None] + offsets, 1, n - 1)
     slowest = np.take_along_axis(nearby, speeds[nearby].argmin(axis=1)[:, None], axis=1)[:, 0]
     return slowest if (np.diff(slowest) > 0).all() else rests
-
-
-SPAN = (1.0, 90.0)
-"""Shortest and longest segment that is tested, s."""
-MAX_COMPARED = 32
-"""Largest number of samples whose distances give the cost of a segment."""
-RAMP = 0.05
-"""Half width of the linear ramp around a threshold."""
 
 
 class Division(NamedTuple):

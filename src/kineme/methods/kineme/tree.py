@@ -38,7 +38,7 @@ from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
     from kineme.methods.kineme.repetitions import Repeating
 
 Rows = NDArray[np.float32]

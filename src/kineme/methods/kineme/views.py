@@ -25,7 +25,7 @@ from kineme._util.arrays import Floats, Ints
 from kineme.features.channels import Mixture, Reduction, compute_statistics
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.constants import KinemeConstants
+    from kineme.methods.kineme.preset import KinemeConstants
 
 Labels = NDArray[np.int64]
 

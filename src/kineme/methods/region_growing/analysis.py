@@ -1,8 +1,6 @@
 """Run the stages of the published methods, in frames at the working rate.
 
-Features are any array of frames × dims.
-
-@@found: Results of all stages of the published methods, and the segment table made from them.
+Features are any array of frames × dims. `RegionsFound` holds the results of all stages.
 """
 
 from __future__ import annotations
@@ -36,7 +34,7 @@ from kineme.methods.region_growing.warping import label_components
 from kineme.methods.segments import make_columns, number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.constants import RegionGrowingConstants
+    from kineme.methods.region_growing.preset import RegionGrowingConstants
 
 Frames = NDArray[np.int64]
 
