@@ -392,7 +392,7 @@ def stack_poses(poses: Floats) -> Floats:
 
 def compute_directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
     """Return unit vectors (frames, 40): directions of stacked poses from the mean, in the axes."""
-    return _normalize((stacked - mean) @ axes)
+    return _normalize_vectors((stacked - mean) @ axes).astype(np.float32)
 
 
 def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -410,7 +410,7 @@ def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     >>> bool(np.median(errors) < 0.15)
     True
     """
-    return _normalize(features @ _make_mirror_matrix())
+    return _normalize_vectors(features @ _make_mirror_matrix()).astype(np.float32)
 
 
 @cache
@@ -431,11 +431,6 @@ def load_basis() -> tuple[Floats, Floats]:
     """Return the mean (85,) and the axes (85, 40), each divided by its shrunk deviation."""
     with np.load(Path(__file__).with_name("canonical_basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
-
-
-def _normalize(values: NDArray[np.floating]) -> NDArray[np.float32]:
-    lengths = np.linalg.norm(values, axis=1, keepdims=True)
-    return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
 
 
 def _smooth(positions: Floats) -> Floats:

@@ -191,10 +191,15 @@ def compute_statistics(
     first = np.clip(at - width // 2, 0, len(channels))
     last = np.clip(at - width // 2 + width, 0, len(channels))
     # None stands for the unfiltered channels, whose means are taken.
-    edges = [None, *(edge for edge in pairwise(bands) if edge[0] < NYQUIST * fps)]
+    highest = NYQUIST * fps
+    edges = [None, *((low, min(high, highest)) for low, high in pairwise(bands) if low < highest)]
     groups = []
     for edge in edges:
-        band = channels if edge is None else _filter_band(channels, fps, *edge)
+        band = channels
+        if edge is not None:
+            # Padding: three periods of the lowest frequency, but less than the recording.
+            padding = min(len(channels) - 1, int(3 * fps / edge[0]))
+            band = filter_band(channels, fps, *edge, padding)
         mixed = (mixture.apply(band) for mixture in mixtures)
         groups.append(
             [_compute_means(each, first, last, squared=edge is not None) for each in mixed]
@@ -222,16 +227,6 @@ def _compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool) ->
     return np.sqrt(np.maximum(means, 0.0)) if squared else means
 
 
-def _filter_band(channels: Floats, fps: float, low: float, high: float) -> Floats:
-    """Filter channels to the band between two frequencies, without delay (Butterworth)."""
-    high = min(high, NYQUIST * fps)
-    if low >= high:
-        # The whole band is above the Nyquist frequency.
-        return np.zeros_like(channels)
-    # Padding: three periods of the lowest frequency, but less than the recording.
-    return filter_band(channels, fps, low, high, min(len(channels) - 1, int(3 * fps / low)))
-
-
 def filter_low(values: Floats, fps: float, cutoff: float, padding: int) -> Floats:
     """Remove frequencies above the cutoff, in Hz, from values (frames, channels).
 
@@ -251,7 +246,8 @@ def filter_low(values: Floats, fps: float, cutoff: float, padding: int) -> Float
     >>> bool(np.abs(left - slow)[20:-20].max() < 0.03)
     True
     """
-    edge = _warp(cutoff, fps)
+    # Analogue frequency that the bilinear transform (rate 2) maps to the cutoff.
+    edge = 4 * float(np.tan(np.pi * cutoff / fps))
     poles = POLES * edge
     return _filter_both_ways(values, _make_sections(poles, edge**2, [1.0, 2.0, 1.0]), padding)
 
@@ -264,11 +260,14 @@ def filter_band(values: Floats, fps: float, low: float, high: float, padding: in
     values : (frames, channels) array
     fps : float
     low, high : float
-        Less than half of `fps`.
+        Less than half of `fps`. The result is 0 if the band is empty.
     padding : int
         Number of frames by which the ends are extended; less than the number of frames.
     """
-    edges = _warp(low, fps), _warp(high, fps)
+    if low >= high:
+        return np.zeros_like(values)
+    # Analogue frequencies, as in `filter_low`.
+    edges = [4 * float(np.tan(np.pi * edge / fps)) for edge in (low, high)]
     width, center = edges[1] - edges[0], edges[0] * edges[1]
     half = POLES * width / 2
     root = np.sqrt(half**2 - center)
@@ -279,11 +278,6 @@ def filter_band(values: Floats, fps: float, low: float, high: float, padding: in
     return _filter_both_ways(
         values, _make_sections(poles, width**2 * 16, [1.0, 0.0, -1.0]), padding
     )
-
-
-def _warp(frequency: float, fps: float) -> float:
-    """Return the analogue frequency that the bilinear transform (rate 2) maps to a frequency."""
-    return 4 * float(np.tan(np.pi * frequency / fps))
 
 
 def _make_sections(poles: Poles, gain: float, zeros: list[float]) -> Floats:

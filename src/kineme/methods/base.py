@@ -201,26 +201,9 @@ def constant(
     return field(default=default, metadata={"constant": details})
 
 
-def list_constants(preset: Any) -> tuple[Constant, ...]:
-    """Return the constants of a preset, in the order of its fields."""
-    hints = _get_type_hints(preset.__class__)
-    defaults = {each.name: each.default for each in fields(preset)}
-    return tuple(
-        Constant(
-            name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **details
-        )
-        for name, details in _get_details(preset.__class__).items()
-    )
-
-
-def collect_values(preset: Any) -> dict[str, Any]:
-    """Return the value of each constant of a preset by name."""
-    return {name: getattr(preset, name) for name in _get_details(preset.__class__)}
-
-
 def check(preset: Any) -> None:
     """Raise ParameterError for the first invalid constant; convert counts such as 3.0 to int."""
-    for each in list_constants(preset):
+    for each in preset.constants():
         _check(each.name, each.value, each.hint, each.limits, each.unit)
         if each.hint is int and type(each.value) is not int:
             object.__setattr__(preset, each.name, int(each.value))
@@ -449,12 +432,21 @@ class Preset(ABC):
         return round(seconds * self.working_fps)
 
     def constants(self) -> tuple[Constant, ...]:
-        """Return each constant with its meaning, unit, value and limits."""
-        return list_constants(self)
+        """Return the constants in the order of the fields, with meaning, unit, value and limits."""
+        hints, defaults = (
+            _get_type_hints(type(self)),
+            {each.name: each.default for each in fields(self)},
+        )
+        return tuple(
+            Constant(
+                name, value=getattr(self, name), hint=hints[name], default=defaults[name], **details
+            )
+            for name, details in _get_details(type(self)).items()
+        )
 
     def parameters(self) -> Mapping[str, Any]:
         """Return the value of each constant by name, for the provenance."""
-        return collect_values(self)
+        return {name: getattr(self, name) for name in _get_details(type(self))}
 
     def replace(self, **overrides: Any) -> Self:
         """Return a copy of the preset with some constants changed.

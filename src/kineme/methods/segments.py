@@ -281,7 +281,10 @@ def change_detail(
     # The activity of each primitive: the last that begins at or before it.
     parents = np.searchsorted(starts, cuts, side="right") - 1
     in_cluster = primitives["kind"] == "activity"
-    if _is_inherited(before, inner):
+    old_parents = np.searchsorted(before["start_frame"], inner["start_frame"], "right") - 1
+    has_own = before["cluster"][old_parents] != inner["cluster"]
+    # Every primitive is in the cluster of its activity, or some have clusters of their own.
+    if not has_own[inner["kind"] == "activity"].any():
         primitives["cluster"] = np.where(in_cluster, clusters[parents], -1)
     else:
         # A part of a repetition differs from a whole one: parts get new clusters.
@@ -400,10 +403,3 @@ def _find_same_spans(rows: Columns, source: Columns) -> NDArray[np.bool_]:
     spans = {*zip(source["start_frame"].tolist(), source["stop_frame"].tolist(), strict=True)}
     row_spans = zip(rows["start_frame"].tolist(), rows["stop_frame"].tolist(), strict=True)
     return np.array([span in spans for span in row_spans], bool)
-
-
-def _is_inherited(activities: Columns, primitives: Columns) -> bool:
-    """Return whether every primitive is in the cluster of its activity."""
-    parents = np.searchsorted(activities["start_frame"], primitives["start_frame"], "right") - 1
-    in_cluster = primitives["kind"] == "activity"
-    return bool((activities["cluster"][parents] == primitives["cluster"])[in_cluster].all())

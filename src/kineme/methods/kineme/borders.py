@@ -33,7 +33,6 @@ other than two well performed exercises do. The method is ours; see ``docs/metho
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -54,7 +53,7 @@ from kineme.methods.kineme.repetitions import (
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemeConstants
+    from kineme.methods.kineme.preset import KinemePreset
 
 Frames = NDArray[np.int64]
 Spans = tuple[Frames, Frames]
@@ -83,7 +82,7 @@ TINY = 1e-12
 """Smallest divisor."""
 
 
-def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
+def refine_borders(channels: Floats, borders: Frames, preset: KinemePreset) -> Spans:
     """Return the first frame and the end of each segment; frames between two are a transition.
 
     Parameters
@@ -92,7 +91,7 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -
         At the working rate.
     borders : (segments + 1,) array
         Frames, from 0 to the end.
-    preset : KinemeConstants
+    preset : KinemePreset
 
     Returns
     -------
@@ -154,7 +153,7 @@ def _compute_likelihoods(rows: Floats, side: Floats) -> Floats:
     return likelihoods
 
 
-def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
+def convert_to_samples(frames: Frames, preset: KinemePreset, n: int) -> Frames:
     """Convert borders from frames to the nearest samples, 0 to n, at least one per segment."""
     nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
     order = np.arange(len(frames))
@@ -188,8 +187,7 @@ def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
     return np.unique(np.concatenate([fine[~passed], after]))
 
 
-@dataclass(frozen=True, eq=False)
-class Ends:
+class Ends(NamedTuple):
     """Starts and ends of activities and of their repetitions.
 
     Attributes
@@ -212,7 +210,7 @@ def fit_ends(
     stops: Frames,
     labels: Frames,
     cuts: Sequence[Frames],
-    preset: KinemeConstants,
+    preset: KinemePreset,
 ) -> Ends:
     """Fit the first and last repetition of each activity; activities do not overlap.
 
@@ -226,7 +224,7 @@ def fit_ends(
         Their clusters. A gap between two activities of one cluster is never closed.
     cuts : sequence of arrays of int
         Starts of the second, third, ... repetition of each.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     n = len(features)
     # The last repetition is the first one of the reversed recording.
@@ -276,19 +274,14 @@ def _find_begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
         return start, start
     lengths = np.diff(cuts)
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, PLACES)
-    mean = inner.mean(axis=0)
-    first = _find_first(rows, cuts, mean)
-    return min(first, start), first
-
-
-def _find_first(rows: Features, cuts: Frames, mean: Floats) -> int:
-    """Return the start of the span before the first cut that fits the mean best; 0 without one."""
-    mean_length, stop = float(np.diff(cuts).mean()), int(cuts[0])
+    mean_length, stop = float(lengths.mean()), int(cuts[0])
     shortest = max(1, ceil(SHORTEST * mean_length))
     longest = min(int(LONGEST * mean_length), stop)
-    if shortest > longest:
-        return 0
-    return stop - int(kernels.find_best_length(rows, stop, shortest, longest, mean))
+    first = 0
+    if shortest <= longest:
+        mean = inner.mean(axis=0)
+        first = stop - int(kernels.find_best_length(rows, stop, shortest, longest, mean))
+    return min(first, start), first
 
 
 class Sets(NamedTuple):
@@ -304,14 +297,7 @@ class Sets(NamedTuple):
     cuts: list[Frames]
 
 
-class MergeCandidate(NamedTuple):
-    """Two neighbours as one: similarity of repetitions across the border, and joint cuts."""
-
-    similarity: float
-    cuts: Frames
-
-
-def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
+def join_sets(rows: Rows, found: Sets, preset: KinemePreset) -> Sets:
     """Merge neighbouring activities that are one set, the most similar ones first.
 
     A merged activity has the cluster of its longer part.
@@ -322,12 +308,13 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         At the working rate.
     found : Sets
         Frames between two of them are a transition.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     starts, stops, labels, preference = (values.tolist() for values in found[:4])
     cuts = list(found.cuts)
 
-    def evaluate(left: int) -> MergeCandidate:
+    def evaluate(left: int) -> tuple[float, Frames]:
+        """Return the similarity of two neighbours across their border, and their joint cuts."""
         right = left + 1
         counts = len(cuts[left]) + 1, len(cuts[right]) + 1
         start, stop = starts[left], stops[right]
@@ -335,21 +322,22 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         # both certain, such as walking and running, are not merged.
         is_certain = min(counts) >= CERTAIN_FACTOR * preset.chance_count
         if max(counts) < 3 or is_certain or stop - start > preset.frames(SPAN[1]):
-            return MergeCandidate(0.0, np.empty(0, np.int64))
+            return 0.0, np.empty(0, np.int64)
         joint_cuts = find_repetitions(rows, start, stop, preset)
         border = (stops[left] + starts[right]) // 2 - start
         similarity = compare_sides(rows[start:stop], joint_cuts - start, border, counts, preset)
-        return MergeCandidate(similarity, joint_cuts)
+        return similarity, joint_cuts
 
     candidates = map_threads(evaluate, range(len(starts) - 1))
     while candidates:
-        best = int(np.argmax([each.similarity for each in candidates]))
-        if candidates[best].similarity < preset.same_set:
+        best = int(np.argmax([similarity for similarity, _ in candidates]))
+        similarity, joint_cuts = candidates[best]
+        if similarity < preset.same_set:
             break
         longer = best + int(stops[best + 1] - starts[best + 1] > stops[best] - starts[best])
         labels[best], preference[best] = labels[longer], preference[longer]
         stops[best] = stops[best + 1]
-        cuts[best] = candidates[best].cuts
+        cuts[best] = joint_cuts
         for values in (starts, stops, labels, preference, cuts):
             del values[best + 1]
         del candidates[best]
@@ -362,7 +350,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
 
 
 def compare_sides(
-    rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemeConstants
+    rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemePreset
 ) -> float:
     """Return the similarity of repetitions across a border, relative to that on each side.
 
@@ -378,7 +366,7 @@ def compare_sides(
         First frame of the right side.
     counts : tuple of int
         Number of repetitions of each side when divided alone.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     if len(cuts) < 2:  # there is no inner repetition
         return 0.0

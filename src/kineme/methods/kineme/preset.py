@@ -74,8 +74,8 @@ MIN_CYCLES = 4
 
 
 @dataclass(frozen=True, kw_only=True)
-class KinemeConstants(Preset):
-    """Constants of views, segments, borders, repetitions, events and confidence."""
+class KinemePreset(Preset):
+    """Preset of the method: constants of views, segments, borders, repetitions and events."""
 
     method: ClassVar[str] = "kineme"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "any")
@@ -290,6 +290,21 @@ class KinemeConstants(Preset):
                 f"{len(self.shared)}, {len(self.weights)} and {len(self.restless_over)}"
             )
 
+    def analyze(
+        self,
+        features: ArrayLike,
+        *,
+        mirror: Mirror | None = None,  # noqa: ARG002 (left and right differ)
+        progress: Progress | None = None,
+        joints: bool = False,
+    ) -> KinemeFound:
+        """Run the method on features; see :func:`kineme.methods.kineme.pipeline.analyze`."""
+        # Imported here: it loads compiled code.
+        from kineme.methods.kineme.pipeline import analyze
+
+        found: KinemeFound = analyze(features, self, joints=joints, progress=progress)
+        return found
+
     def at_most(self, fps: float) -> Self:
         """Return the preset with a working rate of at most ``fps``, the recording's rate."""
         return replace(self, working_fps=fps) if RATE.minimum <= fps < self.working_fps else self
@@ -322,25 +337,6 @@ class KinemeConstants(Preset):
     def comparison_width(self) -> int:
         """Return `compared_within` in samples."""
         return max(2, round(self.samples(self.compared_within)))
-
-
-@dataclass(frozen=True, kw_only=True)
-class KinemePreset(KinemeConstants):
-    """Preset of the method."""
-
-    def analyze(
-        self,
-        features: ArrayLike,
-        *,
-        mirror: Mirror | None = None,  # noqa: ARG002 (left and right differ)
-        progress: Progress | None = None,
-        joints: bool = False,
-    ) -> KinemeFound:
-        """Run the method on features; see :func:`kineme.methods.kineme.pipeline.analyze`."""
-        # Imported here: it loads compiled code.
-        from kineme.methods.kineme.pipeline import analyze
-
-        return analyze(features, self, joints=joints, progress=progress)
 
 
 KINEME = KinemePreset(

@@ -27,7 +27,7 @@ from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemeConstants
+    from kineme.methods.kineme.preset import KinemePreset
 
 Bools = NDArray[np.bool_]
 Frames = NDArray[np.int64]
@@ -94,7 +94,7 @@ def divide_into_repetitions(
     stops: Frames,
     labels: Frames,
     preference: Floats,
-    preset: KinemeConstants,
+    preset: KinemePreset,
 ) -> Segments:
     """Divide segments into repetitions, and merge neighbours that are one set.
 
@@ -106,7 +106,7 @@ def divide_into_repetitions(
         Frames between two segments are a transition.
     labels, preference : (segments,) array
         As in `Segments`.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: find_repetitions(rows, *span, preset), spans)
@@ -125,7 +125,7 @@ def divide_into_repetitions(
     )
 
 
-def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
+def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemePreset) -> Segments:
     """Merge clusters that are one movement at any pace, and neighbours of one cluster.
 
     Parameters
@@ -134,7 +134,7 @@ def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstan
         At the working rate.
     segments : Segments
         With repetitions.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
@@ -198,7 +198,7 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
         labels[labels == names[other]] = names[one]
 
 
-def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
+def find_events(rows: Rows, segments: Segments, preset: KinemePreset) -> Segments:
     """Replace the repetitions of clusters that do not repeat by occurrences.
 
     A cluster keeps its repetitions if they explain each other, or if occurrences explain less.
@@ -209,7 +209,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     rows : (frames, dims) array
         At the working rate, in body sizes.
     segments : Segments
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     shares = measure_explained(rows, segments, preset)
     shares = average_by_cluster(shares, np.ones_like(segments.labels), segments.labels)
@@ -231,7 +231,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     return drop_still_clusters(segments, rows, preset.event_scale / 4)
 
 
-def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
+def measure_explained(rows: Rows, segments: Segments, preset: KinemePreset) -> Floats:
     """Return the share of each segment's repetitions that the mean of the others explains.
 
     It is 0 for a single repetition.
@@ -248,7 +248,7 @@ def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -
 
 
 def _extract_repetitions(
-    rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
+    rows: Rows, segments: Segments, segment: int, preset: KinemePreset
 ) -> tuple[Movement, Frames, Floats]:
     """Return the repeating span of a segment, the borders of its repetitions, and these.
 
@@ -324,16 +324,11 @@ def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments
     actions, repeats = segments.labels[segments.parents], segments.repeats
     several = segments.counts[segments.parents] > 1
     # Movement in one primitive of a cluster is enough to keep all.
-    moves = np.array(
-        [_measure_reach(part) > near for part in np.split(rows, segments.primitives[1:-1])]
-    )
+    parts = np.split(rows, segments.primitives[1:-1])
+    reaches = [np.linalg.norm(part - part.mean(axis=0), axis=1).max() for part in parts]
+    moves = np.array(reaches, np.float64) > near
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
     return drop_repetitions(segments, still)
-
-
-def _measure_reach(rows: Rows) -> float:
-    """Return the largest distance of a row from the mean row."""
-    return float(np.linalg.norm(rows - rows.mean(axis=0), axis=1).max())
 
 
 def drop_repetitions(segments: Segments, actions: Frames) -> Segments:

@@ -46,7 +46,7 @@ from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemeConstants
+    from kineme.methods.kineme.preset import KinemePreset
 
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
@@ -115,7 +115,7 @@ class Candidate:
         Sum of both ends, weighted down if they deviate from the repetitions.
     unexplained : float
         Share of the activity that the other repetitions do not explain.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
 
     visits: Frames
@@ -123,7 +123,7 @@ class Candidate:
     after: float
     ends: float
     unexplained: float
-    preset: KinemeConstants
+    preset: KinemePreset
 
     @property
     def cost(self) -> float:
@@ -161,7 +161,7 @@ class Candidate:
         return self.visits[int(drop_first) : len(self.visits) - (spare - int(drop_first))]
 
 
-def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) -> Frames:
+def find_repetitions(features: Rows, start: int, stop: int, preset: KinemePreset) -> Frames:
     """Return the starts of the second, third, ... repetition of an activity, at equal phase.
 
     The first repetition begins with the activity. The others begin at rest, if there are rests.
@@ -172,7 +172,7 @@ def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConsta
         At the working rate.
     start, stop : int
         Frames of the activity.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     rows = features[start:stop]
     movement = trace_movement(rows, preset)
@@ -197,7 +197,7 @@ def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConsta
     return start + shift_to_rest(cuts, movement.path, preset.frames(SPEED_WINDOW))
 
 
-def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
+def trace_movement(rows: Rows, preset: KinemePreset) -> Movement:
     """Compute the path of poses of a span of a recording."""
     poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHING))
     path = np.append(0, np.cumsum(speeds))
@@ -207,12 +207,21 @@ def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
     return Movement(poses, middle, path, float(shares @ (poses**2).sum(axis=1)))
 
 
-def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
+def propose_visits(rows: Rows, movement: Movement, preset: KinemePreset) -> Iterator[Frames]:
     """Yield candidate divisions: the frames at which a pose is visited once per repetition."""
     # Reference poses, evenly spaced in time; the span is searched for each of them.
     references = np.unique(np.linspace(0, len(rows) - 1, min(N_VOTERS, len(rows))).astype(np.int64))
-    depths, centers = _find_dips(rows, references, preset)
-    # Dips are sorted by depth. The largest fall of depth is after the last true visit.
+    distances = kernels.measure_distances(rows, references)
+    rank = int(DEPTH_QUANTILE * (len(rows) - 1))
+    # A quantile is robust to outliers, unlike the largest distance.
+    large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
+    noise = np.float32(preset.noise_share)
+    # Depths and frames of the dips of each reference, deepest first; later columns are empty.
+    depths, centers = kernels.find_dips(distances, noise * large)
+    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)
+    shares = np.minimum(depths[:, :most] / large[:, None], 1)
+    depths, centers = np.maximum(shares - noise, 0), centers[:, :most]
+    # The largest fall of depth is after the last true visit.
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
     # Weight votes by speed: poses at rest are visited without a repetition.
     votes = np.diff(movement.path)[references] @ falls
@@ -224,43 +233,22 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
             yield from np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1)
 
 
-def _find_dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
-    """Return depths, 0 to 1, and frames of the dips of each reference pose, deepest first."""
-    distances = kernels.measure_distances(rows, references)
-    rank = int(DEPTH_QUANTILE * (len(rows) - 1))
-    # A quantile is robust to outliers, unlike the largest distance.
-    large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
-    noise = np.float32(preset.noise_share)
-    depths, centers = kernels.find_dips(distances, noise * large)
-    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)  # further columns are empty
-    depths, centers = depths[:, :most], centers[:, :most]
-    shares = np.minimum(depths / large[:, None], 1)
-    return np.maximum(shares - noise, 0), centers
-
-
-def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
+def _find_candidates(rows: Rows, movement: Movement, preset: KinemePreset) -> list[Candidate]:
     """Return the divisions of an activity into more than one repetition."""
-    candidates = [
-        assess_division(movement, visits, preset, preset.centering)
-        for visits in propose_visits(rows, movement, preset)
-    ]
-    return [
-        each for each in candidates if each.count > 1 and not _is_chance(each, movement, preset)
-    ]
-
-
-def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants) -> bool:
-    """Return whether the movements of its repetitions, without posture, are similar by chance.
-
-    Leaning to one side and the other while standing is no repetition.
-    """
-    if preset.centering < 1:
-        division = assess_division(movement, division.visits, preset, centering=1.0)
-    return division.is_chance(preset.max_unexplained)
+    candidates = []
+    for visits in propose_visits(rows, movement, preset):
+        candidate = without_posture = assess_division(movement, visits, preset, preset.centering)
+        if candidate.count > 1:
+            # Leaning to one side and the other while standing is no repetition.
+            if preset.centering < 1:
+                without_posture = assess_division(movement, visits, preset, centering=1.0)
+            if not without_posture.is_chance(preset.max_unexplained):
+                candidates.append(candidate)
+    return candidates
 
 
 def assess_division(
-    movement: Movement, visits: Frames, preset: KinemeConstants, centering: float
+    movement: Movement, visits: Frames, preset: KinemePreset, centering: float
 ) -> Candidate:
     """Measure the ends and the unexplained share of the division at these visits."""
     max_distance, max_scatter = preset.end_distance * movement.variance, preset.end_scatter
@@ -339,11 +327,11 @@ class Repeating:
     ----------
     rows : (frames, dims) array
         Poses or channels at the working rate.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
 
     rows: NDArray[np.float32]
-    preset: KinemeConstants
+    preset: KinemePreset
 
     def measure_saving(
         self, view: NDArray[np.float32], unit: float, start: int, stop: int
@@ -403,14 +391,14 @@ class Repeating:
         return share and share * score_one_movement(repetitions, preset)
 
 
-def score_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants) -> float:
+def score_one_movement(repetitions: NDArray[np.float64], preset: KinemePreset) -> float:
     """Return 1 if repetitions are one movement, 0 if they are two, and values between on a ramp.
 
     Parameters
     ----------
     repetitions : (repetitions, places, dims) array
         Each centred.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     share = _ramp_up(kernels.find_best_parting(repetitions), preset.two_movements)
     return share and share * _ramp_up(

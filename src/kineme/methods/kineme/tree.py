@@ -24,7 +24,7 @@ energy distance (2005); the rest is ours.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
@@ -38,7 +38,7 @@ from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemeConstants
+    from kineme.methods.kineme.preset import KinemePreset
     from kineme.methods.kineme.repetitions import Repeating
 
 Rows = NDArray[np.float32]
@@ -84,14 +84,15 @@ class Level:
         """Return the cluster of each sample."""
         return np.repeat(self.labels, np.diff(self.borders))
 
-    def to_frames(self, span: slice, preset: KinemeConstants) -> Level:
+    def to_frames(self, span: slice, preset: KinemePreset) -> Level:
         """Convert borders from samples to frames, for the part of a recording in this span."""
-
-        def convert(samples: Samples) -> Samples:
-            frames = span.start + np.rint(samples * (preset.working_fps / preset.rate))
-            return np.append(frames[:-1].astype(np.int64), span.stop)
-
-        return replace(self, fine=convert(self.fine), borders=convert(self.borders))
+        per_sample = preset.working_fps / preset.rate
+        inner = (
+            span.start + np.rint(samples[:-1] * per_sample).astype(np.int64)
+            for samples in (self.fine, self.borders)
+        )
+        fine, borders = (np.append(frames, span.stop) for frames in inner)
+        return replace(self, fine=fine, borders=borders)
 
 
 class FineLevel(NamedTuple):
@@ -113,7 +114,7 @@ class FineLevel(NamedTuple):
     sums: Floats
 
 
-def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
+def find_fine_level(features: Rows, preset: KinemePreset) -> FineLevel:
     """Return the finest segments of a view, (samples, dims)."""
     unit = compute_median_distance(features, preset.comparison_width)
     cost = preset.samples(preset.fine_cost)
@@ -121,25 +122,17 @@ def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
     return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
 
 
-def find_level(
-    fine: FineLevel, preset: KinemeConstants, repeating: Repeating | None = None
-) -> Level:
+def find_level(fine: FineLevel, preset: KinemePreset, repeating: Repeating | None = None) -> Level:
     """Return the segments of a view at the level of the shortest description.
 
     Parameters
     ----------
     fine : FineLevel
-    preset : KinemeConstants
+    preset : KinemePreset
     repeating : Repeating, optional
         Measures the saving of spans that repeat; by default there are no savings.
     """
-
-    def measure_saving(start: int, stop: int) -> float:
-        if repeating is None:
-            return 0.0
-        return repeating.measure_saving(fine.features, fine.unit, start, stop)
-
-    level = choose_level(fine.borders, fine.sums, preset, measure_saving)
+    level = choose_level(fine, preset, repeating)
     first = np.searchsorted(fine.borders, level.borders[:-1])
     preference = measure_preferences(
         sum_runs(fine.sums, first), np.diff(level.borders), level.labels
@@ -273,25 +266,13 @@ def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
     return levels[::-1]
 
 
-def choose_level(
-    borders: Samples,
-    sums: Floats,
-    preset: KinemeConstants,
-    measure_saving: Callable[[int, int], float],
-) -> Grouped:
+def choose_level(fine: FineLevel, preset: KinemePreset, repeating: Repeating | None) -> Grouped:
     """Return the level and clusters of the shortest description.
 
-    Parameters
-    ----------
-    borders : (segments + 1,) array
-        Borders of the finest level.
-    sums : (segments, segments) array
-        As returned by `sum_between_segments`.
-    preset : KinemeConstants
-    measure_saving : callable
-        Returns the saving of a segment (start, stop) that repeats, in samples. Savings reduce the
-        cost of a level, but do not change its grouping.
+    The saving of segments that repeat reduces the cost of a level, but does not change its
+    grouping.
     """
+    borders, sums = fine.borders, fine.sums
     tree = list_levels(borders, sums.copy())
     # Levels with few segments differ most, so all of them are tried, and fewer of the others.
     tried = {*range(min(len(tree), EXHAUSTIVE_UP_TO))}
@@ -310,15 +291,15 @@ def choose_level(
         cost = level.cost
         for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
             if alone > segment_cost:  # smaller savings are not worth a border
-                if span not in savings:
-                    savings[span] = measure_saving(*span)
-                cost -= min(savings[span], alone)
+                if repeating is not None and span not in savings:
+                    savings[span] = repeating.measure_saving(fine.features, fine.unit, *span)
+                cost -= min(savings.get(span, 0.0), alone)
         if cost < cheapest:
             best, cheapest = level, cost
     return best
 
 
-def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
+def group_segments(borders: Samples, sums: Floats, preset: KinemePreset) -> Grouped:
     """Group segments into clusters that are long enough, at the least cost.
 
     Parameters
@@ -326,7 +307,7 @@ def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> G
     borders : (segments + 1,) array
     sums : (segments, segments) array
         Summed distances of their samples.
-    preset : KinemeConstants
+    preset : KinemePreset
     """
     lengths = np.diff(borders).astype(np.float64)
     labels = np.empty(len(lengths), np.int64)

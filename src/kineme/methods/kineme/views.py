@@ -25,7 +25,7 @@ from kineme._util.arrays import Floats, Ints
 from kineme.features.channels import Mixture, Reduction, compute_statistics
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemeConstants
+    from kineme.methods.kineme.preset import KinemePreset
 
 Labels = NDArray[np.int64]
 
@@ -57,7 +57,7 @@ class Views:
 
 
 class Scale(NamedTuple):
-    """Constants of one view; see `KinemeConstants`."""
+    """Constants of one view; see `KinemePreset`."""
 
     shared: float
     weight: float
@@ -66,7 +66,7 @@ class Scale(NamedTuple):
 
 def compute_views(
     channels: Floats,
-    preset: KinemeConstants,
+    preset: KinemePreset,
     *,
     joints: bool = False,
 ) -> Views:
@@ -76,12 +76,13 @@ def compute_views(
     ----------
     channels : (frames, channels) array
         At the working rate of the preset.
-    preset : KinemeConstants
+    preset : KinemePreset
     joints : bool
         Whether channels are computed from positions of joints.
     """
     centred = channels - channels.mean(axis=0)
-    scaled = np.asarray(centred / _measure_deviations(centred), np.float64)
+    deviations = np.sqrt((centred**2).mean(axis=0))
+    scaled = np.asarray(centred / np.where(deviations > TINY, deviations, 1.0), np.float64)
     scales = [*map(Scale, preset.shared, preset.weights, preset.restless_over)]
     requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
     if len(scales) > 1 and preset.half_views:
@@ -127,7 +128,7 @@ def split_by_speed(scaled: Floats) -> list[Ints]:
 def _make_views(
     scaled: Floats,
     requested: Sequence[tuple[Ints, Scale]],
-    preset: KinemeConstants,
+    preset: KinemePreset,
     velocity_weight: float,
 ) -> list[NDArray[np.float32]]:
     """Return a view for each request of channels and scale, with velocities if weighted."""
@@ -231,12 +232,6 @@ def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[n
     if least < TINY:
         return np.ascontiguousarray(centred, np.float32)
     return np.ascontiguousarray(centred / np.maximum(mean_change, least) ** weight, np.float32)
-
-
-def _measure_deviations(centred: Floats) -> Floats:
-    """Return the standard deviation of each column; 1 for constant columns."""
-    deviations: Floats = np.sqrt((centred**2).mean(axis=0))
-    return np.where(deviations > TINY, deviations, 1.0)
 
 
 def choose_view(

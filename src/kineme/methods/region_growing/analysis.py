@@ -34,7 +34,7 @@ from kineme.methods.region_growing.warping import label_components
 from kineme.methods.segments import make_columns, number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.preset import RegionGrowingConstants
+    from kineme.methods.region_growing.preset import RegionGrowingPreset
 
 Frames = NDArray[np.int64]
 
@@ -84,7 +84,11 @@ class RegionsFound:
         """Return the segment table; an activity is in the cluster of most of its frames."""
         # Activity of each primitive: the last one that begins at or before it.
         parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
-        clusters = _number_clusters(self, parents)
+        labels = self.clustering.labels
+        is_single = np.bincount(labels)[labels] == 1
+        # Transitions that are similar to no other segment have no cluster.
+        has_cluster = ~(is_single & ~self.repeats[parents])
+        clusters = number_by_appearance(np.where(has_cluster, labels, -1))
         activity_clusters = _find_main_clusters(clusters, parents, np.diff(self.primitives))
         return make_columns(
             self.borders,
@@ -99,14 +103,6 @@ class RegionsFound:
         return []
 
 
-def _number_clusters(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
-    """Number clusters from 0 by appearance; -1 for transitions that are similar to no other."""
-    labels = found.clustering.labels
-    is_single = np.bincount(labels)[labels] == 1
-    has_cluster = ~(is_single & ~found.repeats[parents])
-    return number_by_appearance(np.where(has_cluster, labels, -1))
-
-
 def _find_main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
     """Return the cluster of most of the frames of each activity; -1 if most are in none."""
     frames = np.zeros((int(parents.max()) + 1, int(clusters.max()) + 2), np.int64)
@@ -117,7 +113,7 @@ def _find_main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Fr
 
 def analyze_regions(
     features: ArrayLike,
-    preset: RegionGrowingConstants,
+    preset: RegionGrowingPreset,
     *,
     mirror: Mirror | None = None,
     progress: Progress | None = None,
@@ -128,7 +124,7 @@ def analyze_regions(
     ----------
     features : (frames, dims) array
         Stacked poses at the working rate, in the unit of the preset's lengths.
-    preset : RegionGrowingConstants
+    preset : RegionGrowingPreset
     mirror : callable, optional
         Swaps left and right in these features; `kineme.features.mirror_features` for
         features of motions.
@@ -177,7 +173,10 @@ def analyze_regions(
             # Mirrored frames are compared with the original ones.
             graph_across = _find_neighbors(mirror(compared), compared, preset)
             mirrored = _find_primitives(graph_across, borders, preset)
-            cuts_inside = _merge_cuts(divided, mirrored, preset)
+            gap = preset.min_primitive * preset.working_fps
+            cuts_inside = [
+                merge_cuts(a.cuts, b.cuts, gap) for a, b in zip(divided, mirrored, strict=True)
+            ]
             symmetry = _classify_symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
         # Borders of activities are also borders of primitives.
@@ -198,7 +197,7 @@ def analyze_regions(
 
 
 def _find_neighbors(
-    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingConstants
+    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingPreset
 ) -> NeighborGraph:
     return neighbor_graph(
         features,
@@ -209,7 +208,7 @@ def _find_neighbors(
     )
 
 
-def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
+def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingPreset) -> NeighborGraph:
     """Return the pairs that growing regions count: near, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
@@ -221,7 +220,7 @@ def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> 
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
-def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
+def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingPreset) -> ActivityCuts:
     gap = max(1, preset.frames(preset.growth_gap))
     if preset.growth == "squares":
         return find_square_cuts(
@@ -240,7 +239,7 @@ def _make_borders(cuts: Frames, n: int) -> Frames:
 
 
 def _find_repeats(
-    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingConstants
+    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingPreset
 ) -> NDArray[np.bool_]:
     """Mark the segments that repeat themselves."""
     # A span from an end to the next start is a transition.
@@ -249,7 +248,7 @@ def _find_repeats(
 
 
 def _find_primitives(
-    graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
+    graph: NeighborGraph, borders: Frames, preset: RegionGrowingPreset
 ) -> list[PrimitiveCuts]:
     # Ends are inclusive, so the last border is the last frame.
     frames = np.minimum(borders, len(graph) - 1).tolist()
@@ -272,19 +271,12 @@ def _find_primitives(
     return map_threads(find_cuts, range(len(borders) - 1))
 
 
-def _merge_cuts(
-    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingConstants
-) -> list[Frames]:
-    gap = preset.min_primitive * preset.working_fps
-    return [merge_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
-
-
 def _classify_symmetry(
     borders: Frames,
     repeats: NDArray[np.bool_],
     main: list[PrimitiveCuts],
     mirrored: list[PrimitiveCuts],
-    preset: RegionGrowingConstants,
+    preset: RegionGrowingPreset,
 ) -> NDArray[np.str_]:
     """Return the symmetry of each segment that repeats; empty for the others."""
     gap = preset.min_primitive * preset.working_fps
@@ -297,7 +289,7 @@ def _classify_symmetry(
 
 
 def _find_clusters(
-    graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants
+    graph: NeighborGraph, segments: Frames, preset: RegionGrowingPreset
 ) -> Clustering:
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
@@ -317,5 +309,5 @@ def _find_clusters(
     )
 
 
-def _measure_separation(preset: RegionGrowingConstants) -> int | None:
+def _measure_separation(preset: RegionGrowingPreset) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)

@@ -42,8 +42,8 @@ POSE_CHANNELS, POSE_DEVIATION = 15, 0.13
 
 
 @dataclass(frozen=True, kw_only=True)
-class RegionGrowingConstants(Preset):
-    """Constants of growing regions and warping paths."""
+class RegionGrowingPreset(Preset):
+    """Preset of a published method: constants of growing regions and warping paths."""
 
     method: ClassVar[str] = "region_growing"
     units: ClassVar[tuple[Unit, ...]] = ("metres", "standard deviations")
@@ -130,11 +130,6 @@ class RegionGrowingConstants(Preset):
     connection: Literal["weak", "strong"] = constant(
         "clusters need links in one direction (weak) or in both (strong)"
     )
-
-
-@dataclass(frozen=True, kw_only=True)
-class RegionGrowingPreset(RegionGrowingConstants):
-    """Preset of a published method."""
 
     def analyze(
         self,
