@@ -74,11 +74,6 @@ class Mixture(NamedTuple):
     channels: Ints
     reduction: Reduction | None = None
 
-    def apply(self, rows: Floats) -> Floats:
-        """Return the mixture of the columns of an array."""
-        chosen = rows if len(self.channels) == rows.shape[1] else rows[:, self.channels]
-        return chosen if self.reduction is None else self.reduction.apply(chosen)
-
 
 def resample_channels(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
     """Resample channels to the times 0, 1/new, 2/new, … up to their last frame.
@@ -200,10 +195,12 @@ def compute_statistics(
             # Padding: three periods of the lowest frequency, but less than the recording.
             padding = min(len(channels) - 1, int(3 * fps / edge[0]))
             band = filter_band(channels, fps, *edge, padding)
-        mixed = (mixture.apply(band) for mixture in mixtures)
-        groups.append(
-            [_compute_means(each, first, last, squared=edge is not None) for each in mixed]
-        )
+        group = []
+        for chosen, reduction in mixtures:
+            mixed = band if len(chosen) == channels.shape[1] else band[:, chosen]
+            mixed = mixed if reduction is None else reduction.apply(mixed)
+            group.append(_compute_means(mixed, first, last, squared=edge is not None))
+        groups.append(group)
     # One array per mixture, with means and bands side by side.
     return [np.hstack(each) for each in zip(*groups, strict=True)]
 

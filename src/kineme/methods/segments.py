@@ -16,7 +16,7 @@ union of finer ones.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,42 +113,26 @@ def list_doubts(columns: Columns, fps: float) -> list[str]:
     fps : float
         Frames per second of the table.
     """
-    doubts = [*_list_doubtful_activities(columns, fps), *_list_doubtful_counts(columns, fps)]
-    worst = sorted(doubts, key=lambda each: each[0])[:MAX_SENTENCES]
-    return [text for _, text in worst]
-
-
-def _list_doubtful_activities(columns: Columns, fps: float) -> Iterator[Doubt]:
-    """Yield doubtful clusters and start borders of activities."""
-    for row in np.flatnonzero(columns["level"] == "activity"):
+    is_activity, in_cluster = columns["level"] == "activity", columns["kind"] == "activity"
+    doubts: list[Doubt] = []
+    for row in np.flatnonzero(is_activity):
         border = float(columns["border_confidence"][row])
         cluster = float(columns["confidence"][row])
         if border < MIN_CONFIDENCE:
             start_s = columns["start_frame"][row] / fps
-            yield border, _append_confidence(f"check the border at {start_s:.2f} s", border)
+            doubts.append((border, f"check the border at {start_s:.2f} s"))
         if cluster < MIN_CONFIDENCE:
             where = _format_span(columns, row, fps)
-            yield (
-                cluster,
-                _append_confidence(f"check the cluster of the activity {where}", cluster),
-            )
-
-
-def _list_doubtful_counts(columns: Columns, fps: float) -> Iterator[Doubt]:
-    """Yield doubtful numbers of repetitions."""
-    is_primitive = (columns["level"] == "primitive") & (columns["kind"] == "activity")
-    is_activity = (columns["level"] == "activity") & (columns["kind"] == "activity")
-    for row in np.flatnonzero(is_activity):
-        inside = is_primitive & (columns["start_frame"] >= columns["start_frame"][row])
+            doubts.append((cluster, f"check the cluster of the activity {where}"))
+    for row in np.flatnonzero(is_activity & in_cluster):
+        inside = ~is_activity & in_cluster & (columns["start_frame"] >= columns["start_frame"][row])
         inside &= columns["stop_frame"] <= columns["stop_frame"][row]
         count = float(columns["confidence"][inside].min(initial=1))
         if count < MIN_CONFIDENCE and np.count_nonzero(inside) > 1:  # one primitive is no count
             where = _format_span(columns, row, fps)
-            yield count, _append_confidence(f"check the number of repetitions {where}", count)
-
-
-def _append_confidence(text: str, probability: float) -> str:
-    return f"{text} ({100 * probability:.0f} % sure)"
+            doubts.append((count, f"check the number of repetitions {where}"))
+    worst = sorted(doubts, key=lambda each: each[0])[:MAX_SENTENCES]
+    return [f"{text} ({100 * probability:.0f} % sure)" for probability, text in worst]
 
 
 def _format_span(columns: Columns, row: np.integer, fps: float) -> str:
@@ -164,16 +148,13 @@ class FineSegments:
     ----------
     borders : (segments + 1,) array
         Samples, including the borders of detail 1.
-    labels : (segments,) array
-        Cluster at the finest level, from 0; -1 for transitions.
-    parents : (clusters,) array
-        Cluster at detail 1 of each cluster.
-    differences : (clusters, clusters) array
-        Differences of two clusters, summed over pairs of samples; 0 if they are equal.
+    parents : (segments,) array
+        Cluster at detail 1 of each segment.
+    differences : (segments, segments) array
+        Differences of two segments, summed over pairs of samples; 0 if they are equal.
     """
 
     borders: Ints
-    labels: Ints
     parents: Ints
     differences: Floats
 
@@ -181,7 +162,7 @@ class FineSegments:
 def assign_clusters(
     fine: FineSegments, details: tuple[float, ...], *, border_price: float, cluster_price: float
 ) -> dict[float, Ints]:
-    """Return the cluster of each fine segment at each detail, -1 for transitions.
+    """Return the cluster of each fine segment at each detail.
 
     Parameters
     ----------
@@ -192,7 +173,7 @@ def assign_clusters(
     """
     finer, coarser = _list_merges(fine, border_price, cluster_price)
     labels_by_detail = {}
-    # Merged cluster of each fine cluster; at first each is its own.
+    # Cluster of each fine segment; at first each is its own.
     merged, done = np.arange(len(fine.parents)), 0
     for detail in sorted(details, reverse=True):  # a coarser detail has all merges of a finer one
         merges = [(kept, absorbed) for kept, absorbed, least in finer if detail < least]
@@ -204,13 +185,12 @@ def assign_clusters(
         for kept, absorbed in merges[done:]:
             merged[merged == merged[absorbed]] = merged[kept]
         done = len(merges)
-        # Appended -1: label -1 as an index stays -1.
-        labels_by_detail[detail] = np.where(fine.labels < 0, -1, np.append(merged, -1)[fine.labels])
+        labels_by_detail[detail] = merged.copy()
     return {detail: labels_by_detail[detail] for detail in details}
 
 
 def make_tables(
-    columns: Columns, borders: Ints, clusters: Mapping[float, Ints], longest: float
+    columns: Columns, borders: Ints, clusters: Mapping[float, Ints]
 ) -> dict[float, Columns]:
     """Return the table at each detail; of equal tables only the coarsest.
 
@@ -222,9 +202,6 @@ def make_tables(
         Columns at detail 1.
     borders, clusters
         As in `FineSegments`, and as returned by `assign_clusters`.
-    longest : float
-        Samples. At details below 1, two segments of one cluster are merged across a transition
-        that lasts no longer than ``longest / detail``.
     """
     is_activity = columns["level"] == "activity"
     activities, primitives = (
@@ -236,8 +213,6 @@ def make_tables(
     coarsest: dict[tuple[bool, bytes], float] = {}
     for detail in sorted(clusters):
         labels = clusters[detail]
-        if detail < 1:
-            labels = _bridge_transitions(borders, labels, longest / detail)
         if coarsest.setdefault((detail < 1, labels.tobytes()), detail) == detail:
             # Finer than 1: borders of detail 1 stay. Coarser: only frame 0 is fixed.
             is_fixed = np.isin(borders[:-1], activities["start_frame"] if detail > 1 else 0)
@@ -265,7 +240,7 @@ def change_detail(
     before, inner : dict of str to array
         Activities and primitives at detail 1.
     starts, clusters : array of int
-        New activities: first samples, and clusters (-1 for transitions).
+        New activities: first samples, and clusters.
     end : int
         Where the last one ends.
 
@@ -275,7 +250,7 @@ def change_detail(
     """
     # Borders of activities are also borders of primitives.
     cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
-    kinds = np.where(clusters < 0, "transition", "activity")
+    kinds = np.full(len(starts), "activity")
     activities = _make_rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
     primitives = _make_rows(inner, cuts, end)
     # The activity of each primitive: the last that begins at or before it.
@@ -300,17 +275,10 @@ def _list_merges(
     fine: FineSegments, border_price: float, cluster_price: float
 ) -> tuple[list[ClusterMerge], list[ClusterMerge]]:
     """Return the merges within the clusters of detail 1, and the merges of these clusters."""
-    labels = fine.labels[fine.labels >= 0]
     k = len(fine.parents)
-    # How often each cluster follows another one: each is a border that a merge saves.
-    adjacent = np.zeros((k, k))
-    np.add.at(adjacent, (labels[:-1], labels[1:]), 1.0)
-    # Between segments of one cluster a merge saves nothing.
-    np.fill_diagonal(adjacent, 0)
-    prices = border_price * (adjacent + adjacent.T)
-    lengths = np.diff(fine.borders)[fine.labels >= 0]
-    # A cluster without samples counts as one, to avoid a division by 0.
-    sizes = np.maximum(np.bincount(labels, lengths, k), 1.0)
+    # A merge of neighbours saves the border between them.
+    prices = border_price * (np.eye(k, k=1) + np.eye(k, k=-1))
+    sizes = np.diff(fine.borders).astype(np.float64)
     state = (fine.differences.copy(), prices, sizes)
     finer: list[ClusterMerge] = []
     for parent in np.unique(fine.parents):
@@ -365,16 +333,6 @@ def _order_merges(
         matrix[first] = matrix[:, first] = compute_details(among[[first]])[0]
         merges.append((kept, absorbed, detail))
     return merges
-
-
-def _bridge_transitions(borders: Ints, labels: Ints, longest: float) -> Ints:
-    """Give short transitions between two segments of one cluster the label of that cluster."""
-    bridged = labels.copy()
-    # Three segments in a row: the middle one is the transition.
-    before, after, short = labels[:-2], labels[2:], np.diff(borders)[1:-1] <= longest
-    between = (labels[1:-1] < 0) & (before == after) & (after >= 0) & short
-    bridged[1:-1][between] = before[between]
-    return bridged
 
 
 def _make_rows(source: Columns, starts: Ints, end: int) -> Columns:

@@ -146,19 +146,9 @@ class KinemeFound:
 
         Details that equal the next coarser one are left out.
         """
-        fine, frames = self._make_fine_segments()
-        clusters = assign_clusters(
-            fine,
-            details or DETAILS,
-            border_price=self.preset.samples(self.preset.segment_cost),
-            cluster_price=self.preset.cluster_price(len(self.features)),
-        )
-        return make_tables(columns, frames, clusters, longest=0.0)
-
-    def _make_fine_segments(self) -> tuple[FineSegments, Frames]:
-        """Return fine segments of the tree, cut at the default borders, and borders in frames."""
-        n, per_sample = len(self.features), self.preset.working_fps / self.preset.rate
-        coarse = convert_to_samples(self.segments.borders, self.preset, n)
+        preset, n = self.preset, len(self.features)
+        per_sample = preset.working_fps / preset.rate
+        coarse = convert_to_samples(self.segments.borders, preset, n)
         nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
         fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
         levels = tree.list_levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
@@ -171,7 +161,13 @@ class KinemeFound:
         # Cluster at detail 1 of the default segment that contains each fine one.
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
-        return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
+        clusters = assign_clusters(
+            FineSegments(borders, parents, sums),
+            details or DETAILS,
+            border_price=preset.samples(preset.segment_cost),
+            cluster_price=preset.cluster_price(n),
+        )
+        return make_tables(columns, frames, clusters)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
         """Return one sentence for each doubtful result, and one for activities without period."""

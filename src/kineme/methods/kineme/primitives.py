@@ -328,18 +328,12 @@ def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments
     reaches = [np.linalg.norm(part - part.mean(axis=0), axis=1).max() for part in parts]
     moves = np.array(reaches, np.float64) > near
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
-    return drop_repetitions(segments, still)
-
-
-def drop_repetitions(segments: Segments, actions: Frames) -> Segments:
-    """Drop the repetitions of some clusters."""
-    if not len(actions):
+    if not len(still):
         return segments
-    dropped = segments.repeats & np.isin(segments.labels[segments.parents], actions)
     return replace(
         segments,
-        clusters=np.where(dropped, -1, segments.clusters),
-        not_periodic=np.union1d(segments.not_periodic, actions),
+        clusters=np.where(repeats & np.isin(actions, still), -1, segments.clusters),
+        not_periodic=np.union1d(segments.not_periodic, still),
     )
 
 
