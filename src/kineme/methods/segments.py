@@ -171,10 +171,26 @@ def assign_clusters(
     border_price, cluster_price : float
         Costs of a border and of a cluster at detail 1.
     """
-    finer, coarser = _list_merges(fine, border_price, cluster_price)
+    k = len(fine.parents)
+    # A merge of neighbours saves the border between them.
+    prices = border_price * (np.eye(k, k=1) + np.eye(k, k=-1))
+    sizes = np.diff(fine.borders).astype(np.float64)
+    state = (fine.differences.copy(), prices, sizes)
+    # Merges within the clusters of detail 1, then those of these clusters.
+    finer: list[ClusterMerge] = []
+    for parent in np.unique(fine.parents):
+        finer += _order_merges(*state, np.flatnonzero(fine.parents == parent), cluster_price)
+    # `nextafter`: merges within a cluster of detail 1 happen at detail 1, whatever they cost.
+    finer = [(kept, absorbed, max(detail, np.nextafter(1, 2))) for kept, absorbed, detail in finer]
+    # One representative for each cluster of detail 1.
+    roots = np.setdiff1d(np.arange(k), [absorbed for _, absorbed, _ in finer])
+    # `sort` is stable, so merges within one cluster stay in order.
+    finer.sort(key=lambda merge: -merge[2])
+    coarser = _order_merges(*state, roots, cluster_price)
+
     labels_by_detail = {}
     # Cluster of each fine segment; at first each is its own.
-    merged, done = np.arange(len(fine.parents)), 0
+    merged, done = np.arange(k), 0
     for detail in sorted(details, reverse=True):  # a coarser detail has all merges of a finer one
         merges = [(kept, absorbed) for kept, absorbed, least in finer if detail < least]
         if detail < 1:
@@ -269,26 +285,6 @@ def change_detail(
         numbers = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
         primitives["cluster"][parts] = inner["cluster"].max(initial=-1) + 1 + numbers
     return {name: np.concatenate([activities[name], primitives[name]]) for name in before}
-
-
-def _list_merges(
-    fine: FineSegments, border_price: float, cluster_price: float
-) -> tuple[list[ClusterMerge], list[ClusterMerge]]:
-    """Return the merges within the clusters of detail 1, and the merges of these clusters."""
-    k = len(fine.parents)
-    # A merge of neighbours saves the border between them.
-    prices = border_price * (np.eye(k, k=1) + np.eye(k, k=-1))
-    sizes = np.diff(fine.borders).astype(np.float64)
-    state = (fine.differences.copy(), prices, sizes)
-    finer: list[ClusterMerge] = []
-    for parent in np.unique(fine.parents):
-        finer += _order_merges(*state, np.flatnonzero(fine.parents == parent), cluster_price)
-    # `nextafter`: merges within a cluster of detail 1 happen at detail 1, whatever they cost.
-    finer = [(kept, absorbed, max(detail, np.nextafter(1, 2))) for kept, absorbed, detail in finer]
-    # One representative for each cluster of detail 1.
-    roots = np.setdiff1d(np.arange(k), [absorbed for _, absorbed, _ in finer])
-    # `sorted` is stable, so merges within one cluster stay in order.
-    return sorted(finer, key=lambda merge: -merge[2]), _order_merges(*state, roots, cluster_price)
 
 
 def _order_merges(

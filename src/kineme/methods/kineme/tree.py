@@ -116,9 +116,17 @@ class FineLevel(NamedTuple):
 
 def find_fine_level(features: Rows, preset: KinemePreset) -> FineLevel:
     """Return the finest segments of a view, (samples, dims)."""
-    unit = compute_median_distance(features, preset.comparison_width)
-    cost = preset.samples(preset.fine_cost)
-    borders = find_fine_borders(features, unit, width=preset.comparison_width, cost=cost)
+    width = preset.comparison_width
+    unit = compute_median_distance(features, width)
+    similarity = np.empty((len(features), min(width, len(features))), np.float32)
+
+    def fill(rows: slice) -> None:
+        kernels.compute_similarity_band(features, unit, rows.start, rows.stop, similarity)
+
+    map_threads(fill, make_even_slices(len(features)))
+    # Cheapest division into segments of similar samples, at most `width` long. The kernel counts
+    # each pair twice, so a border must cost twice as much there.
+    borders = kernels.find_change_points(similarity, 2 * preset.samples(preset.fine_cost))
     return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
 
 
@@ -130,14 +138,37 @@ def find_level(fine: FineLevel, preset: KinemePreset, repeating: Repeating | Non
     fine : FineLevel
     preset : KinemePreset
     repeating : Repeating, optional
-        Measures the saving of spans that repeat; by default there are no savings.
+        Measures the saving of spans that repeat; by default there are no savings. Savings reduce
+        the cost of a level, but do not change its grouping.
     """
-    level = choose_level(fine, preset, repeating)
-    first = np.searchsorted(fine.borders, level.borders[:-1])
-    preference = measure_preferences(
-        sum_runs(fine.sums, first), np.diff(level.borders), level.labels
-    )
-    return Level(fine.borders, level.borders, level.labels, preference)
+    borders, sums = fine.borders, fine.sums
+    tree = list_levels(borders, sums.copy())
+    # Levels with few segments differ most, so all of them are tried, and fewer of the others.
+    tried = {*range(min(len(tree), EXHAUSTIVE_UP_TO))}
+    tried |= {
+        int(index) for index in np.geomspace(1, len(tree), SPARSE_LEVELS).astype(np.int64) - 1
+    }
+    chosen = [tree[index] for index in sorted(tried)]
+    levels = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
+
+    segment_cost = preset.samples(preset.segment_cost)
+    savings: dict[tuple[int, int], float] = {}
+    best, cheapest = levels[0], np.inf
+    # Best first by a lower bound of the cost, in which each segment saves its whole cost.
+    for level in sorted(levels, key=lambda level: level.cost - level.alone.sum()):
+        if level.cost - level.alone.sum() >= cheapest:  # no later level can be cheaper
+            break
+        cost = level.cost
+        for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
+            if alone > segment_cost:  # smaller savings are not worth a border
+                if repeating is not None and span not in savings:
+                    savings[span] = repeating.measure_saving(fine.features, fine.unit, *span)
+                cost -= min(savings.get(span, 0.0), alone)
+        if cost < cheapest:
+            best, cheapest = level, cost
+    first = np.searchsorted(borders, best.borders[:-1])
+    preference = measure_preferences(sum_runs(sums, first), np.diff(best.borders), best.labels)
+    return Level(borders, best.borders, best.labels, preference)
 
 
 class Grouped(NamedTuple):
@@ -179,30 +210,6 @@ def compute_median_distance(features: Rows, width: int) -> float:
     distances = kernels.measure_near_distances(features, chosen, width)
     median = float(np.median(distances)) if len(distances) else 0.0
     return median if median > 1e-9 else 1.0
-
-
-def find_fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Samples:
-    """Return the borders of the cheapest division into segments of similar samples, with ends.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-    unit : float
-        Unit of distances.
-    width : int
-        Longest segment, in samples.
-    cost : float
-        Cost of a border, in samples at a distance of one unit.
-    """
-    similarity = np.empty((len(features), min(width, len(features))), np.float32)
-
-    def fill(rows: slice) -> None:
-        kernels.compute_similarity_band(features, unit, rows.start, rows.stop, similarity)
-
-    map_threads(fill, make_even_slices(len(features)))
-    # The kernel counts each pair twice, so a border must cost twice as much there.
-    borders: Samples = kernels.find_change_points(similarity, 2 * cost)
-    return borders
 
 
 def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
@@ -264,39 +271,6 @@ def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
                 losses[left] = compute_loss(alive[left], alive[left + 1])
         levels.append(np.append(alive, len(lengths)))
     return levels[::-1]
-
-
-def choose_level(fine: FineLevel, preset: KinemePreset, repeating: Repeating | None) -> Grouped:
-    """Return the level and clusters of the shortest description.
-
-    The saving of segments that repeat reduces the cost of a level, but does not change its
-    grouping.
-    """
-    borders, sums = fine.borders, fine.sums
-    tree = list_levels(borders, sums.copy())
-    # Levels with few segments differ most, so all of them are tried, and fewer of the others.
-    tried = {*range(min(len(tree), EXHAUSTIVE_UP_TO))}
-    tried |= {
-        int(index) for index in np.geomspace(1, len(tree), SPARSE_LEVELS).astype(np.int64) - 1
-    }
-    chosen = [tree[index] for index in sorted(tried)]
-    levels = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
-    segment_cost = preset.samples(preset.segment_cost)
-    savings: dict[tuple[int, int], float] = {}
-    best, cheapest = levels[0], np.inf
-    # Best first by a lower bound of the cost, in which each segment saves its whole cost.
-    for level in sorted(levels, key=lambda level: level.cost - level.alone.sum()):
-        if level.cost - level.alone.sum() >= cheapest:  # no later level can be cheaper
-            break
-        cost = level.cost
-        for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
-            if alone > segment_cost:  # smaller savings are not worth a border
-                if repeating is not None and span not in savings:
-                    savings[span] = repeating.measure_saving(fine.features, fine.unit, *span)
-                cost -= min(savings.get(span, 0.0), alone)
-        if cost < cheapest:
-            best, cheapest = level, cost
-    return best
 
 
 def group_segments(borders: Samples, sums: Floats, preset: KinemePreset) -> Grouped:
