@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
-    EndEffectors,
     compute_distance_features,
     end_effectors,
     measure_body_size,
@@ -140,16 +139,14 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
     )
 
 
-def compute_motion_features(
-    motion: Motion, preset: Preset, *, effectors: EndEffectors | None = None
-) -> Floats:
+def compute_motion_features(motion: Motion, preset: Preset) -> Floats:
     """Compute the features (frames, dims) of a motion at the preset's working rate.
 
     They are in metres for the published methods. For ``kineme`` they are in body sizes,
     divided by the root of the number of stacked poses, so that distances do not depend
     on the body or on the stacking.
     """
-    effectors = effectors or end_effectors(motion)
+    effectors = end_effectors(motion)
     size = measure_body_size(motion, effectors) if preset.unit == "body sizes" else 1.0
     pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
     return _stack_poses(pose, preset, size)
@@ -182,9 +179,7 @@ def _measure_distances(
         + suggest_remedy(motions[0].skeleton)
     )
     notes = [note, f"points: {', '.join(names[point] for point in points)}"]
-    # `np.split` takes the ends of all spans but the last.
-    ends = np.cumsum([span.n_frames for span in motions])[:-1]
-    return np.split(features, ends), notes
+    return _split_rows(features, [span.n_frames for span in motions]), notes
 
 
 def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
@@ -242,20 +237,17 @@ def prepare_signals(
         notes.append(f"lengths are in units of {unit:.3g} {unit_name}")
     elif preset.unit != "any":
         notes.append(f"lengths are in {unit_name}")
-    # `np.split` takes the ends of all spans but the last.
-    ends = np.cumsum([span.n_samples for span in spans])[:-1]
-    parts = np.split(features, ends)
+    parts = _split_rows(features, [span.n_samples for span in spans])
     return Prepared(parts, spans, notes, joints=points is not None)
 
 
 def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:
     """Stack and scale the channels of all spans; distances become root mean squares."""
-    ends = np.cumsum([len(row) for row in rows])[:-1]
-    joined = np.concatenate(rows)
+    joined, lengths = np.concatenate(rows), [len(row) for row in rows]
     scaled = standardize_channels(joined) if standardize else joined
     offsets = round_offsets(preset.offsets, preset.working_fps)
     # Stack within each span: frames of different spans are not neighbours.
-    stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
+    stacked = np.concatenate([stack(row, offsets) for row in _split_rows(scaled, lengths)])
     # Dividing by the root of the columns turns a distance into a root mean square.
     return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
 
@@ -322,5 +314,9 @@ def replace_by_distances(rows: Sequence[Floats], points: Indices, fps: float) ->
     posture, _ = compute_distance_features(np.concatenate(positions).reshape(-1, *points.shape))
     # Other channels are kept unchanged.
     others = np.delete(np.concatenate(rows), points.ravel(), axis=1)
-    ends = np.cumsum([len(row) for row in rows])[:-1]
-    return np.split(np.hstack([posture, others]), ends)
+    return _split_rows(np.hstack([posture, others]), [len(row) for row in rows])
+
+
+def _split_rows(rows: Floats, lengths: list[int]) -> list[Floats]:
+    """Split rows into spans of these lengths."""
+    return np.split(rows, np.cumsum(lengths)[:-1])
