@@ -45,6 +45,7 @@ from kineme.recordings.joint_names import SIDES, TWIST, find_joints, has_word
 from kineme.recordings.motion import check_motion
 from kineme.recordings.operations import resample
 
+Joints = Mapping[str, Floats]
 Points = tuple[int, ...]
 
 JOINTS = (
@@ -62,7 +63,6 @@ _NAMED = (
     ("*_elbow", "*_forearm"),
     ("*_wrist", "*_hand"),
 )
-Joints = Mapping[str, Floats]
 HIP, SHOULDER = 0.11, 0.22
 """Distances from the middle of the body to a hip and to a shoulder, in leg lengths."""
 TRUNK, NECK = 0.6, 0.32

@@ -31,9 +31,9 @@ from kineme._util.arrays import Floats, Ints, interpolate_frames
 from kineme._util.checks import check_rates
 from kineme.errors import ParameterError
 
+Poles = NDArray[np.complex128]
 NYQUIST = 0.45
 """Highest frequency of a band, as a share of the sampling rate."""
-Poles = NDArray[np.complex128]
 BLOCK = 16
 """Number of channels that are filtered at a time, to limit memory."""
 POLES: Poles = np.array([np.exp(0.75j * np.pi)])

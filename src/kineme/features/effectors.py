@@ -36,6 +36,7 @@ from kineme.recordings import Motion, Skeleton
 from kineme.recordings.joint_names import CROWN, find_joints, find_rig_joints, has_word
 from kineme.recordings.kinematics import place_at_rest
 
+Names = Mapping[str, str] | Sequence[str]
 _SAME_LENGTH = 0.15
 """Largest relative difference of the bones of a pair of limbs."""
 _MAX_BRANCHES = 32
@@ -43,7 +44,6 @@ _MAX_BRANCHES = 32
 _MIN_FOOT = 0.1
 """Shortest foot that gives a direction, as a share of the length of the leg."""
 PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
-Names = Mapping[str, str] | Sequence[str]
 MAX_SHOWN = 60
 """Largest number of joints that a message lists by name."""
 _NAMED = (("*_ankle", "*_foot"), ("head",), ("*_wrist", "*_hand"))

@@ -42,17 +42,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
 
+Progress = Callable[[str], None]
+Columns = dict[str, NDArray[Any]]
+Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+View = Literal["poses", "quaternions", "rotation vectors"]
+Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 MAX_TIME = 3600.0
 """Largest value of a constant that is a time, s."""
 MAX_LENGTH = 1e4
 """Largest value of a constant that is a length: metres, body sizes or standard deviations."""
 MAX_COUNT = 1_000_000
 """Largest value of a constant that is a count."""
-Progress = Callable[[str], None]
-Columns = dict[str, NDArray[Any]]
-Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
-View = Literal["poses", "quaternions", "rotation vectors"]
-Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 
 
 class Limits(NamedTuple):

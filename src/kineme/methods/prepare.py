@@ -41,9 +41,9 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.column_names import group_axes, is_body
 from kineme.recordings.operations import resample, split_at_gaps
 
+Indices = NDArray[np.intp]
 MAX_NAMED_CHANNELS = 8
 """Largest number of channels that a note names."""
-Indices = NDArray[np.intp]
 AXES = "xyz"
 SMOOTHING = 0.15
 """Standard deviation of the Gaussian filter of joint positions, s. Joints estimated from video

@@ -29,9 +29,9 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import make_segment_table
 
+Spans = Sequence[tuple[int, int]]
 FEW_CHANNELS = 20
 """Number of channels up to which a short table is not suspected to be transposed."""
-Spans = Sequence[tuple[int, int]]
 GAP_TOLERANCE = 0.2
 """Borders this close to a gap are moved to it, s. Shorter gaps do not count as gaps."""
 

@@ -25,6 +25,8 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats, Ints
 from kineme.methods.base import Columns
 
+ClusterMerge = tuple[int, int, float]
+"""Cluster that is kept, cluster that is merged into it, and the detail below which this happens."""
 Doubt = tuple[float, str]
 """Confidence of a result, and the sentence about it."""
 MAX_SENTENCES = 5
@@ -35,8 +37,6 @@ COARSER = (0.125, 0.25, 0.5, 0.75)
 FINER = (2.0, 4.0, 8.0)
 DETAILS = (*COARSER, *FINER)
 """Details offered besides 1."""
-ClusterMerge = tuple[int, int, float]
-"""Cluster that is kept, cluster that is merged into it, and the detail below which this happens."""
 
 
 def make_columns(

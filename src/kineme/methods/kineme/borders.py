@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from kineme.methods.kineme.preset import KinemePreset
 
 Frames = NDArray[np.int64]
+Rows = NDArray[np.float32]
 Spans = tuple[Frames, Frames]
 
 MAX_SIDE = 4.0
@@ -64,12 +65,10 @@ MIN_DEVIATION = 0.05
 """Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
-Features = NDArray[np.float32]
 SHORTEST, LONGEST = 0.5, 1.5
 """Shortest and longest first or last repetition, relative to the mean length of the others."""
 MIN_TRANSITION = 0.1
 """Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
-Rows = NDArray[np.float32]
 N_COMPARED = 4
 """Number of repetitions on each side of a border that are compared; others have drifted."""
 MIN_COVERED = 0.8
@@ -205,7 +204,7 @@ class Ends(NamedTuple):
 
 
 def fit_ends(
-    features: Features,
+    features: Rows,
     starts: Frames,
     stops: Frames,
     labels: Frames,
@@ -253,7 +252,7 @@ def fit_ends(
     return Ends(begins, ends, firsts, lasts)
 
 
-def fit_edges(rows: Features, cuts: Frames) -> Frames:
+def fit_edges(rows: Rows, cuts: Frames) -> Frames:
     """Return the starts of the repetitions of a span, and the end of the last one.
 
     Parameters
@@ -268,7 +267,7 @@ def fit_edges(rows: Features, cuts: Frames) -> Frames:
     return np.concatenate([[first], cuts, [n - last]])
 
 
-def _find_begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
+def _find_begin(rows: Rows, start: int, cuts: Frames) -> tuple[int, int]:
     """Return the start of an activity found at ``start``, and that of its first repetition."""
     if len(cuts) < 2:  # there is no inner repetition
         return start, start

@@ -68,6 +68,7 @@ from kineme.methods.segments import (
 if TYPE_CHECKING:
     from kineme.methods.kineme.preset import KinemePreset
 
+Rows = NDArray[np.float32]
 Frames = NDArray[np.int64]
 
 MAX_LISTED = 5
@@ -78,7 +79,6 @@ MAX_FINE = 1000
 """Largest number of fine segments in total, unless the default level has more."""
 SIDE = 2.0
 """Seconds before and after a candidate end of a part that are compared to choose it."""
-Rows = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
