@@ -15,7 +15,7 @@ import numpy as np
 from kineme._util.arrays import Floats, Ints, Masks
 from kineme.errors import KinemeWarning
 from kineme.live.events import Finals, Look, Row
-from kineme.methods.kineme.preset import KinemePreset
+from kineme.methods.kineme.constants import KinemeConstants
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import find_spans
@@ -60,7 +60,7 @@ def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
     choice could change from one look to the next, and with it the clusters of the same rows.
     """
     preset = options.resolved(signals=signals)
-    if isinstance(preset, KinemePreset):
+    if isinstance(preset, KinemeConstants):
         preset = preset.select_view(0)
     return replace(options, preset=preset, constants={})
 

@@ -3,7 +3,8 @@
 A segment is described by the similarity of its samples, or by a movement that it repeats.
 
 =============== ==========================================================================
-``preset``      constants with their units, and the presets for bodies and for signals
+``constants``   the constants, each with its unit and its value for bodies
+``preset``      the presets for bodies and for signals
 ``pipeline``    runs all stages; their results as tables at several levels of detail
 ``views``       posture and energy of movement, and the choice among several views
 ``tree``        fine borders, a tree of segments, and the level of the shortest description

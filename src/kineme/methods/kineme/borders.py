@@ -53,7 +53,7 @@ from kineme.methods.kineme.repetitions import (
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
@@ -81,7 +81,7 @@ TINY = 1e-12
 """Smallest divisor."""
 
 
-def refine_borders(channels: Floats, borders: Frames, preset: KinemePreset) -> Spans:
+def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
     """Return the first frame and the end of each segment; frames between two are a transition.
 
     Parameters
@@ -90,7 +90,7 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemePreset) -> S
         At the working rate.
     borders : (segments + 1,) array
         Frames, from 0 to the end.
-    preset : KinemePreset
+    preset : KinemeConstants
 
     Returns
     -------
@@ -152,7 +152,7 @@ def _compute_likelihoods(rows: Floats, side: Floats) -> Floats:
     return likelihoods
 
 
-def convert_to_samples(frames: Frames, preset: KinemePreset, n: int) -> Frames:
+def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frames:
     """Convert borders from frames to the nearest samples, 0 to n, at least one per segment."""
     nearest = np.rint(frames / (preset.working_fps / preset.rate)).astype(np.int64)
     order = np.arange(len(frames))
@@ -209,7 +209,7 @@ def fit_ends(
     stops: Frames,
     labels: Frames,
     cuts: Sequence[Frames],
-    preset: KinemePreset,
+    preset: KinemeConstants,
 ) -> Ends:
     """Fit the first and last repetition of each activity; activities do not overlap.
 
@@ -223,7 +223,7 @@ def fit_ends(
         Their clusters. A gap between two activities of one cluster is never closed.
     cuts : sequence of arrays of int
         Starts of the second, third, ... repetition of each.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     n = len(features)
     # The last repetition is the first one of the reversed recording.
@@ -296,7 +296,7 @@ class Sets(NamedTuple):
     cuts: list[Frames]
 
 
-def join_sets(rows: Rows, found: Sets, preset: KinemePreset) -> Sets:
+def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
     """Merge neighbouring activities that are one set, the most similar ones first.
 
     A merged activity has the cluster of its longer part.
@@ -307,7 +307,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemePreset) -> Sets:
         At the working rate.
     found : Sets
         Frames between two of them are a transition.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     starts, stops, labels, preference = (values.tolist() for values in found[:4])
     cuts = list(found.cuts)
@@ -349,7 +349,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemePreset) -> Sets:
 
 
 def compare_sides(
-    rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemePreset
+    rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemeConstants
 ) -> float:
     """Return the similarity of repetitions across a border, relative to that on each side.
 
@@ -365,7 +365,7 @@ def compare_sides(
         First frame of the right side.
     counts : tuple of int
         Number of repetitions of each side when divided alone.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     if len(cuts) < 2:  # there is no inner repetition
         return 0.0

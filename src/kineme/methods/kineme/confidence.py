@@ -30,7 +30,7 @@ from kineme.methods.kineme.primitives import Segments
 from kineme.methods.kineme.repetitions import PLACES, trace_movement
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Frames = NDArray[np.int64]
 
@@ -91,7 +91,7 @@ def collect_evidence(
     rows: NDArray[np.float32],
     view: NDArray[np.float32],
     segments: Segments,
-    preset: KinemePreset,
+    preset: KinemeConstants,
 ) -> Evidence:
     """Compute the statistics of activities and their repetitions.
 
@@ -102,7 +102,7 @@ def collect_evidence(
     view : (samples, dims) array
         The chosen view, at ``preset.rate``.
     segments : Segments
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     parents, repeats, ends = segments.parents, segments.repeats, segments.firsts
     seconds = np.diff(segments.borders) / preset.working_fps
@@ -187,7 +187,7 @@ def compute_mean_correlation(repetitions: Floats) -> float:
     return float(np.arctanh(np.clip(pairs, -MAX_CORRELATION, MAX_CORRELATION)))
 
 
-def compute_confidence(evidence: Evidence, preset: KinemePreset) -> Confidence:
+def compute_confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
     """Compute probabilities from the statistics and the weights of the preset."""
     borders = compute_probability(evidence.sharpness, preset.border_weights)
     cuts = compute_probability(evidence.repeated, preset.cut_weights)[evidence.parents]

@@ -25,7 +25,7 @@ from kineme.methods.kineme import _event_kernels as kernels
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Paths = tuple[Ints, Ints, Floats, Floats, Ints, Ints]
 
@@ -92,7 +92,7 @@ class Occurrences:
 
 
 def find_occurrences(
-    poses: NDArray[np.floating], free: NDArray[np.bool_], preset: KinemePreset
+    poses: NDArray[np.floating], free: NDArray[np.bool_], preset: KinemeConstants
 ) -> Occurrences:
     """Find the spans that recur among the free frames.
 
@@ -102,7 +102,7 @@ def find_occurrences(
         At the working rate, in body sizes, not stacked.
     free : (frames,) array of bool
         Frames in which occurrences may lie.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     per_second = preset.working_fps / _count_step_frames(preset)
     samples = _sample_frames(np.asarray(poses, np.float64), free, preset)
@@ -162,7 +162,7 @@ class _Samples(NamedTuple):
     begins: NDArray[np.bool_]
 
 
-def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemePreset) -> _Samples:
+def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstants) -> _Samples:
     """Sample the free frames at equal steps of movement time."""
     n = len(poses)
     frames = np.arange(n)
@@ -188,7 +188,7 @@ def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemePreset)
     return _Samples(np.ascontiguousarray(rows.T), spans[kept], seconds, begins)
 
 
-def _count_step_frames(preset: KinemePreset) -> int:
+def _count_step_frames(preset: KinemeConstants) -> int:
     """Return the number of frames from one sample to the next at the usual speed."""
     return max(1, preset.frames(STEP))
 

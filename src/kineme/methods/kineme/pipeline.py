@@ -66,7 +66,7 @@ from kineme.methods.segments import (
 )
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Rows = NDArray[np.float32]
 Frames = NDArray[np.int64]
@@ -89,7 +89,7 @@ class KinemeFound:
     ----------
     features : (samples, dims) array
         The chosen view, at ``preset.rate``.
-    preset : KinemePreset
+    preset : KinemeConstants
     unit : float
         The median distance of two samples.
     segments : Segments
@@ -103,7 +103,7 @@ class KinemeFound:
     """
 
     features: NDArray[np.float32]
-    preset: KinemePreset
+    preset: KinemeConstants
     unit: float
     segments: Segments
     evidence: Evidence
@@ -206,7 +206,7 @@ class Part(NamedTuple):
 @ThreadpoolController().wrap(limits=1)  # type: ignore[untyped-decorator]
 def analyze(
     features: ArrayLike,
-    preset: KinemePreset,
+    preset: KinemeConstants,
     *,
     joints: bool = False,
     progress: Progress | None = None,
@@ -217,7 +217,7 @@ def analyze(
     ----------
     features : (frames, dims) array
         At the working rate; for a body in body sizes.
-    preset : KinemePreset
+    preset : KinemeConstants
     joints : bool
         Whether features are computed from positions of joints.
     progress : callable, optional
@@ -276,7 +276,7 @@ def analyze(
     return KinemeFound(features, preset, unit, segments, statistics, fine, timings)
 
 
-def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemePreset) -> Part:
+def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
     """Segment a part on its own. Its view is chosen without regard to repetitions."""
     scale, fine_levels = 0, [find_fine_level(view, preset) for view in views.views]
     if len(fine_levels) > 1:

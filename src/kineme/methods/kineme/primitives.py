@@ -27,7 +27,7 @@ from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Bools = NDArray[np.bool_]
 Frames = NDArray[np.int64]
@@ -94,7 +94,7 @@ def divide_into_repetitions(
     stops: Frames,
     labels: Frames,
     preference: Floats,
-    preset: KinemePreset,
+    preset: KinemeConstants,
 ) -> Segments:
     """Divide segments into repetitions, and merge neighbours that are one set.
 
@@ -106,7 +106,7 @@ def divide_into_repetitions(
         Frames between two segments are a transition.
     labels, preference : (segments,) array
         As in `Segments`.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: find_repetitions(rows, *span, preset), spans)
@@ -125,7 +125,7 @@ def divide_into_repetitions(
     )
 
 
-def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemePreset) -> Segments:
+def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Merge clusters that are one movement at any pace, and neighbours of one cluster.
 
     Parameters
@@ -134,7 +134,7 @@ def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemePreset)
         At the working rate.
     segments : Segments
         With repetitions.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
@@ -198,7 +198,7 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
         labels[labels == names[other]] = names[one]
 
 
-def find_events(rows: Rows, segments: Segments, preset: KinemePreset) -> Segments:
+def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Replace the repetitions of clusters that do not repeat by occurrences.
 
     A cluster keeps its repetitions if they explain each other, or if occurrences explain less.
@@ -209,7 +209,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemePreset) -> Segment
     rows : (frames, dims) array
         At the working rate, in body sizes.
     segments : Segments
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     shares = measure_explained(rows, segments, preset)
     shares = average_by_cluster(shares, np.ones_like(segments.labels), segments.labels)
@@ -231,7 +231,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemePreset) -> Segment
     return drop_still_clusters(segments, rows, preset.event_scale / 4)
 
 
-def measure_explained(rows: Rows, segments: Segments, preset: KinemePreset) -> Floats:
+def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
     """Return the share of each segment's repetitions that the mean of the others explains.
 
     It is 0 for a single repetition.
@@ -248,7 +248,7 @@ def measure_explained(rows: Rows, segments: Segments, preset: KinemePreset) -> F
 
 
 def _extract_repetitions(
-    rows: Rows, segments: Segments, segment: int, preset: KinemePreset
+    rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
 ) -> tuple[Movement, Frames, Floats]:
     """Return the repeating span of a segment, the borders of its repetitions, and these.
 

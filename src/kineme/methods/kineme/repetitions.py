@@ -46,7 +46,7 @@ from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Frames = NDArray[np.int64]
 Rows = NDArray[np.float32]
@@ -115,7 +115,7 @@ class Candidate:
         Sum of both ends, weighted down if they deviate from the repetitions.
     unexplained : float
         Share of the activity that the other repetitions do not explain.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
 
     visits: Frames
@@ -123,7 +123,7 @@ class Candidate:
     after: float
     ends: float
     unexplained: float
-    preset: KinemePreset
+    preset: KinemeConstants
 
     @property
     def cost(self) -> float:
@@ -161,7 +161,7 @@ class Candidate:
         return self.visits[int(drop_first) : len(self.visits) - (spare - int(drop_first))]
 
 
-def find_repetitions(features: Rows, start: int, stop: int, preset: KinemePreset) -> Frames:
+def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConstants) -> Frames:
     """Return the starts of the second, third, ... repetition of an activity, at equal phase.
 
     The first repetition begins with the activity. The others begin at rest, if there are rests.
@@ -172,7 +172,7 @@ def find_repetitions(features: Rows, start: int, stop: int, preset: KinemePreset
         At the working rate.
     start, stop : int
         Frames of the activity.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     rows = features[start:stop]
     movement = trace_movement(rows, preset)
@@ -197,7 +197,7 @@ def find_repetitions(features: Rows, start: int, stop: int, preset: KinemePreset
     return start + shift_to_rest(cuts, movement.path, preset.frames(SPEED_WINDOW))
 
 
-def trace_movement(rows: Rows, preset: KinemePreset) -> Movement:
+def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
     """Compute the path of poses of a span of a recording."""
     poses, speeds = kernels.smooth_rows(rows, preset.frames(SMOOTHING))
     path = np.append(0, np.cumsum(speeds))
@@ -207,7 +207,7 @@ def trace_movement(rows: Rows, preset: KinemePreset) -> Movement:
     return Movement(poses, middle, path, float(shares @ (poses**2).sum(axis=1)))
 
 
-def propose_visits(rows: Rows, movement: Movement, preset: KinemePreset) -> Iterator[Frames]:
+def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
     """Yield candidate divisions: the frames at which a pose is visited once per repetition."""
     # Reference poses, evenly spaced in time; the span is searched for each of them.
     references = np.unique(np.linspace(0, len(rows) - 1, min(N_VOTERS, len(rows))).astype(np.int64))
@@ -233,7 +233,7 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemePreset) -> Iter
             yield from np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1)
 
 
-def _find_candidates(rows: Rows, movement: Movement, preset: KinemePreset) -> list[Candidate]:
+def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
     """Return the divisions of an activity into more than one repetition."""
     candidates = []
     for visits in propose_visits(rows, movement, preset):
@@ -248,7 +248,7 @@ def _find_candidates(rows: Rows, movement: Movement, preset: KinemePreset) -> li
 
 
 def assess_division(
-    movement: Movement, visits: Frames, preset: KinemePreset, centering: float
+    movement: Movement, visits: Frames, preset: KinemeConstants, centering: float
 ) -> Candidate:
     """Measure the ends and the unexplained share of the division at these visits."""
     max_distance, max_scatter = preset.end_distance * movement.variance, preset.end_scatter
@@ -327,11 +327,11 @@ class Repeating:
     ----------
     rows : (frames, dims) array
         Poses or channels at the working rate.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
 
     rows: NDArray[np.float32]
-    preset: KinemePreset
+    preset: KinemeConstants
 
     def measure_saving(
         self, view: NDArray[np.float32], unit: float, start: int, stop: int
@@ -391,14 +391,14 @@ class Repeating:
         return share and share * score_one_movement(repetitions, preset)
 
 
-def score_one_movement(repetitions: NDArray[np.float64], preset: KinemePreset) -> float:
+def score_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants) -> float:
     """Return 1 if repetitions are one movement, 0 if they are two, and values between on a ramp.
 
     Parameters
     ----------
     repetitions : (repetitions, places, dims) array
         Each centred.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     share = _ramp_up(kernels.find_best_parting(repetitions), preset.two_movements)
     return share and share * _ramp_up(

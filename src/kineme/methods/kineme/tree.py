@@ -38,7 +38,7 @@ from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
     from kineme.methods.kineme.repetitions import Repeating
 
 Rows = NDArray[np.float32]
@@ -84,7 +84,7 @@ class Level:
         """Return the cluster of each sample."""
         return np.repeat(self.labels, np.diff(self.borders))
 
-    def to_frames(self, span: slice, preset: KinemePreset) -> Level:
+    def to_frames(self, span: slice, preset: KinemeConstants) -> Level:
         """Convert borders from samples to frames, for the part of a recording in this span."""
         per_sample = preset.working_fps / preset.rate
         inner = (
@@ -114,7 +114,7 @@ class FineLevel(NamedTuple):
     sums: Floats
 
 
-def find_fine_level(features: Rows, preset: KinemePreset) -> FineLevel:
+def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
     """Return the finest segments of a view, (samples, dims)."""
     width = preset.comparison_width
     unit = compute_median_distance(features, width)
@@ -130,13 +130,15 @@ def find_fine_level(features: Rows, preset: KinemePreset) -> FineLevel:
     return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
 
 
-def find_level(fine: FineLevel, preset: KinemePreset, repeating: Repeating | None = None) -> Level:
+def find_level(
+    fine: FineLevel, preset: KinemeConstants, repeating: Repeating | None = None
+) -> Level:
     """Return the segments of a view at the level of the shortest description.
 
     Parameters
     ----------
     fine : FineLevel
-    preset : KinemePreset
+    preset : KinemeConstants
     repeating : Repeating, optional
         Measures the saving of spans that repeat; by default there are no savings. Savings reduce
         the cost of a level, but do not change its grouping.
@@ -273,7 +275,7 @@ def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
     return levels[::-1]
 
 
-def group_segments(borders: Samples, sums: Floats, preset: KinemePreset) -> Grouped:
+def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     """Group segments into clusters that are long enough, at the least cost.
 
     Parameters
@@ -281,7 +283,7 @@ def group_segments(borders: Samples, sums: Floats, preset: KinemePreset) -> Grou
     borders : (segments + 1,) array
     sums : (segments, segments) array
         Summed distances of their samples.
-    preset : KinemePreset
+    preset : KinemeConstants
     """
     lengths = np.diff(borders).astype(np.float64)
     labels = np.empty(len(lengths), np.int64)

@@ -25,7 +25,7 @@ from kineme._util.arrays import Floats, Ints
 from kineme.features.channels import Mixture, Reduction, compute_statistics
 
 if TYPE_CHECKING:
-    from kineme.methods.kineme.preset import KinemePreset
+    from kineme.methods.kineme.constants import KinemeConstants
 
 Labels = NDArray[np.int64]
 
@@ -57,7 +57,7 @@ class Views:
 
 
 class Scale(NamedTuple):
-    """Constants of one view; see `KinemePreset`."""
+    """Constants of one view; see `KinemeConstants`."""
 
     shared: float
     weight: float
@@ -66,7 +66,7 @@ class Scale(NamedTuple):
 
 def compute_views(
     channels: Floats,
-    preset: KinemePreset,
+    preset: KinemeConstants,
     *,
     joints: bool = False,
 ) -> Views:
@@ -76,7 +76,7 @@ def compute_views(
     ----------
     channels : (frames, channels) array
         At the working rate of the preset.
-    preset : KinemePreset
+    preset : KinemeConstants
     joints : bool
         Whether channels are computed from positions of joints.
     """
@@ -128,7 +128,7 @@ def split_by_speed(scaled: Floats) -> list[Ints]:
 def _make_views(
     scaled: Floats,
     requested: Sequence[tuple[Ints, Scale]],
-    preset: KinemePreset,
+    preset: KinemeConstants,
     velocity_weight: float,
 ) -> list[NDArray[np.float32]]:
     """Return a view for each request of channels and scale, with velocities if weighted."""

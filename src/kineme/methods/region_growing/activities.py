@@ -45,8 +45,7 @@ from scipy.sparse.csgraph import connected_components
 from kineme._util.parallel import map_threads
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import NeighborGraph
-from kineme.methods.region_growing.preset import Step
-from kineme.methods.region_growing.warping import WarpingPaths, warping_paths
+from kineme.methods.region_growing.warping import Step, WarpingPaths, warping_paths
 from kineme.methods.segments import number_by_appearance
 
 Cuts = NDArray[np.int64]

@@ -34,7 +34,7 @@ from kineme.methods.region_growing.warping import label_components
 from kineme.methods.segments import make_columns, number_by_appearance
 
 if TYPE_CHECKING:
-    from kineme.methods.region_growing.preset import RegionGrowingPreset
+    from kineme.methods.region_growing.constants import RegionGrowingConstants
 
 Frames = NDArray[np.int64]
 
@@ -113,7 +113,7 @@ def _find_main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Fr
 
 def analyze_regions(
     features: ArrayLike,
-    preset: RegionGrowingPreset,
+    preset: RegionGrowingConstants,
     *,
     mirror: Mirror | None = None,
     progress: Progress | None = None,
@@ -124,7 +124,7 @@ def analyze_regions(
     ----------
     features : (frames, dims) array
         Stacked poses at the working rate, in the unit of the preset's lengths.
-    preset : RegionGrowingPreset
+    preset : RegionGrowingConstants
     mirror : callable, optional
         Swaps left and right in these features; `kineme.features.mirror_features` for
         features of motions.
@@ -197,7 +197,7 @@ def analyze_regions(
 
 
 def _find_neighbors(
-    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingPreset
+    features: ArrayLike, others: ArrayLike | None, preset: RegionGrowingConstants
 ) -> NeighborGraph:
     return neighbor_graph(
         features,
@@ -208,7 +208,7 @@ def _find_neighbors(
     )
 
 
-def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingPreset) -> NeighborGraph:
+def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> NeighborGraph:
     """Return the pairs that growing regions count: near, and off the main diagonal."""
     if preset.growth_neighbors is not None:
         graph = graph.nearest(preset.growth_neighbors)
@@ -220,7 +220,7 @@ def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingPreset) -> Nei
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
-def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingPreset) -> ActivityCuts:
+def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
     gap = max(1, preset.frames(preset.growth_gap))
     if preset.growth == "squares":
         return find_square_cuts(
@@ -239,7 +239,7 @@ def _make_borders(cuts: Frames, n: int) -> Frames:
 
 
 def _find_repeats(
-    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingPreset
+    borders: Frames, cuts: ActivityCuts, pairs: Frames, preset: RegionGrowingConstants
 ) -> NDArray[np.bool_]:
     """Mark the segments that repeat themselves."""
     # A span from an end to the next start is a transition.
@@ -248,7 +248,7 @@ def _find_repeats(
 
 
 def _find_primitives(
-    graph: NeighborGraph, borders: Frames, preset: RegionGrowingPreset
+    graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
     # Ends are inclusive, so the last border is the last frame.
     frames = np.minimum(borders, len(graph) - 1).tolist()
@@ -276,7 +276,7 @@ def _classify_symmetry(
     repeats: NDArray[np.bool_],
     main: list[PrimitiveCuts],
     mirrored: list[PrimitiveCuts],
-    preset: RegionGrowingPreset,
+    preset: RegionGrowingConstants,
 ) -> NDArray[np.str_]:
     """Return the symmetry of each segment that repeats; empty for the others."""
     gap = preset.min_primitive * preset.working_fps
@@ -289,7 +289,7 @@ def _classify_symmetry(
 
 
 def _find_clusters(
-    graph: NeighborGraph, segments: Frames, preset: RegionGrowingPreset
+    graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants
 ) -> Clustering:
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
@@ -309,5 +309,5 @@ def _find_clusters(
     )
 
 
-def _measure_separation(preset: RegionGrowingPreset) -> int | None:
+def _measure_separation(preset: RegionGrowingConstants) -> int | None:
     return None if preset.path_separation is None else preset.frames(preset.path_separation)

@@ -22,9 +22,11 @@ from kineme._util.checks import as_indices, check_type, is_number
 from kineme.errors import ParameterError
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import NeighborGraph
-from kineme.methods.region_growing.preset import BASIC_STEPS, Step
 
+Step = tuple[int, int]
 Ints = NDArray[np.int32]
+
+BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 
 @dataclass(frozen=True, eq=False)
