@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import bridge_line
 from kineme.evaluation import Comparison, one_to_one_accuracy
-from kineme.features.channels import resample_channels
-from kineme.features.filters import filter_low
+from kineme.features.channels import filter_low, resample_channels
 from kineme.formats.keypoints.poses import CUTOFF
 from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import resample, scale, turn

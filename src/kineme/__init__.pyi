@@ -107,7 +107,7 @@ from .features import (
 from .features.bundling import (
     bundle as bundle,
 )
-from .features.filters import (
+from .features.channels import (
     emg_envelope as emg_envelope,
 )
 from .formats import (

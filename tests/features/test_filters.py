@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.signal import butter, sosfiltfilt
 
-from kineme.features.filters import filter_band, filter_low
+from kineme.features.channels import filter_band, filter_low
 
 
 def random_walk(frames: int, channels: int) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -58,17 +59,11 @@ def test_moving_and_turning_change_nothing(
     rotations = RECORDING.rotations.copy()
     first = Rotation.from_quat(rotations[:, 0], scalar_first=True)
     rotations[:, 0] = (turn * first).as_quat(scalar_first=True)
-    moved = Motion(
-        RECORDING.skeleton,
-        positions.reshape(RECORDING.positions.shape),
-        30.0,
-        rotations if with_rotations else None,
-    )
-    still = Motion(
-        RECORDING.skeleton,
-        RECORDING.positions,
-        30.0,
-        RECORDING.rotations if with_rotations else None,
+    still = RECORDING if with_rotations else replace(RECORDING, rotations=None)
+    moved = replace(
+        still,
+        positions=positions.reshape(RECORDING.positions.shape),
+        rotations=rotations if with_rotations else None,
     )
     np.testing.assert_allclose(pose_features(moved), pose_features(still), atol=1e-10)
 
@@ -76,13 +71,8 @@ def test_moving_and_turning_change_nothing(
 @given(st.floats(0.01, 100))
 @settings(max_examples=20)
 def test_scaling_scales(scale: float) -> None:
-    skeleton = RECORDING.skeleton
-    larger = Motion(
-        Skeleton(skeleton.names, skeleton.parents, scale * skeleton.offsets, skeleton.end_sites),
-        scale * RECORDING.positions,
-        30.0,
-        RECORDING.rotations,
-    )
+    skeleton = replace(RECORDING.skeleton, offsets=scale * RECORDING.skeleton.offsets)
+    larger = replace(RECORDING, skeleton=skeleton, positions=scale * RECORDING.positions)
     expected = scale * pose_features(RECORDING)
     np.testing.assert_allclose(pose_features(larger), expected, rtol=1e-9, atol=1e-9)
 
@@ -110,12 +100,7 @@ def test_a_root_frame_turned_by_the_exporter_changes_nothing(axis: str, quarter_
     for joint, parent in enumerate(skeleton.parents):
         if parent == 0:
             offsets[joint] = turn.apply(offsets[joint])
-    other = Motion(
-        Skeleton(skeleton.names, skeleton.parents, offsets, skeleton.end_sites),
-        RECORDING.positions,
-        30.0,
-        rotations,
-    )
+    other = replace(RECORDING, skeleton=replace(skeleton, offsets=offsets), rotations=rotations)
     np.testing.assert_allclose(pose_features(other), pose_features(RECORDING), atol=1e-12)
 
 

@@ -1,8 +1,3 @@
-"""Presets that do not need the number of actions."""
-
-from __future__ import annotations
-
-from kineme.methods import PRESETS
+"""Presets of the package that need no number of actions."""
 
 OWN = ("kineme", "voegele2014", "krueger2017")
-ALL = tuple(PRESETS)

@@ -13,9 +13,8 @@ from presets import OWN
 
 from kineme import Segmenter, Signals, segment
 from kineme.errors import ParameterError
-from kineme.features.channels import resample_channels
+from kineme.features.channels import emg_envelope, resample_channels
 from kineme.features.channels import standardize_channels as standard
-from kineme.features.filters import emg_envelope
 from kineme.methods import resolve_preset
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
@@ -196,29 +195,30 @@ def test_a_cutoff_beyond_the_samples_is_refused() -> None:
     assert len(emg_envelope(np.ones((1, 1)), 100)) == 1
 
 
-def test_signals_that_contradict_themselves() -> None:
-    with pytest.raises(ParameterError, match="frames x channels, not of shape"):
-        Signals(np.zeros((0, 2)), 10)
-    with pytest.raises(ParameterError, match="first in frame 1"):
-        Signals(np.array([0, np.nan]), 10)
-    with pytest.raises(ParameterError, match="frame rate is 0"):
-        Signals(np.zeros(4), 0)
-    with pytest.raises(ParameterError, match="different names"):
-        Signals(np.zeros((4, 2)), 10, ["a", "a"])
-    with pytest.raises(ParameterError, match="gap 2 to 1 must be within the 4 frames"):
-        Signals(np.zeros(4), 10, gaps=[(2, 1)])
-    with pytest.raises(ParameterError, match="cover the whole recording"):
-        Signals(np.zeros(4), 10, gaps=[(0, 4)])
-    with pytest.raises(ParameterError, match=r"frame rate is \['a', 'b'\]: it must be a positive"):
-        Signals(np.zeros((4, 2)), ["a", "b"], 10)
-    with pytest.raises(ParameterError, match="names of channels must be a list of texts, not 'ab'"):
-        Signals(np.zeros((4, 2)), 10, "ab")
-    with pytest.raises(
-        ParameterError, match=r"names of channels must be a list of texts, not \[1, 2\]"
-    ):
-        Signals(np.zeros((4, 2)), 10, [1, 2])
-    with pytest.raises(ParameterError, match="signals must be an array of numbers, not 'imu.csv'"):
-        Signals("imu.csv", 10)
+ONE, TWO = np.zeros(4), np.zeros((4, 2))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((np.zeros((0, 2)), 10), "frames x channels, not of shape"),
+        ((np.array([0, np.nan]), 10), "first in frame 1"),
+        ((ONE, 0), "frame rate is 0"),
+        ((TWO, 10, ["a", "a"]), "different names"),
+        ((ONE, 10, (), [(2, 1)]), "gap 2 to 1 must be within the 4 frames"),
+        ((ONE, 10, (), [(0, 4)]), "cover the whole recording"),
+        ((TWO, ["a", "b"], 10), r"frame rate is \['a', 'b'\]: it must be a positive"),
+        ((TWO, 10, "ab"), "names of channels must be a list of texts, not 'ab'"),
+        ((TWO, 10, [1, 2]), r"names of channels must be a list of texts, not \[1, 2\]"),
+        (("imu.csv", 10), "signals must be an array of numbers, not 'imu.csv'"),
+    ],
+)
+def test_signals_that_contradict_themselves(arguments, message) -> None:
+    with pytest.raises(ParameterError, match=message):
+        Signals(*arguments)
+
+
+def test_channels_are_selected_by_name() -> None:
     signals = Signals(np.zeros((4, 3)), 10)
     assert signals.names == ("1", "2", "3")
     assert signals.select(["3", "1"]).names == ("3", "1")

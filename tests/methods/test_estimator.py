@@ -132,17 +132,19 @@ def test_constants_are_parameters_like_others() -> None:
     assert "radius=0.4" in repr(estimator)
 
 
-def test_what_a_preset_cannot_take_is_said_by_fit() -> None:
-    with pytest.raises(ParameterError, match="sensors has no parameter 'radius'"):
-        Segmenter(fps=50, radius=0.4).fit(two_movements())
-    with pytest.raises(ParameterError, match="belongs to voegele2014 and krueger2017"):
-        Segmenter(fps=50, radius=0.4).fit(two_movements())
-    with pytest.raises(ParameterError, match="no left and right"):
-        Segmenter("krueger2017", fps=50, mirror=True).fit(two_movements())
-    with pytest.raises(ParameterError, match="smoothing must be a number from 0 to 3600 s, not -1"):
-        Segmenter(fps=50, smoothing=-1).fit(two_movements())
-    with pytest.raises(ParameterError, match="frame rate is -5"):
-        Segmenter(fps=-5).fit(two_movements())
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"radius": 0.4}, "sensors has no parameter 'radius'.*voegele2014 and krueger2017"),
+        ({"preset": "krueger2017", "mirror": True}, "no left and right"),
+        ({"smoothing": -1}, "smoothing must be a number from 0 to 3600 s, not -1"),
+        ({"fps": -5}, "frame rate is -5"),
+        ({"fps": 0}, "frame rate is 0"),
+    ],
+)
+def test_what_a_preset_cannot_take_is_said_by_fit(options, message) -> None:
+    with pytest.raises(ParameterError, match=message):
+        Segmenter(**{"fps": 50, **options}).fit(two_movements())
 
 
 def test_data_frames_name_the_channels_and_pipelines_hold_it() -> None:
@@ -154,24 +156,13 @@ def test_data_frames_name_the_channels_and_pipelines_hold_it() -> None:
     assert piped.tolist() == estimator.labels_.tolist()
 
 
-def test_a_rate_that_was_not_given_is_said() -> None:
-    with pytest.warns(KinemeWarning, match="30 rows a second assumed: give fps= or times="):
-        estimator = Segmenter().fit(two_movements(30.0))
-    assert estimator.segmentation_.fps == 30
-
-
-def test_a_rate_of_nothing_is_refused() -> None:
-    with pytest.raises(ParameterError, match="frame rate is 0"):
-        Segmenter(fps=0).fit(np.zeros((10, 1)))
-
-
 @pytest.mark.parametrize("zone", [None, "Europe/Berlin"])
 def test_a_data_frame_that_knows_its_times_tells_the_rate(zone: str | None) -> None:
     times = pd.date_range("2026-03-01", periods=1200, freq="20ms", tz=zone)
     frame = pd.DataFrame(two_movements(), index=times, columns=["x", "y", "z"])
     told, given = Segmenter().fit(frame).segmentation_, Segmenter(fps=50).fit(frame).segmentation_
     assert told.table == given.table
-    with pytest.warns(KinemeWarning, match="30 rows a second assumed"):
+    with pytest.warns(KinemeWarning, match="30 rows a second assumed: give fps= or times="):
         counted = Segmenter().fit(frame.reset_index(drop=True)).segmentation_
     assert counted.fps == 30
 

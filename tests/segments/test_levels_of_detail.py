@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.errors import ParameterError, ReadError
 from kineme.labels import read_segments, write_segments
-from kineme.methods import levels
+from kineme.methods import segments
 from kineme.segments.editing import name_cluster
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
@@ -153,8 +153,8 @@ def test_tables_that_are_not_nested_are_refused() -> None:
 
 def test_costs_decide_what_is_joined_first() -> None:
     far = np.array([[0.0, 2.0, 40.0], [2.0, 0.0, 40.0], [40.0, 40.0, 0.0]])
-    pieces = levels.FineSegments(np.arange(0, 13, 4), np.arange(3), np.zeros(3, int), far)
-    at = levels.assign_clusters(pieces, (2.0, 4.0, 100.0), border_price=1.0, cluster_price=1.0)
+    pieces = segments.FineSegments(np.arange(0, 13, 4), np.zeros(3, int), far)
+    at = segments.assign_clusters(pieces, (2.0, 4.0, 100.0), border_price=1.0, cluster_price=1.0)
     counts = [len(set(labels.tolist())) for labels in at.values()]
     assert counts == sorted(counts)
     assert at[2.0][0] == at[2.0][1] != at[2.0][2]

@@ -80,15 +80,19 @@ def map_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> li
     cores are busy.
     """
     items, ask = list(items), _ask.get()
+    # A thread of the pool must not wait for others of the pool: deadlock.
+    if count_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
+        results = []
+        for item in items:
+            check_cancelled()
+            results.append(function(item))
+        return results
 
     def run(item: Item) -> Result:
         with cancellable(ask):  # context variables are not inherited by threads
             check_cancelled()
             return function(item)
 
-    # A thread of the pool must not wait for others of the pool: deadlock.
-    if count_threads() == 1 or len(items) == 1 or getattr(_here, "of_pool", False):
-        return [run(item) for item in items]
     pool = _get_pool()
     try:
         return list(pool.map(run, items))

@@ -193,7 +193,7 @@ def show_envelopes(recording: Motion | Signals, options: SegmentOptions) -> Moti
 
     if not (options.emg and isinstance(recording, Signals)):
         return recording
-    from kineme.features.filters import emg_envelope
+    from kineme.features.channels import emg_envelope
 
     return replace(recording, values=emg_envelope(recording.values, recording.fps))
 

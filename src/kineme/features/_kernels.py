@@ -1,14 +1,7 @@
-"""Compiled loop of the bundling: move points to the medians of their neighbours.
+"""Compiled loops of bundling, filters and dynamic time warping.
 
-The naive version is in ``tests/helpers/naive``.
-
-@@_filter_kernels: Compiled loop of the filters: a cascade of second-order sections over all channels.
-
-It replaces `scipy.signal.sosfiltfilt`, which takes over a second to import.
-
-@@_warping_kernels: Compiled dynamic time warping (Sakoe and Chiba 1978).
-
-The naive version is in ``tests/helpers/naive``.
+Naive versions are in ``tests/helpers/naive``, except that of `filter_sections`: it replaces
+`scipy.signal.sosfiltfilt`, which takes over a second to import.
 """
 
 from __future__ import annotations

@@ -1,35 +1,28 @@
 """Features of a canonical body, in which movements of different people match.
 
-@@joints: Find hips, knees, ankles, shoulders, elbows, wrists and head of any body.
+*Joints.* Ankles, wrists and head are found as in `kineme.features.effectors`. The other joints are
+found by the bones of the skeleton. A leg runs from the pelvis to an ankle, an arm from the joint
+where the arms branch to a wrist. The pair of bones in it that is longest and most equal begins at
+hip and knee, or at shoulder and elbow. Markers and keypoints, which have no bones, are found by
+their usual names (see `kineme.recordings.joint_names`).
 
-Ankles, wrists and head are found as in `kineme.features.effectors`. The other joints are found by
-the bones of the skeleton. A leg runs from the pelvis to an ankle, an arm from the joint where the
-arms branch to a wrist. The pair of bones in it that is longest and most equal begins at hip and
-knee, or at shoulder and elbow. Markers and keypoints, which have no bones, are found by their usual
-names (see `kineme.recordings.joint_names`).
+*Poses.* The canonical body has the limb directions of the person and fixed bone lengths, so poses
+depend on the movement and not on the person. A pose holds ankles, head and wrists in the body's own
+frame: relative to the middle of the hips, y up, turned about the vertical so that left is +x. It
+also holds the height of the pelvis above the lower foot, and its vertical speed. Lengths are in leg
+lengths. Heading and forward speed are left out, as they differ more between people than between
+movements.
 
-@@body: Map poses of any person to a canonical body of fixed size and shape.
+*Matching features* are unit vectors. Poses are computed at 30 Hz, and each is stacked with those
+0.1 and 0.2 s before and after it. A fixed mean is subtracted. The rest is projected on fixed
+principal axes, each divided by its shrunk deviation, and normalised to length 1. So a feature
+describes the direction in which a pose differs from the mean, but not the amount. The distance of
+two features is 0 if they are equal, 1.41 if they have nothing in common, and 2 if they are
+opposite.
 
-The canonical body has the limb directions of the person and fixed bone lengths, so poses depend on
-the movement and not on the person. A pose holds ankles, head and wrists in the body's own frame:
-relative to the middle of the hips, y up, turned about the vertical so that left is +x. It also
-holds the height of the pelvis above the lower foot, and its vertical speed.
-
-Lengths are in leg lengths. Heading and forward speed are left out, as they differ more between
-people than between movements.
-
-@@matching: Matching features, in which the movements of different people are similar: unit vectors.
-
-Poses of the canonical body (see `kineme.features.canonical`) are computed at 30 Hz, and each
-is stacked with those 0.1 and 0.2 s before and after it. A fixed mean is subtracted. The rest is
-projected on fixed principal axes, each divided by its shrunk deviation, and normalised to length 1.
-So a feature describes the direction in which a pose differs from the mean, but not the amount. The
-distance of two features is 0 if they are equal, 1.41 if they have nothing in common, and 2 if they
-are opposite.
-
-Mean and axes are stored in ``canonical_basis.npz``. They were fitted to poses of HDM05, UTKinect, CMU's
-subject 86 and single takes, each corpus with the same weight. The axes are the eigenvectors of the
-mean covariance, each divided by the root of its variance plus 0.3 of the largest variance.
+Mean and axes are stored in ``canonical_basis.npz``. They were fitted to poses of HDM05, UTKinect,
+CMU's subject 86 and single takes, each corpus with the same weight. The axes are the eigenvectors
+of the mean covariance, each divided by the root of its variance plus 0.3 of the largest variance.
 """
 
 from __future__ import annotations
@@ -52,6 +45,7 @@ from kineme.recordings.joint_names import SIDES, TWIST, find_joints, has_word
 from kineme.recordings.motion import check_motion
 from kineme.recordings.operations import resample
 
+Joints = Mapping[str, Floats]
 Points = tuple[int, ...]
 
 JOINTS = (
@@ -69,6 +63,33 @@ _NAMED = (
     ("*_elbow", "*_forearm"),
     ("*_wrist", "*_hand"),
 )
+HIP, SHOULDER = 0.11, 0.22
+"""Distances from the middle of the body to a hip and to a shoulder, in leg lengths."""
+TRUNK, NECK = 0.6, 0.32
+"""Distances from the hips to the shoulders, and from there to the head, in leg lengths."""
+LEG, ARM = (0.5, 0.5), (0.34, 0.33)
+"""Lengths of thigh and shin, upper arm and forearm, in leg lengths."""
+RISE = 0.5
+"""Seconds; the vertical speed is given as the rise of the pelvis in this time."""
+POSE_DIMS = 17
+"""Numbers in a pose."""
+_STRAIGHT = 0.98
+"""Quantile of the length of a limb that counts as straight."""
+_FLAT = 0.1
+"""Share of the line through hips and shoulders that must be horizontal to give a heading."""
+_SIDES = (("left", 1.0), ("right", -1.0))
+_TINY = 1e-9
+"""Smallest divisor."""
+MATCHING_FPS = 15.0
+"""Features per second."""
+OFFSETS_S = (-0.2, -0.1, 0.0, 0.1, 0.2)
+"""Time offsets of the stacked frames, s."""
+FEATURE_DIMS = 40
+"""Numbers in a feature."""
+POSE_FPS = 30.0
+"""Poses per second; every second pose becomes a feature."""
+_SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0
+"""Weights of the smoothing of positions, over 0.17 s."""
 
 
 def match_canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
@@ -161,25 +182,6 @@ def _find_top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int
     return chain[top], chain[middle]
 
 
-Joints = Mapping[str, Floats]
-
-HIP, SHOULDER = 0.11, 0.22
-"""Distances from the middle of the body to a hip and to a shoulder, in leg lengths."""
-TRUNK, NECK = 0.6, 0.32
-"""Distances from the hips to the shoulders, and from there to the head, in leg lengths."""
-LEG, ARM = (0.5, 0.5), (0.34, 0.33)
-"""Lengths of thigh and shin, upper arm and forearm, in leg lengths."""
-RISE = 0.5
-"""Seconds; the vertical speed is given as the rise of the pelvis in this time."""
-POSE_DIMS = 17
-"""Numbers in a pose."""
-
-_STRAIGHT = 0.98
-"""Quantile of the length of a limb that counts as straight."""
-_FLAT = 0.1
-"""Share of the line through hips and shoulders that must be horizontal to give a heading."""
-
-
 def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     """Compute canonical poses (frames, 17).
 
@@ -255,9 +257,6 @@ def mirror_poses(poses: Floats) -> Floats:
     return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
 
 
-_SIDES = (("left", 1.0), ("right", -1.0))
-
-
 def _compute_limb(
     joints: Joints, names: tuple[str, str, str], bones: tuple[float, float]
 ) -> Floats:
@@ -291,27 +290,10 @@ def _measure_legs(joints: Joints) -> float:
     return max(float(np.mean(lengths)), _TINY)
 
 
-_TINY = 1e-9
-"""Smallest divisor."""
-
-
 def _normalize_vectors(vectors: Floats) -> Floats:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
     unit: Floats = vectors / np.maximum(lengths, _TINY)
     return unit
-
-
-MATCHING_FPS = 15.0
-"""Features per second."""
-OFFSETS_S = (-0.2, -0.1, 0.0, 0.1, 0.2)
-"""Time offsets of the stacked frames, s."""
-FEATURE_DIMS = 40
-"""Numbers in a feature."""
-POSE_FPS = 30.0
-"""Poses per second; every second pose becomes a feature."""
-
-_SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0
-"""Weights of the smoothing of positions, over 0.17 s."""
 
 
 def matching_features(
@@ -410,7 +392,7 @@ def stack_poses(poses: Floats) -> Floats:
 
 def compute_directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
     """Return unit vectors (frames, 40): directions of stacked poses from the mean, in the axes."""
-    return _normalize((stacked - mean) @ axes)
+    return _normalize_vectors((stacked - mean) @ axes).astype(np.float32)
 
 
 def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -428,7 +410,7 @@ def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     >>> bool(np.median(errors) < 0.15)
     True
     """
-    return _normalize(features @ _make_mirror_matrix())
+    return _normalize_vectors(features @ _make_mirror_matrix()).astype(np.float32)
 
 
 @cache
@@ -449,11 +431,6 @@ def load_basis() -> tuple[Floats, Floats]:
     """Return the mean (85,) and the axes (85, 40), each divided by its shrunk deviation."""
     with np.load(Path(__file__).with_name("canonical_basis.npz"), allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
-
-
-def _normalize(values: NDArray[np.floating]) -> NDArray[np.float32]:
-    lengths = np.linalg.norm(values, axis=1, keepdims=True)
-    return np.asarray(values / np.maximum(lengths, 1e-9), np.float32)
 
 
 def _smooth(positions: Floats) -> Floats:

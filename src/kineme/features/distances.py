@@ -49,6 +49,12 @@ _STILL = 0.01
 _APART = 0.5
 """Deviation of the distance of two points, as a share of a point's movement, below which they
 are fixed to each other."""
+MIN_BODY_POINTS = 5
+"""Smallest number of points of a body: head, hands and feet."""
+MAX_BONE_DEVIATION = 0.15
+"""Deviation of the distance of two points of one bone, as a share of their movement."""
+MIN_BENDING = 0.2
+"""Deviation of some distance in a body that bends, as a share of the distance."""
 
 
 def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
@@ -175,14 +181,6 @@ def _compute_distances(positions: Floats) -> Floats:
     for column, (a, b) in enumerate(pairs):
         distances[:, column] = np.linalg.norm(positions[:, a] - positions[:, b], axis=1)
     return distances
-
-
-MIN_BODY_POINTS = 5
-"""Smallest number of points of a body: head, hands and feet."""
-MAX_BONE_DEVIATION = 0.15
-"""Deviation of the distance of two points of one bone, as a share of their movement."""
-MIN_BENDING = 0.2
-"""Deviation of some distance in a body that bends, as a share of the distance."""
 
 
 def have_bones(positions: ArrayLike) -> bool:

@@ -110,19 +110,14 @@ def mirror(motion: Motion) -> Motion:
 
 
 def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) -> Floats:
-    """Return the reflections of the axes of each joint's partner onto its own.
+    """Return rotations (joints, 4) whose negatives reflect the axes of each partner onto its own.
 
-    Returns
-    -------
-    ndarray of shape (joints, 4)
-        Rotations whose negatives are the reflections X. If o is the offset of a child of the
-        partner, X o is the offset of the child's partner. X of the partner is the inverse.
+    If o is the offset of a child of the partner, the reflection X o is the offset of the child's
+    partner. X of the partner is the inverse.
     """
     places, turns = get_rig(skeleton).rest()
-    frames, means = (
-        to_matrices(turns),
-        [to_matrices(rotations[:, j]).mean(0) for j in range(len(turns))],
-    )
+    frames = to_matrices(turns)
+    means = [to_matrices(rotations[:, joint]).mean(0) for joint in range(len(turns))]
     image = _reflect_rest(skeleton, places, partners)
     reflections = np.empty((skeleton.n_joints, 3, 3))
     for joint, (partner, parent) in enumerate(zip(partners, skeleton.parents, strict=True)):
@@ -135,10 +130,8 @@ def _reflect_axes(skeleton: Skeleton, rotations: Floats, partners: list[int]) ->
             continue
         children = list(skeleton.children[joint])
         own_offsets = skeleton.offsets[children]
-        fit, size = (
-            own_offsets.T @ skeleton.offsets[[partners[c] for c in children]],
-            np.sum(own_offsets**2),
-        )
+        fit = own_offsets.T @ skeleton.offsets[[partners[child] for child in children]]
+        size = np.sum(own_offsets**2)
         if image is not None:
             default = frames[joint].T @ image @ frames[partner]
         else:

@@ -1,29 +1,23 @@
 """Compute pose features, and stack them with neighbouring frames.
 
 A pose is 15 numbers: x, y, z of the left ankle, right ankle, head, left wrist
-and right wrist in the body's own frame (see ``compute_body_frame``), in metres. Stacked
-with the poses some frames before and after it, it also shows the direction of
-movement.
+and right wrist in the body's own frame, in metres. Stacked with the poses some frames
+before and after it, it also shows the direction of movement.
 
-@@body_frame: Transform positions to the body's own frame: origin at the pelvis, y up, facing +z, left at +x.
+The body's own frame has its origin at the pelvis, y up, and faces +z with left at +x. Each
+frame is turned about the vertical, so that the body always faces the same way. Height
+differences, pitch and roll are kept; limbs are not scaled. The heading follows from the axis of
+the pelvis that points from the right hip to the left at rest. In the authors' program this is the
+root's +x, as in CMU's files. Other exporters rotate the root frame, so the axis is found in the
+skeleton: the nearest of +-x, +-y, +-z. For a motion without rotations it is the line through the
+hips. If this axis is vertical (a body on its side, as in a cartwheel), the frame has no heading and
+takes that of the nearest frame with one; at a tie the earlier frame. A motion without any heading
+is not turned.
 
-Each frame is turned about the vertical, so that the body always faces the same way.
-Height differences, pitch and roll are kept; limbs are not scaled.
-
-The heading follows from the axis of the pelvis that points from the right hip to the left at rest.
-In the authors' program this is the root's +x, as in CMU's files. Other exporters rotate the root
-frame, so the axis is found in the skeleton: the nearest of +-x, +-y, +-z. For a motion without
-rotations it is the line through the hips.
-
-If this axis is vertical (a body on its side, as in a cartwheel), the frame has no heading and takes
-that of the nearest frame with one; at a tie the earlier frame. A motion without any heading is not
-turned.
-
-@@rotations: Compute rotations of joints, for presets whose features are rotations.
-
-Barbič et al. (2004) chose 14 joints without the root, and Zhou et al. (2013) use the same. Their
-program maps the raw Euler angles of AMC files. ``Motion.rotations`` are the same rotations in other
-axes, constant per joint. This rotates each log map as a whole and does not change distances.
+Presets whose features are rotations use those of 14 joints without the root, chosen by Barbič et
+al. (2004) and Zhou et al. (2013). Their program maps the raw Euler angles of AMC files.
+``Motion.rotations`` are the same rotations in other axes, constant per joint. This rotates each log
+map as a whole and does not change distances.
 """
 
 from __future__ import annotations
@@ -43,6 +37,11 @@ from kineme.recordings.motion import check_motion
 
 _UPRIGHT = 1e-6
 """Length of the horizontal part of the unit axis below which there is no heading."""
+JOINTS = (
+    *("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head"),
+    *("rhumerus", "rradius", "lhumerus", "lradius"),
+    *("rfemur", "rtibia", "lfemur", "ltibia"),
+)
 
 
 def compute_body_frame(
@@ -119,9 +118,13 @@ def _compute_turns(motion: Motion, effectors: EndEffectors) -> tuple[int, Floats
         # A line shorter than the threshold does not become a unit vector and counts as vertical.
         to_left /= np.maximum(np.linalg.norm(to_left, axis=1, keepdims=True), _UPRIGHT)
     else:
-        to_left = _compute_turned_axis(
-            motion.skeleton, motion.rotations, pelvis, left_hip, right_hip
-        )
+        rest = _measure_hip_axis(motion.skeleton, pelvis, left_hip, right_hip)
+        to_left = np.zeros(3)
+        # Coordinate axis nearest to the line of the hips, with its sign.
+        to_left[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
+        # Local rotations from the pelvis up to the root transform the axis to the world.
+        for joint in reversed(motion.skeleton.ancestry(pelvis)):
+            to_left = rot.rotate(motion.rotations[:, joint], to_left)
     return pelvis, *find_facing(to_left, _UPRIGHT)
 
 
@@ -150,27 +153,12 @@ def find_parting(
 
 def _measure_hip_axis(skeleton: Skeleton, pelvis: int, left_hip: int, right_hip: int) -> Floats:
     """Return the vector from the right hip to the left, in the pelvis's own frame, at rest."""
-
-    def sum_offsets(joint: int) -> Floats:
-        chain = skeleton.ancestry(joint)
-        # Offsets below the pelvis only: at rest they are in the pelvis's own axes.
-        return np.asarray(skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0))
-
-    return sum_offsets(left_hip) - sum_offsets(right_hip)
-
-
-def _compute_turned_axis(
-    skeleton: Skeleton, rotations: Floats, pelvis: int, left_hip: int, right_hip: int
-) -> Floats:
-    """Return the pelvis's axis to the left in the world, (frames, 3)."""
-    rest = _measure_hip_axis(skeleton, pelvis, left_hip, right_hip)
-    axis = np.zeros(3)
-    # Coordinate axis nearest to the line of the hips, with its sign.
-    axis[np.argmax(np.abs(rest))] = np.sign(rest[np.argmax(np.abs(rest))])
-    # Local rotations from the pelvis up to the root transform the axis to the world.
-    for joint in reversed(skeleton.ancestry(pelvis)):
-        axis = rot.rotate(rotations[:, joint], axis)
-    return axis
+    chains = [skeleton.ancestry(hip) for hip in (left_hip, right_hip)]
+    # Offsets below the pelvis only: at rest they are in the pelvis's own axes.
+    left, right = (
+        skeleton.offsets[chain[chain.index(pelvis) + 1 :]].sum(axis=0) for chain in chains
+    )
+    return np.asarray(left - right, np.float64)
 
 
 def find_facing(to_left: Floats, least: float | Floats) -> tuple[Floats, Floats]:
@@ -257,8 +245,13 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
         raise ParameterError(f"offsets must be different frames, at least one, not {offsets!r}")
     # Number of frames that are needed beyond each end.
     before, after = max(0, -min(offsets)), max(0, *offsets)
-    longer = _extrapolate(features, before, after)
     frames, dims = features.shape
+    first = features[1] - features[0] if frames > 1 else np.zeros(dims)
+    last = features[-1] - features[-2] if frames > 1 else first
+    # The farthest frame is the first in time, so multiples descend.
+    head = features[0] - np.arange(before, 0, -1)[:, None] * first
+    tail = features[-1] + np.arange(1, after + 1)[:, None] * last
+    longer = np.concatenate([head, features, tail])
     stacked = np.empty((frames, len(offsets), dims))
     for block, offset in enumerate(sorted(offsets)):
         # Frame t + offset of the features is row before + t + offset of the longer array.
@@ -291,24 +284,6 @@ def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
             "wider offsets"
         )
     return frames
-
-
-def _extrapolate(features: Floats, before: int, after: int) -> Floats:
-    """Extend features at both ends, linearly from the two outermost frames."""
-    # A single frame is repeated.
-    first = features[1] - features[0] if len(features) > 1 else np.zeros(features.shape[1])
-    last = features[-1] - features[-2] if len(features) > 1 else first
-    # The farthest frame is the first in time, so multiples descend.
-    head = features[0] - np.arange(before, 0, -1)[:, None] * first
-    tail = features[-1] + np.arange(1, after + 1)[:, None] * last
-    return np.concatenate([head, features, tail])
-
-
-JOINTS = (
-    *("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head"),
-    *("rhumerus", "rradius", "lhumerus", "lradius"),
-    *("rfemur", "rtibia", "lfemur", "ltibia"),
-)
 
 
 def compute_joint_quaternions(motion: Motion) -> Floats:

@@ -23,10 +23,10 @@ from kineme.errors import MotionError
 from kineme.features.canonical import MATCHING_FPS, compute_features_and_poses
 from kineme.features.channels import (
     compute_channel_statistics,
+    emg_envelope,
     resample_channels,
     standardize_channels,
 )
-from kineme.features.filters import emg_envelope
 from kineme.library.storage.layout import BODIES, EMBEDDED
 from kineme.library.storage.tables import LARGEST_SAMPLE, Analysis
 from kineme.methods.kineme.preset import SENSORS

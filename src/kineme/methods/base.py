@@ -8,13 +8,8 @@ To add a method from another package, subclass `Preset` and register an instance
 with `kineme.methods.register`, or declare it as an entry point in the group
 ``kineme.presets``.
 
-@@constants: Constants: the fields of a preset, each with its meaning, unit and limits.
-
-`constant` creates a field with all that the command line, studio and docs show of
-it, so a constant added to a preset appears in each of them. `check` validates the
-types, limits and choices of a preset. `suggest_names` corrects misspelt names.
-
-@@stages: Announce and time the stages of an analysis.
+`constant` creates a field of a preset with all that the command line, studio and docs
+show of it, so a constant added to a preset appears in each of them.
 """
 
 from __future__ import annotations
@@ -47,6 +42,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from kineme.errors import ParameterError
 
+Progress = Callable[[str], None]
+Columns = dict[str, NDArray[Any]]
+Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+View = Literal["poses", "quaternions", "rotation vectors"]
+Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 MAX_TIME = 3600.0
 """Largest value of a constant that is a time, s."""
 MAX_LENGTH = 1e4
@@ -201,31 +201,6 @@ def constant(
     return field(default=default, metadata={"constant": details})
 
 
-def list_constants(preset: Any) -> tuple[Constant, ...]:
-    """Return the constants of a preset, in the order of its fields."""
-    hints = _get_type_hints(preset.__class__)
-    defaults = {each.name: each.default for each in fields(preset)}
-    return tuple(
-        Constant(
-            name, value=getattr(preset, name), hint=hints[name], default=defaults[name], **details
-        )
-        for name, details in _get_details(preset.__class__).items()
-    )
-
-
-def collect_values(preset: Any) -> dict[str, Any]:
-    """Return the value of each constant of a preset by name."""
-    return {name: getattr(preset, name) for name in _get_details(preset.__class__)}
-
-
-def check(preset: Any) -> None:
-    """Raise ParameterError for the first invalid constant; convert counts such as 3.0 to int."""
-    for each in list_constants(preset):
-        _check(each.name, each.value, each.hint, each.limits, each.unit)
-        if each.hint is int and type(each.value) is not int:
-            object.__setattr__(preset, each.name, int(each.value))
-
-
 def suggest_names(name: str, names: Collection[str]) -> str:
     """Return a hint for an unknown name: the most similar name, or else all names.
 
@@ -238,59 +213,6 @@ def suggest_names(name: str, names: Collection[str]) -> str:
     """
     similar = get_close_matches(name, names, n=1)
     return f"did you mean {similar[0]}?" if similar else f"there are {', '.join(names)}"
-
-
-def _check(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
-    """Raise ParameterError if the value does not fit the type hint and limits."""
-    members = get_args(hint)
-    # `T | None`: None is valid, any other value is checked as a `T`.
-    if NoneType in members:
-        if value is None:
-            return
-        hint = next(member for member in members if member is not NoneType)
-        members = get_args(hint)
-    if get_origin(hint) is Literal:
-        if not (isinstance(value, str) and value in members):
-            raise ParameterError(f"{name} must be {' or '.join(members)}, not {value!r:.60}")
-    elif get_origin(hint) is tuple:
-        _check_tuple(name, value, hint, limits, unit)
-    elif hint is bool:
-        if not isinstance(value, bool):
-            raise ParameterError(f"{name} must be true or false, not {value!r:.60}")
-    elif limits is not None:
-        if hint is int and isinstance(value, float) and not value.is_integer():
-            raise ParameterError(f"{name} must be a whole number, not {value!r:.60}")
-        if not limits.allow(value):
-            allowed = f"{limits.describe()} {unit}".rstrip()
-            raise ParameterError(f"{name} must be {allowed}, not {value!r:.60}")
-
-
-def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
-    members = get_args(hint)
-    if not isinstance(value, tuple) or not value:
-        raise ParameterError(f"{name} must be a tuple of numbers, not {value!r:.60}")
-    is_fixed_length = Ellipsis not in members
-    if is_fixed_length and len(value) != len(members):
-        raise ParameterError(f"{name} must be {len(members)} numbers, not {value!r:.60}")
-    for each in value:
-        _check(f"each of {name}", each, members[0], limits, unit)
-
-
-@cache
-def _get_details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
-    return {
-        each.name: each.metadata["constant"]
-        for each in fields(cast(Any, kind))
-        if "constant" in each.metadata
-    }
-
-
-@cache
-def _get_type_hints(kind: Hashable) -> dict[str, Any]:
-    return get_type_hints(cast(Any, kind))
-
-
-Progress = Callable[[str], None]
 
 
 def time_stages(
@@ -308,11 +230,6 @@ def time_stages(
 
     return stage
 
-
-Columns = dict[str, NDArray[Any]]
-Mirror = Callable[[NDArray[np.float64]], NDArray[np.float64]]
-View = Literal["poses", "quaternions", "rotation vectors"]
-Unit = Literal["body sizes", "metres", "standard deviations", "any"]
 
 RATE = Limits(0.1, 1000.0)
 """Limits of a sampling rate, Hz."""
@@ -410,7 +327,10 @@ class Preset(ABC):
     )
 
     def __post_init__(self) -> None:
-        check(self)
+        for each in self.constants():
+            _check_value(each.name, each.value, each.hint, each.limits, each.unit)
+            if each.hint is int and type(each.value) is not int:
+                object.__setattr__(self, each.name, int(each.value))  # a count such as 3.0
         if self.unit not in self.units:
             raise ParameterError(
                 f"unit must be {' or '.join(self.units)} in {self.name}, not {self.unit!r:.60}"
@@ -457,12 +377,21 @@ class Preset(ABC):
         return round(seconds * self.working_fps)
 
     def constants(self) -> tuple[Constant, ...]:
-        """Return each constant with its meaning, unit, value and limits."""
-        return list_constants(self)
+        """Return the constants in the order of the fields, with meaning, unit, value and limits."""
+        hints, defaults = (
+            _get_type_hints(type(self)),
+            {each.name: each.default for each in fields(self)},
+        )
+        return tuple(
+            Constant(
+                name, value=getattr(self, name), hint=hints[name], default=defaults[name], **details
+            )
+            for name, details in _get_details(type(self)).items()
+        )
 
     def parameters(self) -> Mapping[str, Any]:
         """Return the value of each constant by name, for the provenance."""
-        return collect_values(self)
+        return {name: getattr(self, name) for name in _get_details(type(self))}
 
     def replace(self, **overrides: Any) -> Self:
         """Return a copy of the preset with some constants changed.
@@ -485,3 +414,53 @@ class Preset(ABC):
                     f"{self.name} has no parameter {name!r:.60}; {suggest_names(name, names)}"
                 )
         return replace(self, **overrides) if overrides else self
+
+
+def _check_value(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
+    """Raise ParameterError if the value does not fit the type hint and limits."""
+    members = get_args(hint)
+    # `T | None`: None is valid, any other value is checked as a `T`.
+    if NoneType in members:
+        if value is None:
+            return
+        hint = next(member for member in members if member is not NoneType)
+        members = get_args(hint)
+    if get_origin(hint) is Literal:
+        if not (isinstance(value, str) and value in members):
+            raise ParameterError(f"{name} must be {' or '.join(members)}, not {value!r:.60}")
+    elif get_origin(hint) is tuple:
+        _check_tuple(name, value, hint, limits, unit)
+    elif hint is bool:
+        if not isinstance(value, bool):
+            raise ParameterError(f"{name} must be true or false, not {value!r:.60}")
+    elif limits is not None:
+        if hint is int and isinstance(value, float) and not value.is_integer():
+            raise ParameterError(f"{name} must be a whole number, not {value!r:.60}")
+        if not limits.allow(value):
+            allowed = f"{limits.describe()} {unit}".rstrip()
+            raise ParameterError(f"{name} must be {allowed}, not {value!r:.60}")
+
+
+def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: str) -> None:
+    members = get_args(hint)
+    if not isinstance(value, tuple) or not value:
+        raise ParameterError(f"{name} must be a tuple of numbers, not {value!r:.60}")
+    is_fixed_length = Ellipsis not in members
+    if is_fixed_length and len(value) != len(members):
+        raise ParameterError(f"{name} must be {len(members)} numbers, not {value!r:.60}")
+    for each in value:
+        _check_value(f"each of {name}", each, members[0], limits, unit)
+
+
+@cache
+def _get_details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
+    return {
+        each.name: each.metadata["constant"]
+        for each in fields(cast(Any, kind))
+        if "constant" in each.metadata
+    }
+
+
+@cache
+def _get_type_hints(kind: Hashable) -> dict[str, Any]:
+    return get_type_hints(cast(Any, kind))

@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
-    EndEffectors,
     compute_distance_features,
     end_effectors,
     measure_body_size,
@@ -33,15 +32,22 @@ from kineme.features import (
     round_offsets,
     stack,
 )
-from kineme.features.channels import resample_channels, standardize_channels
+from kineme.features.channels import emg_envelope, resample_channels, standardize_channels
 from kineme.features.distances import SIZE, have_bones
 from kineme.features.effectors import Names, suggest_remedy
-from kineme.features.filters import emg_envelope
 from kineme.features.pose import compute_joint_quaternions, compute_log_maps
 from kineme.methods.base import Mirror, Preset
 from kineme.recordings import Motion, Signals
 from kineme.recordings.column_names import group_axes, is_body
 from kineme.recordings.operations import resample, split_at_gaps
+
+Indices = NDArray[np.intp]
+MAX_NAMED_CHANNELS = 8
+"""Largest number of channels that a note names."""
+AXES = "xyz"
+SMOOTHING = 0.15
+"""Standard deviation of the Gaussian filter of joint positions, s. Joints estimated from video
+jitter as much as hands move."""
 
 
 @dataclass(frozen=True)
@@ -133,16 +139,14 @@ def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> P
     )
 
 
-def compute_motion_features(
-    motion: Motion, preset: Preset, *, effectors: EndEffectors | None = None
-) -> Floats:
+def compute_motion_features(motion: Motion, preset: Preset) -> Floats:
     """Compute the features (frames, dims) of a motion at the preset's working rate.
 
     They are in metres for the published methods. For ``kineme`` they are in body sizes,
     divided by the root of the number of stacked poses, so that distances do not depend
     on the body or on the stacking.
     """
-    effectors = effectors or end_effectors(motion)
+    effectors = end_effectors(motion)
     size = measure_body_size(motion, effectors) if preset.unit == "body sizes" else 1.0
     pose = pose_features(resample(motion, preset.working_fps), effectors=effectors)
     return _stack_poses(pose, preset, size)
@@ -175,9 +179,7 @@ def _measure_distances(
         + suggest_remedy(motions[0].skeleton)
     )
     notes = [note, f"points: {', '.join(names[point] for point in points)}"]
-    # `np.split` takes the ends of all spans but the last.
-    ends = np.cumsum([span.n_frames for span in motions])[:-1]
-    return np.split(features, ends), notes
+    return _split_rows(features, [span.n_frames for span in motions]), notes
 
 
 def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
@@ -186,10 +188,6 @@ def _stack_poses(pose: Floats, preset: Preset, size: float) -> Floats:
         # Root of the number of poses: stacking does not make distances larger.
         stacked /= size * np.sqrt(len(preset.offsets))
     return stacked
-
-
-MAX_NAMED_CHANNELS = 8
-"""Largest number of channels that a note names."""
 
 
 def prepare_signals(
@@ -239,20 +237,17 @@ def prepare_signals(
         notes.append(f"lengths are in units of {unit:.3g} {unit_name}")
     elif preset.unit != "any":
         notes.append(f"lengths are in {unit_name}")
-    # `np.split` takes the ends of all spans but the last.
-    ends = np.cumsum([span.n_samples for span in spans])[:-1]
-    parts = np.split(features, ends)
+    parts = _split_rows(features, [span.n_samples for span in spans])
     return Prepared(parts, spans, notes, joints=points is not None)
 
 
 def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) -> Floats:
     """Stack and scale the channels of all spans; distances become root mean squares."""
-    ends = np.cumsum([len(row) for row in rows])[:-1]
-    joined = np.concatenate(rows)
+    joined, lengths = np.concatenate(rows), [len(row) for row in rows]
     scaled = standardize_channels(joined) if standardize else joined
     offsets = round_offsets(preset.offsets, preset.working_fps)
     # Stack within each span: frames of different spans are not neighbours.
-    stacked = np.concatenate([stack(row, offsets) for row in np.split(scaled, ends)])
+    stacked = np.concatenate([stack(row, offsets) for row in _split_rows(scaled, lengths)])
     # Dividing by the root of the columns turns a distance into a root mean square.
     return np.asarray(stacked / np.sqrt(stacked.shape[1]), np.float64)
 
@@ -272,14 +267,6 @@ def _describe_channels(
     if emg:
         notes.append("muscle signals: rectified and low-passed")
     return notes
-
-
-Indices = NDArray[np.intp]
-
-AXES = "xyz"
-SMOOTHING = 0.15
-"""Standard deviation of the Gaussian filter of joint positions, s. Joints estimated from video
-jitter as much as hands move."""
 
 
 def find_joints(signals: Signals) -> Indices | None:
@@ -327,5 +314,9 @@ def replace_by_distances(rows: Sequence[Floats], points: Indices, fps: float) ->
     posture, _ = compute_distance_features(np.concatenate(positions).reshape(-1, *points.shape))
     # Other channels are kept unchanged.
     others = np.delete(np.concatenate(rows), points.ravel(), axis=1)
-    ends = np.cumsum([len(row) for row in rows])[:-1]
-    return np.split(np.hstack([posture, others]), ends)
+    return _split_rows(np.hstack([posture, others]), [len(row) for row in rows])
+
+
+def _split_rows(rows: Floats, lengths: list[int]) -> list[Floats]:
+    """Split rows into spans of these lengths."""
+    return np.split(rows, np.cumsum(lengths)[:-1])

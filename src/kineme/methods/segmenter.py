@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from os import PathLike
 from typing import Any
 
@@ -28,8 +29,11 @@ from kineme.segments.hierarchy import DEFAULT_DETAIL, Hierarchy, check_detail
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import make_segment_table
 
+Spans = Sequence[tuple[int, int]]
 FEW_CHANNELS = 20
 """Number of channels up to which a short table is not suspected to be transposed."""
+GAP_TOLERANCE = 0.2
+"""Borders this close to a gap are moved to it, s. Shorter gaps do not count as gaps."""
 
 
 def segment(
@@ -290,12 +294,13 @@ def _make_segmentation(
 ) -> Segmentation:
     """Return the result of a method in frames of the recording, with its provenance."""
     n_frames, fps = recording.n_frames, recording.fps
-
-    def to_frames(columns: Columns) -> Columns:
-        near = GAP_TOLERANCE * preset.working_fps
-        ratio = fps * pace / preset.working_fps
-        return convert_to_frames(columns, prepared.spans, n_frames, ratio, near=near)
-
+    to_frames = partial(
+        convert_to_frames,
+        spans=prepared.spans,
+        n_frames=n_frames,
+        ratio=fps * pace / preset.working_fps,
+        near=GAP_TOLERANCE * preset.working_fps,
+    )
     sample_columns = found.columns()
     columns = to_frames(sample_columns)
     seconds = {**timings, **found.timings}
@@ -437,12 +442,6 @@ def rescale_spans(prepared: Prepared, recording: Motion | Signals, fps: float) -
     return replace(prepared, spans=spans)
 
 
-Spans = Sequence[tuple[int, int]]
-
-GAP_TOLERANCE = 0.2
-"""Borders this close to a gap are moved to it, s. Shorter gaps do not count as gaps."""
-
-
 def convert_to_frames(
     columns: Columns,
     spans: Sequence[RecordedSpan],
@@ -501,7 +500,8 @@ def convert_to_frames(
     if "border_confidence" in cut:  # the confidence is not that of a border at a gap
         at_gap = np.isin(cut["start_frame"], [span.start for span in spans])
         cut["border_confidence"] = np.where(at_gap, np.nan, cut["border_confidence"])
-    return _insert_gaps(cut, find_gaps(spans, n_frames))
+    gaps = find_gaps(spans, n_frames)
+    return _insert_gaps(cut, gaps) if gaps else cut
 
 
 def find_gaps(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
@@ -513,8 +513,6 @@ def find_gaps(spans: Sequence[RecordedSpan], n_frames: int) -> Spans:
 
 def _insert_gaps(columns: Columns, gaps: Spans) -> Columns:
     """Append a transition for each gap to each level of the columns."""
-    if not gaps:
-        return columns
     present = sorted({"activity", *columns["level"].tolist()})
     rows = [(level, start, stop) for level in present for start, stop in gaps]
     levels, starts, stops = zip(*rows, strict=True)

@@ -16,8 +16,8 @@ from kineme.errors import ParameterError
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, Constant, resolve_preset
 from kineme.methods.base import Slider
-from kineme.methods.levels import DETAILS
 from kineme.methods.presets import DEFAULT
+from kineme.methods.segments import DETAILS
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.web.messages import ExportFormat, Parameter, PresetChoice

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from bands import one_sided
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +12,15 @@ from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.segments import number_by_appearance
 
 seconds = settings(max_examples=60)
+
+
+def one_sided(matrix: np.ndarray, width: int) -> np.ndarray:
+    """Return ``band[i, j - i]`` for j from i on; zero beyond the end."""
+    band = np.zeros((len(matrix), width + 1), np.float32)
+    for i, j in np.ndindex(matrix.shape):
+        if 0 <= j - i <= width:
+            band[i, j - i] = matrix[i, j]
+    return band
 
 
 @st.composite

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kineme.methods.kineme.joining import Sets, join_sets
+from kineme.methods.kineme.borders import Sets, join_sets
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.kineme.repetitions import find_repetitions
 

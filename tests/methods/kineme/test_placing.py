@@ -11,7 +11,6 @@ from kineme.methods.kineme.events import Occurrences
 from kineme.methods.kineme.primitives import (
     Segments,
     average_by_cluster,
-    drop_repetitions,
     drop_still_clusters,
     replace_by_occurrences,
 )
@@ -92,18 +91,13 @@ def alone() -> Segments:
 @pytest.mark.parametrize(("near", "kept"), [(14, True), (15, False), (1000, False)])
 def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
     rows = np.arange(300, dtype=np.float32)[:, None]  # 14.5 from the mean of 30 at most
-    found = drop_still_clusters(alone(), rows, near)
-    assert (found.clusters >= 0).tolist() == [kept, True, True, False, True, False]
-    assert found.not_periodic.tolist() == [2] if kept else [0, 2]
-
-
-def test_repetitions_that_are_given_up_are_no_primitives() -> None:
-    found = drop_repetitions(alone(), np.array([1]))
-    assert found.clusters.tolist() == [0, -1, -1, -1, 3, -1]
-    assert found.not_periodic.tolist() == [1, 2]
-    assert found.counts.tolist() == [1, 0, 0]
-    same = alone()
-    assert drop_repetitions(same, np.empty(0, np.int64)) is same
+    given = alone()
+    found = drop_still_clusters(given, rows, near)
+    if kept:
+        assert found is given
+    assert found.clusters.tolist() == [0 if kept else -1, 1, 1, -1, 3, -1]
+    assert found.not_periodic.tolist() == ([2] if kept else [0, 2])
+    assert found.counts.tolist() == [int(kept), 2, 0]
 
 
 def test_shares_are_those_of_actions() -> None:

@@ -135,9 +135,6 @@ def share_saved(rows: np.ndarray) -> float:
     view = np.ascontiguousarray(rows[:: round(FPS / KINEME.rate)], np.float32)
     repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME)
     saved = repeating.measure_saving(view, 2.0, 0, len(view))
-    assert saved == repeating.measure_saving(
-        view, 2.0, 0, len(view)
-    )  # what was asked once is known
     assert 2 * saved == pytest.approx(repeating.measure_saving(view, 1.0, 0, len(view)))
     return 2.0 * saved / max(kernels.measure_spread(view, 0, len(view), 10_000), 1e-12)
 

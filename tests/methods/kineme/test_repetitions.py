@@ -6,7 +6,6 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from bands import points
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -17,6 +16,14 @@ from kineme.methods.kineme.repetitions import Candidate, find_repetitions, shift
 from loops import make_nods, make_swings
 
 seconds = settings(max_examples=60)
+
+
+@st.composite
+def points(draw: st.DrawFn) -> np.ndarray:
+    """Draw points on a small grid, so that many points and distances are equal."""
+    frames, dims = draw(st.integers(1, 30)), draw(st.integers(1, 3))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    return rng.integers(0, draw(st.integers(1, 6)), (frames, dims)).astype(np.float32)
 
 
 @given(points(), st.data())

@@ -39,7 +39,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import join_names, require_extra
 from kineme._util.files import POSES, atomic_write
 from kineme._util.parallel import find_user_cache
-from kineme.features.filters import filter_low
+from kineme.features.channels import filter_low
 from kineme.formats.channels.parquet import open_parquet, read_parquet_columns
 from kineme.formats.files import FileContent, load
 from kineme.formats.keypoints.people import track_people

@@ -1,12 +1,8 @@
-"""Compiled loops that divide an activity into repetitions, and find their cost and ends.
+"""Compiled loops that divide an activity into repetitions, and compare repetitions and movements.
 
 ``path`` is the length of the path of poses up to each frame, and to the end. ``places`` is the
 number of positions on its path at which each repetition is sampled. Naive versions of the kernels
 are in ``tests/helpers/naive``.
-
-@@_repeating_kernels: Compiled loops that test whether segments repeat, and measure the similarity of movements.
-
-Naive versions of the kernels are in ``tests/helpers/naive``.
 """
 
 from __future__ import annotations
@@ -20,6 +16,10 @@ FARTHEST = 0.9
 """Share of the largest squared distance up to which poses of an end can count in full."""
 SUMS = {**OPTIONS, "fastmath": {"reassoc", "contract"}}
 FAR = np.float32(np.inf)
+MIN_COUNT = 2
+"""Smallest number of repetitions of a movement."""
+ROUGH = 0.02
+"""Smallest unexplained share of the variance of repetitions that is significant."""
 
 
 @njit("float32[:, ::1](float32[:, ::1], int64[::1])", **SUMS)
@@ -438,12 +438,6 @@ def find_best_length(rows, stop, shortest, longest, mean):
         if misfit < least:
             best, least = length, misfit
     return best
-
-
-MIN_COUNT = 2
-"""Smallest number of repetitions of a movement."""
-ROUGH = 0.02
-"""Smallest unexplained share of the variance of repetitions that is significant."""
 
 
 @njit("void(float64[:, :, ::1])", **OPTIONS)

@@ -1,34 +1,40 @@
-"""Refine borders to the frame, and find the transitions between two activities.
+"""Refine borders to the frame, fit the ends of activities, and merge neighbours that are one set.
 
-Views are averaged over a second, so borders of the tree are imprecise: strong movement seems to
-start late and to end early. This module uses single frames. Each side of a border is modelled by
-one normal distribution per channel, fitted to frames that are not mixed with the other side by the
-averaging. A third model is fitted to the whole recording.
+*Borders.* Views are averaged over a second, so borders of the tree are imprecise: strong movement
+seems to start late and to end early. `refine_borders` uses single frames. Each side of a border is
+modelled by one normal distribution per channel, fitted to frames that are not mixed with the other
+side by the averaging. A third model is fitted to the whole recording. A *transition* is a span
+around the border, shorter than the averaging window, in which the model of the whole recording is
+more likely than those of both sides. Without a transition, the border is where the likelihood of
+both sides is largest. This is often too far on the quiet side, because a single movement that a
+quiet segment never contains ends it. So `border_shift` moves the border only part of the way, as
+people do.
 
-A *transition* is a span around the border, shorter than the averaging window, in which the model
-of the whole recording is more likely than those of both sides. Without a transition, the border is
-where the likelihood of both sides is largest. This is often too far on the quiet side, because a
-single movement that a quiet segment never contains ends it. So `border_shift` moves the border
-only part of the way, as people do.
+*Ends.* The first repetition of an activity is the span before the first cut that fits the mean of
+the inner repetitions best, at any pace. If it begins before the activity, in a transition, the
+activity is extended to it. If it begins later, the span before it becomes a transition of the
+primitive level. The last repetition is found in the same way, backwards in time.
 
-Only frames within the averaging window of a border are considered. No segment is added or removed.
+*Sets.* Posture drifts during a set of repetitions: the hand moves on, the body sinks, the camera
+turns. The tree can take this for a new activity, above all if repetitions are fast. So two
+neighbours are divided into repetitions again as one span. They are merged if
 
-@@ends: Find the start of the first repetition of an activity and the end of the last one.
+- one of them has too few repetitions to be a certain activity by itself;
+- the joint division has the same number of repetitions on each side as the side has alone, which
+  is unlikely by chance;
+- it passes the tests for a single movement (`score_one_movement`);
+- without their mean pose, repetitions near the border are about as similar to those across it as
+  to each other, and last about as long (at least `same_set`).
 
-The first repetition is the span before the first cut that fits the mean of the inner
-repetitions best, at any pace. If it begins before the activity, in a transition, the
-activity is extended to it. If it begins later, the span before it becomes a transition
-of the primitive level. The last repetition is found in the same way, backwards in time.
-
-The method is ours; see ``docs/method.md``.
+The last test is relative, because repetitions of a badly performed set correlate less with each
+other than two well performed exercises do. The method is ours; see ``docs/method.md``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import ceil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,12 +42,21 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
-from kineme.methods.kineme.repetitions import PLACES
+from kineme.methods.kineme._repetition_kernels import ROUGH, sample_repetitions
+from kineme.methods.kineme.repetitions import (
+    PLACES,
+    SPAN,
+    find_repetitions,
+    score_one_movement,
+    trace_movement,
+)
+from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
 Frames = NDArray[np.int64]
+Rows = NDArray[np.float32]
 Spans = tuple[Frames, Frames]
 
 MAX_SIDE = 4.0
@@ -50,6 +65,20 @@ MIN_DEVIATION = 0.05
 """Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
+SHORTEST, LONGEST = 0.5, 1.5
+"""Shortest and longest first or last repetition, relative to the mean length of the others."""
+MIN_TRANSITION = 0.1
+"""Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
+N_COMPARED = 4
+"""Number of repetitions on each side of a border that are compared; others have drifted."""
+MIN_COVERED = 0.8
+"""Share of the side with fewer repetitions that these must cover."""
+MIN_ONE_MOVEMENT = 0.5
+"""Smallest `score_one_movement` of a set."""
+CERTAIN_FACTOR = 2
+"""A side with this many times `chance_count` repetitions is an activity by itself."""
+TINY = 1e-12
+"""Smallest divisor."""
 
 
 def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
@@ -157,16 +186,7 @@ def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
     return np.unique(np.concatenate([fine[~passed], after]))
 
 
-Features = NDArray[np.float32]
-
-SHORTEST, LONGEST = 0.5, 1.5
-"""Shortest and longest first or last repetition, relative to the mean length of the others."""
-MIN_TRANSITION = 0.1
-"""Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
-
-
-@dataclass(frozen=True, eq=False)
-class Ends:
+class Ends(NamedTuple):
     """Starts and ends of activities and of their repetitions.
 
     Attributes
@@ -184,7 +204,7 @@ class Ends:
 
 
 def fit_ends(
-    features: Features,
+    features: Rows,
     starts: Frames,
     stops: Frames,
     labels: Frames,
@@ -232,7 +252,7 @@ def fit_ends(
     return Ends(begins, ends, firsts, lasts)
 
 
-def fit_edges(rows: Features, cuts: Frames) -> Frames:
+def fit_edges(rows: Rows, cuts: Frames) -> Frames:
     """Return the starts of the repetitions of a span, and the end of the last one.
 
     Parameters
@@ -247,22 +267,162 @@ def fit_edges(rows: Features, cuts: Frames) -> Frames:
     return np.concatenate([[first], cuts, [n - last]])
 
 
-def _find_begin(rows: Features, start: int, cuts: Frames) -> tuple[int, int]:
+def _find_begin(rows: Rows, start: int, cuts: Frames) -> tuple[int, int]:
     """Return the start of an activity found at ``start``, and that of its first repetition."""
     if len(cuts) < 2:  # there is no inner repetition
         return start, start
     lengths = np.diff(cuts)
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, PLACES)
-    mean = inner.mean(axis=0)
-    first = _find_first(rows, cuts, mean)
+    mean_length, stop = float(lengths.mean()), int(cuts[0])
+    shortest = max(1, ceil(SHORTEST * mean_length))
+    longest = min(int(LONGEST * mean_length), stop)
+    first = 0
+    if shortest <= longest:
+        mean = inner.mean(axis=0)
+        first = stop - int(kernels.find_best_length(rows, stop, shortest, longest, mean))
     return min(first, start), first
 
 
-def _find_first(rows: Features, cuts: Frames, mean: Floats) -> int:
-    """Return the start of the span before the first cut that fits the mean best; 0 without one."""
-    mean_length, stop = float(np.diff(cuts).mean()), int(cuts[0])
-    shortest = max(1, ceil(SHORTEST * mean_length))
-    longest = min(int(LONGEST * mean_length), stop)
-    if shortest > longest:
-        return 0
-    return stop - int(kernels.find_best_length(rows, stop, shortest, longest, mean))
+class Sets(NamedTuple):
+    """Activities in time order: frames, clusters, preferences as in `Segments`, and repetitions.
+
+    ``cuts`` are the starts of the second, third, ... repetition of each activity.
+    """
+
+    starts: Frames
+    stops: Frames
+    labels: Frames
+    preference: Floats
+    cuts: list[Frames]
+
+
+def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
+    """Merge neighbouring activities that are one set, the most similar ones first.
+
+    A merged activity has the cluster of its longer part.
+
+    Parameters
+    ----------
+    rows : (frames, dims) array
+        At the working rate.
+    found : Sets
+        Frames between two of them are a transition.
+    preset : KinemeConstants
+    """
+    starts, stops, labels, preference = (values.tolist() for values in found[:4])
+    cuts = list(found.cuts)
+
+    def evaluate(left: int) -> tuple[float, Frames]:
+        """Return the similarity of two neighbours across their border, and their joint cuts."""
+        right = left + 1
+        counts = len(cuts[left]) + 1, len(cuts[right]) + 1
+        start, stop = starts[left], stops[right]
+        # With fewer than three repetitions there is no inner one to compare. Two sides that are
+        # both certain, such as walking and running, are not merged.
+        is_certain = min(counts) >= CERTAIN_FACTOR * preset.chance_count
+        if max(counts) < 3 or is_certain or stop - start > preset.frames(SPAN[1]):
+            return 0.0, np.empty(0, np.int64)
+        joint_cuts = find_repetitions(rows, start, stop, preset)
+        border = (stops[left] + starts[right]) // 2 - start
+        similarity = compare_sides(rows[start:stop], joint_cuts - start, border, counts, preset)
+        return similarity, joint_cuts
+
+    candidates = map_threads(evaluate, range(len(starts) - 1))
+    while candidates:
+        best = int(np.argmax([similarity for similarity, _ in candidates]))
+        similarity, joint_cuts = candidates[best]
+        if similarity < preset.same_set:
+            break
+        longer = best + int(stops[best + 1] - starts[best + 1] > stops[best] - starts[best])
+        labels[best], preference[best] = labels[longer], preference[longer]
+        stops[best] = stops[best + 1]
+        cuts[best] = joint_cuts
+        for values in (starts, stops, labels, preference, cuts):
+            del values[best + 1]
+        del candidates[best]
+        # Only the merged activity has new neighbours.
+        for left in (best - 1, best):
+            if 0 <= left < len(candidates):
+                candidates[left] = evaluate(left)
+    clusters = number_by_appearance(np.array(labels, np.int64))
+    return Sets(np.array(starts), np.array(stops), clusters, np.array(preference), cuts)
+
+
+def compare_sides(
+    rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemeConstants
+) -> float:
+    """Return the similarity of repetitions across a border, relative to that on each side.
+
+    Return 0 if the joint division fails one of the other tests; see the module docstring.
+
+    Parameters
+    ----------
+    rows : (frames, dims) array
+        Frames of both sides.
+    cuts : array of int
+        Starts of the second, third, ... repetition of the joint division.
+    border : int
+        First frame of the right side.
+    counts : tuple of int
+        Number of repetitions of each side when divided alone.
+    preset : KinemeConstants
+    """
+    if len(cuts) < 2:  # there is no inner repetition
+        return 0.0
+    edges = fit_edges(rows, cuts)
+    durations = np.diff(edges)
+    before = int(np.count_nonzero(edges[:-1] + durations / 2 < border))
+    # A count of two is no evidence: any span has two halves.
+    agree = all(
+        abs(alone - together) <= 1
+        for alone, together in zip(counts, (before, len(durations) - before), strict=True)
+        if alone > 2
+    )
+    head, tail = border - edges[0], edges[-1] - border
+    covered = (counts[0] > counts[1] or head >= MIN_COVERED * border) and (
+        counts[1] > counts[0] or tail >= MIN_COVERED * (len(rows) - border)
+    )
+    if not (agree and covered and 0 < before < len(durations)):
+        return 0.0
+    movement = trace_movement(rows, preset)
+    repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
+    centered = repeated - repeated.mean(axis=1, keepdims=True)
+    # 1 for equal durations, 0 if the standard deviation of their logarithms reaches `uneven`.
+    evenness = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
+    if evenness < preset.same_set or score_one_movement(centered, preset) < MIN_ONE_MOVEMENT:
+        return 0.0
+    compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
+    beside, across = compare_at_border(compared, min(before, N_COMPARED), preset.centering)
+    # If each side is very uniform, even a small difference across the border is significant.
+    if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
+        return 0.0
+    return evenness * across / max(beside, TINY)
+
+
+def compare_at_border(repeated: Floats, border: int, centering: float) -> tuple[float, float]:
+    """Return the mean correlation of repetitions on the same side of a border, and across it.
+
+    Parameters
+    ----------
+    repeated : (repetitions, places, dims) array
+        At least three.
+    border : int
+        Index of the first repetition of the right side.
+    centering : float
+        Share of its mean pose that is subtracted from each repetition.
+
+    Examples
+    --------
+    >>> swing = np.array([[0.0], [1.0], [0.0], [-1.0]])
+    >>> beside, across = compare_at_border(np.stack([swing, swing + 5, -swing]), 2, 1.0)
+    >>> round(beside, 2), round(across, 2)
+    (1.0, -1.0)
+    """
+    rows = repeated - centering * repeated.mean(axis=1, keepdims=True)
+    rows = rows.reshape(len(rows), -1)
+    rows = rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), TINY)
+    correlations = rows @ rows.T
+    sides = [correlations[:border, :border], correlations[border:, border:]]
+    # A side with one repetition has no pairs.
+    beside = [side[np.triu_indices(len(side), 1)].mean() for side in sides if len(side) > 1]
+    return float(np.mean(beside)), float(correlations[:border, border:].mean())

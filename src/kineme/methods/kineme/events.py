@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,26 +105,22 @@ def find_occurrences(
     preset : KinemeConstants
     """
     per_second = preset.working_fps / _count_step_frames(preset)
-
-    def to_samples(seconds: float) -> int:
-        return round(seconds * per_second)
-
     samples = _sample_frames(np.asarray(poses, np.float64), free, preset)
     if len(samples.seconds) < 2:
         empty = np.empty(0, np.int64)
         return Occurrences(empty, empty, empty, np.empty(0))
-    shortest = max(1, to_samples(preset.min_recurrence))
+    shortest = max(1, round(preset.min_recurrence * per_second))
     starts, ptr, partners, sums, row_ptr, row_paths = find_matching_paths(
         samples.columns,
         preset.event_cost * samples.seconds,
         samples.begins,
         gap=shortest,
-        width=to_samples(WINDOW),
-        leg=max(1, to_samples(LEG)),
+        width=round(WINDOW * per_second),
+        leg=max(1, round(LEG * per_second)),
         scale=preset.event_scale,
         least=MIN_MEMBER_SHARE * preset.min_recurrence * per_second,
     )
-    longest = max(shortest, to_samples(preset.max_repetition))
+    longest = max(shortest, round(preset.max_repetition * per_second))
     lengths = np.unique(np.geomspace(shortest, longest, N_LENGTHS).round().astype(np.int64))
     all_free = np.ones(len(samples.seconds), np.bool_)
     check_cancelled()
@@ -145,11 +141,7 @@ def find_occurrences(
     return Occurrences(starts, stops, number_by_appearance(ranks), similarity)
 
 
-# --- samples at equal steps of movement time ----------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class _Samples:
+class _Samples(NamedTuple):
     """Samples at equal steps of movement time.
 
     Attributes
@@ -199,9 +191,6 @@ def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstan
 def _count_step_frames(preset: KinemeConstants) -> int:
     """Return the number of frames from one sample to the next at the usual speed."""
     return max(1, preset.frames(STEP))
-
-
-# --- warping paths by which the samples match each other ----------------------------------------
 
 
 def find_matching_paths(

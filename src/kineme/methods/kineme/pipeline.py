@@ -12,14 +12,14 @@ Features are an array of frames x dims, of bodies or of sensors.
 5. *events*: find spans that recur occasionally.
 6. *confidence*: collect the statistics for confidence. No other stage reads them.
 
-@@found: Results of all stages of the method, and the segment table made from them.
+`KinemeFound` holds the results, and makes tables of them at several levels of detail.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
 from itertools import pairwise
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
@@ -28,7 +28,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from threadpoolctl import ThreadpoolController
 
-from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
 from kineme._util.parallel import map_threads
 from kineme.features.channels import choose_frames
@@ -49,7 +48,6 @@ from kineme.methods.kineme.primitives import (
 )
 from kineme.methods.kineme.repetitions import Repeating
 from kineme.methods.kineme.tree import (
-    FineLevel,
     Level,
     choose_part_ends,
     compute_median_distance,
@@ -58,12 +56,19 @@ from kineme.methods.kineme.tree import (
     link_parts,
 )
 from kineme.methods.kineme.views import Views, choose_view, compute_views
-from kineme.methods.levels import DETAILS, FineSegments, assign_clusters, make_tables
-from kineme.methods.segments import list_doubts, make_columns
+from kineme.methods.segments import (
+    DETAILS,
+    FineSegments,
+    assign_clusters,
+    list_doubts,
+    make_columns,
+    make_tables,
+)
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
+Rows = NDArray[np.float32]
 Frames = NDArray[np.int64]
 
 MAX_LISTED = 5
@@ -72,6 +77,8 @@ FINE_PER_SEGMENT = 8
 """Largest number of fine segments per segment of the default level, for levels of detail."""
 MAX_FINE = 1000
 """Largest number of fine segments in total, unless the default level has more."""
+SIDE = 2.0
+"""Seconds before and after a candidate end of a part that are compared to choose it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,8 +125,8 @@ class KinemeFound:
         segments, probabilities = self.segments, self.confidence
         counts = np.where(segments.clusters >= 0, probabilities.counts[segments.parents], np.nan)
         return make_columns(
-            self.borders,
-            self.primitives,
+            segments.borders,
+            segments.primitives,
             is_activity=segments.labels >= 0,
             is_primitive=segments.clusters >= 0,
             clusters=(segments.labels, segments.clusters),
@@ -139,19 +146,9 @@ class KinemeFound:
 
         Details that equal the next coarser one are left out.
         """
-        segments, frames = self._make_fine_segments()
-        clusters = assign_clusters(
-            segments,
-            details or DETAILS,
-            border_price=self.preset.samples(self.preset.segment_cost),
-            cluster_price=self.preset.cluster_price(len(self.features)),
-        )
-        return make_tables(columns, frames, clusters, longest=0.0)
-
-    def _make_fine_segments(self) -> tuple[FineSegments, Frames]:
-        """Return fine segments of the tree, cut at the default borders, and borders in frames."""
-        n, per_sample = len(self.features), self.preset.working_fps / self.preset.rate
-        coarse = convert_to_samples(self.borders, self.preset, n)
+        preset, n = self.preset, len(self.features)
+        per_sample = preset.working_fps / preset.rate
+        coarse = convert_to_samples(self.segments.borders, preset, n)
         nearest = np.rint(self.fine[:-1] / per_sample).astype(np.int64)
         fine = np.unique(np.append(np.minimum(nearest, n - 1), n))
         levels = tree.list_levels(fine, tree.sum_between_segments(self.features, fine, self.unit))
@@ -160,11 +157,17 @@ class KinemeFound:
         borders = np.unique(np.concatenate([coarse, fine[levels[count - 1]]]))
         frames = np.rint(borders * per_sample).astype(np.int64)
         # Default borders are known to the frame.
-        frames[np.searchsorted(borders, coarse)] = self.borders
+        frames[np.searchsorted(borders, coarse)] = self.segments.borders
         # Cluster at detail 1 of the default segment that contains each fine one.
         parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
         sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
-        return FineSegments(borders, np.arange(len(parents)), parents, sums), frames
+        clusters = assign_clusters(
+            FineSegments(borders, parents, sums),
+            details or DETAILS,
+            border_price=preset.samples(preset.segment_cost),
+            cluster_price=preset.cluster_price(n),
+        )
+        return make_tables(columns, frames, clusters)
 
     def doubts(self, columns: Columns, fps: float) -> list[str]:
         """Return one sentence for each doubtful result, and one for activities without period."""
@@ -191,11 +194,6 @@ class KinemeFound:
         return sentences
 
 
-SIDE = 2.0
-"""Seconds before and after a candidate end of a part that are compared to choose it."""
-Rows = NDArray[np.float32]
-
-
 class Part(NamedTuple):
     """Result for a part of a recording: number of the chosen view, the view, and its segments."""
 
@@ -204,6 +202,8 @@ class Part(NamedTuple):
     level: Level
 
 
+# Parts run in parallel, and sums must not depend on the number of threads.
+@ThreadpoolController().wrap(limits=1)  # type: ignore[untyped-decorator]
 def analyze(
     features: ArrayLike,
     preset: KinemeConstants,
@@ -232,24 +232,7 @@ def analyze(
     ParameterError
         The features have another shape, are empty, or not finite.
     """
-    # Parts run in parallel, and sums must not depend on the number of threads.
-    with _get_thread_limiter().limit(limits=1):
-        return _analyze(as_features(features), preset, progress, joints=joints)
-
-
-@cache
-def _get_thread_limiter() -> ThreadpoolController:
-    """Return a limiter for the threads of matrix products; cached, as it takes 7 ms to create."""
-    return ThreadpoolController()
-
-
-def _analyze(
-    rows: Floats,
-    preset: KinemeConstants,
-    progress: Progress | None,
-    *,
-    joints: bool,
-) -> KinemeFound:
+    rows = as_features(features)
     timings: dict[str, float] = {}
     stage = time_stages(timings, progress)
     n = len(rows)
@@ -295,14 +278,11 @@ def _analyze(
 
 def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
     """Segment a part on its own. Its view is chosen without regard to repetitions."""
-
-    def find_clusters(fine: FineLevel) -> Frames:
-        return find_level(fine, preset).expand_to_samples()
-
     scale, fine_levels = 0, [find_fine_level(view, preset) for view in views.views]
     if len(fine_levels) > 1:
-        answers = [*map(find_clusters, fine_levels)]
-        halves = [find_clusters(find_fine_level(half, preset)) for half in views.halves]
-        scale = choose_view(answers, halves, margin=preset.view_margin)
+        halves = [find_fine_level(half, preset) for half in views.halves]
+        answers = [find_level(fine, preset).expand_to_samples() for fine in (*fine_levels, *halves)]
+        count = len(fine_levels)
+        scale = choose_view(answers[:count], answers[count:], margin=preset.view_margin)
     level = find_level(fine_levels[scale], preset, Repeating(poses, preset))
     return Part(scale, views.views[scale], level.to_frames(span, preset))

@@ -1,11 +1,9 @@
-"""Presets ``kineme``, for bodies, and ``sensors``, for signals.
-
-@@series: Preset ``series``: segment time series of any kind at their own pace.
+"""Presets of the method: ``kineme`` for bodies, ``sensors`` for signals, ``series`` for any series.
 
 The constants of the method are in seconds of a moving body. Other series have another pace, and
-often no times at all. So the preset chooses the number of samples per second: the geometric mean
-of the rate at which the dominant period lasts `PERIOD` seconds, and the rate at which the whole
-series lasts `LENGTH` seconds.
+often no times at all. So ``series`` chooses the number of samples per second: the geometric mean
+of the rate at which the dominant period lasts `SERIES_PERIOD`, and the rate at which the whole
+series lasts `SERIES_LENGTH`.
 """
 
 from __future__ import annotations
@@ -26,6 +24,29 @@ if TYPE_CHECKING:
 
     from kineme.methods.kineme.pipeline import KinemeFound
 
+OF_SENSORS: Mapping[str, Any] = {
+    "unit": "any",
+    "working_fps": 50.0,
+    "view_margin": 0.0,
+    "half_views": True,  # a sensor may be loose, or on a limb that does not take part
+    "min_explained": 0.6,  # idle channels have the same weight as those that move
+    "chance_count": 8.0,
+    "chance_duration": 32.0,  # so that sitting down twice is not an exercise
+    "centering": 0.4,
+    "min_similarity": 1.0,
+    "event_scale": 0.0,
+    "transition_cost": 1000.0,  # labels of sensor data have no transitions between activities
+}
+"""Constants that differ for signals: lengths have no meaning, and a few channels say less."""
+SERIES_PERIOD = 0.4
+"""Assumed duration of the dominant period, s."""
+SERIES_LENGTH = 30.0
+"""Assumed duration of the whole series, s."""
+MIN_PERIOD = 10
+"""Shortest period in samples: faster repetition counts as noise."""
+MIN_CYCLES = 4
+"""Number of times that the longest period fits into the series."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class KinemePreset(KinemeConstants):
@@ -43,42 +64,20 @@ class KinemePreset(KinemeConstants):
         # Imported here: it loads compiled code.
         from kineme.methods.kineme.pipeline import analyze
 
-        return analyze(features, self, joints=joints, progress=progress)
+        found: KinemeFound = analyze(features, self, joints=joints, progress=progress)
+        return found
 
 
 KINEME = KinemePreset(
     name="kineme", help="Finds activities and counts their repetitions; the default."
 )
 
-OF_SENSORS: Mapping[str, Any] = {
-    "unit": "any",
-    "working_fps": 50.0,
-    "view_margin": 0.0,
-    "half_views": True,  # a sensor may be loose, or on a limb that does not take part
-    "min_explained": 0.6,  # idle channels have the same weight as those that move
-    "chance_count": 8.0,
-    "chance_duration": 32.0,  # so that sitting down twice is not an exercise
-    "centering": 0.4,
-    "min_similarity": 1.0,
-    "event_scale": 0.0,
-    "transition_cost": 1000.0,  # labels of sensor data have no transitions between activities
-}
-"""Constants that differ for signals: lengths have no meaning, and a few channels say less."""
 
 SENSORS = KinemePreset(
     name="sensors",
     help="The same by posture and energy of channels; the default for signals.",
     **OF_SENSORS,
 )
-
-PERIOD = 0.4
-"""Assumed duration of the dominant period, s."""
-LENGTH = 30.0
-"""Assumed duration of the whole series, s."""
-MIN_PERIOD = 10
-"""Shortest period in samples: faster repetition counts as noise."""
-MIN_CYCLES = 4
-"""Number of times that the longest period fits into the series."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,9 +86,9 @@ class SeriesPreset(KinemePreset):
 
     def rate_of(self, values: Floats, fps: float) -> float:  # noqa: ARG002
         """Return the number of samples (samples, channels) that count as a second; ignore fps."""
-        by_length = max(len(values) / LENGTH, 1.0)
+        by_length = max(len(values) / SERIES_LENGTH, 1.0)
         period = estimate_period(values)
-        return sqrt(period / PERIOD * by_length) if period else by_length
+        return sqrt(period / SERIES_PERIOD * by_length) if period else by_length
 
 
 def estimate_period(values: Floats) -> int | None:

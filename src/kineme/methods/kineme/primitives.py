@@ -21,9 +21,8 @@ from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
-from kineme.methods.kineme.borders import fit_ends
+from kineme.methods.kineme.borders import Sets, fit_ends, join_sets
 from kineme.methods.kineme.events import Occurrences, find_occurrences
-from kineme.methods.kineme.joining import Sets, join_sets
 from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions, trace_movement
 from kineme.methods.segments import number_by_appearance
 
@@ -325,27 +324,16 @@ def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments
     actions, repeats = segments.labels[segments.parents], segments.repeats
     several = segments.counts[segments.parents] > 1
     # Movement in one primitive of a cluster is enough to keep all.
-    moves = np.array(
-        [_measure_reach(part) > near for part in np.split(rows, segments.primitives[1:-1])]
-    )
+    parts = np.split(rows, segments.primitives[1:-1])
+    reaches = [np.linalg.norm(part - part.mean(axis=0), axis=1).max() for part in parts]
+    moves = np.array(reaches, np.float64) > near
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
-    return drop_repetitions(segments, still)
-
-
-def _measure_reach(rows: Rows) -> float:
-    """Return the largest distance of a row from the mean row."""
-    return float(np.linalg.norm(rows - rows.mean(axis=0), axis=1).max())
-
-
-def drop_repetitions(segments: Segments, actions: Frames) -> Segments:
-    """Drop the repetitions of some clusters."""
-    if not len(actions):
+    if not len(still):
         return segments
-    dropped = segments.repeats & np.isin(segments.labels[segments.parents], actions)
     return replace(
         segments,
-        clusters=np.where(dropped, -1, segments.clusters),
-        not_periodic=np.union1d(segments.not_periodic, actions),
+        clusters=np.where(repeats & np.isin(actions, still), -1, segments.clusters),
+        not_periodic=np.union1d(segments.not_periodic, still),
     )
 
 

@@ -1,4 +1,4 @@
-"""Count the repetitions of an activity and find the start of each.
+"""Count the repetitions of an activity, find the start of each, and measure what they save.
 
 Each repetition passes every pose of the activity once. So the distance to a fixed pose has a dip
 in each repetition: the repetition *visits* the pose. Not all dips are visits. So the deepest two,
@@ -17,11 +17,10 @@ If there is a rest between repetitions, they begin at rest. People perceive the 
 movement is slowest (Zacks, Kumar, Abrams and Mehta 2009), and clips that begin at rest are easier
 to use.
 
-@@repeating: Decide whether a segment repeats, and how much this shortens its description.
-
-A segment can be described in two ways. By its samples it costs half of their mean distances to
-each other. If it repeats, one repetition describes all. It repeats if the mean of the other
-repetitions, scaled, explains most of each one. Then this share of the cost is saved:
+`Repeating` measures how much repetitions shorten the description of a segment. By its samples a
+segment costs half of their mean distances to each other. If it repeats, one repetition describes
+all. It repeats if the mean of the other repetitions, scaled, explains most of each one. Then this
+share of the cost is saved:
 
     (1 - max((chance_period / period)², few)) · evenness
     few = min(chance_count / count, chance_duration / (count · period), 1)
@@ -30,9 +29,7 @@ Fast repetitions save little, because the averaged view does not show them. Few 
 little, because they may be similar by chance, unless they last long. Two different movements in
 sequence save nothing. They are detected by comparing two means, of the first and of the last
 repetitions, with a single mean: once for the shapes of the repetitions, once for which channels
-move.
-
-The method is ours; see ``docs/method.md``.
+move. The method is ours; see ``docs/method.md``.
 """
 
 from __future__ import annotations
@@ -74,6 +71,12 @@ REST_SPEED = 0.25
 """Share of the mean speed below which there is a rest."""
 REST_RANGE = 0.15
 """Share of a repetition within which each rest is searched."""
+SPAN = (1.0, 90.0)
+"""Shortest and longest segment that is tested, s."""
+MAX_COMPARED = 32
+"""Largest number of samples whose distances give the cost of a segment."""
+RAMP = 0.05
+"""Half width of the linear ramp around a threshold."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,8 +211,17 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
     """Yield candidate divisions: the frames at which a pose is visited once per repetition."""
     # Reference poses, evenly spaced in time; the span is searched for each of them.
     references = np.unique(np.linspace(0, len(rows) - 1, min(N_VOTERS, len(rows))).astype(np.int64))
-    depths, centers = _find_dips(rows, references, preset)
-    # Dips are sorted by depth. The largest fall of depth is after the last true visit.
+    distances = kernels.measure_distances(rows, references)
+    rank = int(DEPTH_QUANTILE * (len(rows) - 1))
+    # A quantile is robust to outliers, unlike the largest distance.
+    large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
+    noise = np.float32(preset.noise_share)
+    # Depths and frames of the dips of each reference, deepest first; later columns are empty.
+    depths, centers = kernels.find_dips(distances, noise * large)
+    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)
+    shares = np.minimum(depths[:, :most] / large[:, None], 1)
+    depths, centers = np.maximum(shares - noise, 0), centers[:, :most]
+    # The largest fall of depth is after the last true visit.
     falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
     # Weight votes by speed: poses at rest are visited without a repetition.
     votes = np.diff(movement.path)[references] @ falls
@@ -234,39 +246,18 @@ def _drop_early_visits(visits: Frames) -> Frames:
     return np.array(kept, np.int64)
 
 
-def _find_dips(rows: Rows, references: Frames, preset: KinemeConstants) -> tuple[Rows, Frames]:
-    """Return depths, 0 to 1, and frames of the dips of each reference pose, deepest first."""
-    distances = kernels.measure_distances(rows, references)
-    rank = int(DEPTH_QUANTILE * (len(rows) - 1))
-    # A quantile is robust to outliers, unlike the largest distance.
-    large = np.maximum(np.partition(distances, rank, axis=1)[:, rank], np.float32(1e-6))
-    noise = np.float32(preset.noise_share)
-    depths, centers = kernels.find_dips(distances, noise * large)
-    most = max(int(np.count_nonzero(depths.any(axis=0))), 1)  # further columns are empty
-    depths, centers = depths[:, :most], centers[:, :most]
-    shares = np.minimum(depths / large[:, None], 1)
-    return np.maximum(shares - noise, 0), centers
-
-
 def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
     """Return the divisions of an activity into more than one repetition."""
-    candidates = [
-        assess_division(movement, visits, preset, preset.centering)
-        for visits in propose_visits(rows, movement, preset)
-    ]
-    return [
-        each for each in candidates if each.count > 1 and not _is_chance(each, movement, preset)
-    ]
-
-
-def _is_chance(division: Candidate, movement: Movement, preset: KinemeConstants) -> bool:
-    """Return whether the movements of its repetitions, without posture, are similar by chance.
-
-    Leaning to one side and the other while standing is no repetition.
-    """
-    if preset.centering < 1:
-        division = assess_division(movement, division.visits, preset, centering=1.0)
-    return division.is_chance(preset.max_unexplained)
+    candidates = []
+    for visits in propose_visits(rows, movement, preset):
+        candidate = without_posture = assess_division(movement, visits, preset, preset.centering)
+        if candidate.count > 1:
+            # Leaning to one side and the other while standing is no repetition.
+            if preset.centering < 1:
+                without_posture = assess_division(movement, visits, preset, centering=1.0)
+            if not without_posture.is_chance(preset.max_unexplained):
+                candidates.append(candidate)
+    return candidates
 
 
 def assess_division(
@@ -331,14 +322,6 @@ def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     nearby = np.clip(rests[:, None] + offsets, 1, n - 1)
     slowest = np.take_along_axis(nearby, speeds[nearby].argmin(axis=1)[:, None], axis=1)[:, 0]
     return slowest if (np.diff(slowest) > 0).all() else rests
-
-
-SPAN = (1.0, 90.0)
-"""Shortest and longest segment that is tested, s."""
-MAX_COMPARED = 32
-"""Largest number of samples whose distances give the cost of a segment."""
-RAMP = 0.05
-"""Half width of the linear ramp around a threshold."""
 
 
 class Division(NamedTuple):

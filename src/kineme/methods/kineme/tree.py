@@ -24,7 +24,7 @@ energy distance (2005); the rest is ours.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
@@ -86,12 +86,13 @@ class Level:
 
     def to_frames(self, span: slice, preset: KinemeConstants) -> Level:
         """Convert borders from samples to frames, for the part of a recording in this span."""
-
-        def convert(samples: Samples) -> Samples:
-            frames = span.start + np.rint(samples * (preset.working_fps / preset.rate))
-            return np.append(frames[:-1].astype(np.int64), span.stop)
-
-        return replace(self, fine=convert(self.fine), borders=convert(self.borders))
+        per_sample = preset.working_fps / preset.rate
+        inner = (
+            span.start + np.rint(samples[:-1] * per_sample).astype(np.int64)
+            for samples in (self.fine, self.borders)
+        )
+        fine, borders = (np.append(frames, span.stop) for frames in inner)
+        return replace(self, fine=fine, borders=borders)
 
 
 class FineLevel(NamedTuple):
@@ -115,9 +116,17 @@ class FineLevel(NamedTuple):
 
 def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
     """Return the finest segments of a view, (samples, dims)."""
-    unit = compute_median_distance(features, preset.comparison_width)
-    cost = preset.samples(preset.fine_cost)
-    borders = find_fine_borders(features, unit, width=preset.comparison_width, cost=cost)
+    width = preset.comparison_width
+    unit = compute_median_distance(features, width)
+    similarity = np.empty((len(features), min(width, len(features))), np.float32)
+
+    def fill(rows: slice) -> None:
+        kernels.compute_similarity_band(features, unit, rows.start, rows.stop, similarity)
+
+    map_threads(fill, make_even_slices(len(features)))
+    # Cheapest division into segments of similar samples, at most `width` long. The kernel counts
+    # each pair twice, so a border must cost twice as much there.
+    borders = kernels.find_change_points(similarity, 2 * preset.samples(preset.fine_cost))
     return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
 
 
@@ -131,20 +140,37 @@ def find_level(
     fine : FineLevel
     preset : KinemeConstants
     repeating : Repeating, optional
-        Measures the saving of spans that repeat; by default there are no savings.
+        Measures the saving of spans that repeat; by default there are no savings. Savings reduce
+        the cost of a level, but do not change its grouping.
     """
+    borders, sums = fine.borders, fine.sums
+    tree = list_levels(borders, sums.copy())
+    # Levels with few segments differ most, so all of them are tried, and fewer of the others.
+    tried = {*range(min(len(tree), EXHAUSTIVE_UP_TO))}
+    tried |= {
+        int(index) for index in np.geomspace(1, len(tree), SPARSE_LEVELS).astype(np.int64) - 1
+    }
+    chosen = [tree[index] for index in sorted(tried)]
+    levels = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
 
-    def measure_saving(start: int, stop: int) -> float:
-        if repeating is None:
-            return 0.0
-        return repeating.measure_saving(fine.features, fine.unit, start, stop)
-
-    level = choose_level(fine.borders, fine.sums, preset, measure_saving)
-    first = np.searchsorted(fine.borders, level.borders[:-1])
-    preference = measure_preferences(
-        sum_runs(fine.sums, first), np.diff(level.borders), level.labels
-    )
-    return Level(fine.borders, level.borders, level.labels, preference)
+    segment_cost = preset.samples(preset.segment_cost)
+    savings: dict[tuple[int, int], float] = {}
+    best, cheapest = levels[0], np.inf
+    # Best first by a lower bound of the cost, in which each segment saves its whole cost.
+    for level in sorted(levels, key=lambda level: level.cost - level.alone.sum()):
+        if level.cost - level.alone.sum() >= cheapest:  # no later level can be cheaper
+            break
+        cost = level.cost
+        for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
+            if alone > segment_cost:  # smaller savings are not worth a border
+                if repeating is not None and span not in savings:
+                    savings[span] = repeating.measure_saving(fine.features, fine.unit, *span)
+                cost -= min(savings.get(span, 0.0), alone)
+        if cost < cheapest:
+            best, cheapest = level, cost
+    first = np.searchsorted(borders, best.borders[:-1])
+    preference = measure_preferences(sum_runs(sums, first), np.diff(best.borders), best.labels)
+    return Level(borders, best.borders, best.labels, preference)
 
 
 class Grouped(NamedTuple):
@@ -186,30 +212,6 @@ def compute_median_distance(features: Rows, width: int) -> float:
     distances = kernels.measure_near_distances(features, chosen, width)
     median = float(np.median(distances)) if len(distances) else 0.0
     return median if median > 1e-9 else 1.0
-
-
-def find_fine_borders(features: Rows, unit: float, *, width: int, cost: float) -> Samples:
-    """Return the borders of the cheapest division into segments of similar samples, with ends.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-    unit : float
-        Unit of distances.
-    width : int
-        Longest segment, in samples.
-    cost : float
-        Cost of a border, in samples at a distance of one unit.
-    """
-    similarity = np.empty((len(features), min(width, len(features))), np.float32)
-
-    def fill(rows: slice) -> None:
-        kernels.compute_similarity_band(features, unit, rows.start, rows.stop, similarity)
-
-    map_threads(fill, make_even_slices(len(features)))
-    # The kernel counts each pair twice, so a border must cost twice as much there.
-    borders: Samples = kernels.find_change_points(similarity, 2 * cost)
-    return borders
 
 
 def sum_between_segments(features: Rows, borders: Samples, unit: float) -> Floats:
@@ -271,51 +273,6 @@ def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
                 losses[left] = compute_loss(alive[left], alive[left + 1])
         levels.append(np.append(alive, len(lengths)))
     return levels[::-1]
-
-
-def choose_level(
-    borders: Samples,
-    sums: Floats,
-    preset: KinemeConstants,
-    measure_saving: Callable[[int, int], float],
-) -> Grouped:
-    """Return the level and clusters of the shortest description.
-
-    Parameters
-    ----------
-    borders : (segments + 1,) array
-        Borders of the finest level.
-    sums : (segments, segments) array
-        As returned by `sum_between_segments`.
-    preset : KinemeConstants
-    measure_saving : callable
-        Returns the saving of a segment (start, stop) that repeats, in samples. Savings reduce the
-        cost of a level, but do not change its grouping.
-    """
-    tree = list_levels(borders, sums.copy())
-    # Levels with few segments differ most, so all of them are tried, and fewer of the others.
-    tried = {*range(min(len(tree), EXHAUSTIVE_UP_TO))}
-    tried |= {
-        int(index) for index in np.geomspace(1, len(tree), SPARSE_LEVELS).astype(np.int64) - 1
-    }
-    chosen = [tree[index] for index in sorted(tried)]
-    levels = [group_segments(borders[each], sum_runs(sums, each[:-1]), preset) for each in chosen]
-    segment_cost = preset.samples(preset.segment_cost)
-    savings: dict[tuple[int, int], float] = {}
-    best, cheapest = levels[0], np.inf
-    # Best first by a lower bound of the cost, in which each segment saves its whole cost.
-    for level in sorted(levels, key=lambda level: level.cost - level.alone.sum()):
-        if level.cost - level.alone.sum() >= cheapest:  # no later level can be cheaper
-            break
-        cost = level.cost
-        for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
-            if alone > segment_cost:  # smaller savings are not worth a border
-                if span not in savings:
-                    savings[span] = measure_saving(*span)
-                cost -= min(savings[span], alone)
-        if cost < cheapest:
-            best, cheapest = level, cost
-    return best
 
 
 def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:

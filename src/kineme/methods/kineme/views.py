@@ -81,7 +81,8 @@ def compute_views(
         Whether channels are computed from positions of joints.
     """
     centred = channels - channels.mean(axis=0)
-    scaled = np.asarray(centred / _measure_deviations(centred), np.float64)
+    deviations = np.sqrt((centred**2).mean(axis=0))
+    scaled = np.asarray(centred / np.where(deviations > TINY, deviations, 1.0), np.float64)
     scales = [*map(Scale, preset.shared, preset.weights, preset.restless_over)]
     requested = [(np.arange(scaled.shape[1]), scale) for scale in scales]
     if len(scales) > 1 and preset.half_views:
@@ -231,12 +232,6 @@ def divide_by_change(statistics: Floats, steps: int, weight: float) -> NDArray[n
     if least < TINY:
         return np.ascontiguousarray(centred, np.float32)
     return np.ascontiguousarray(centred / np.maximum(mean_change, least) ** weight, np.float32)
-
-
-def _measure_deviations(centred: Floats) -> Floats:
-    """Return the standard deviation of each column; 1 for constant columns."""
-    deviations: Floats = np.sqrt((centred**2).mean(axis=0))
-    return np.where(deviations > TINY, deviations, 1.0)
 
 
 def choose_view(

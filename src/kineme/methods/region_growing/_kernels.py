@@ -1,22 +1,15 @@
-"""Compiled loops of the segmentation: growing regions, coherent paths, links.
+"""Compiled loops of the published methods: neighbours, growing regions, warping paths, links.
 
-Frames count from 0. Naive versions of the kernels are in ``tests/helpers/naive``.
+Kernels do not check their arguments; the functions that call them do. Frames count from 0. Naive
+versions are in ``tests/helpers/naive``. Signatures are explicit, so that each kernel is compiled
+once, and compiled code is cached on disk.
 
-@@_path_kernels: Compiled loops over the neighbour graph: components and cheapest paths.
-
-A node is a stored pair (t, j) inside a box of rows and columns. Nodes are
-numbered row by row, ascending in j. A warping step (a, b) leads from
-(t - a, j - b) to (t, j). Naive versions are in ``tests/helpers/naive``.
-
-``first[r]`` is the first stored entry of row r inside the box, and ``node[r]``
-the number of its node. So node v of row r is entry ``v + first[r] - node[r]``.
-The last few rows are stored densely in a ring buffer, in which a step is one look-up.
-
-@@_neighbor_kernels: Compiled loops that search neighbours.
-
-Kernels do not check their arguments; the functions that call them do. Naive versions
-are in ``tests/helpers/naive``. Signatures are explicit, so that each kernel is
-compiled once, and compiled code is cached on disk.
+Components and cheapest paths are found on the neighbour graph. A node is a stored pair (t, j)
+inside a box of rows and columns. Nodes are numbered row by row, ascending in j. A warping step
+(a, b) leads from (t - a, j - b) to (t, j). ``first[r]`` is the first stored entry of row r inside
+the box, and ``node[r]`` the number of its node. So node v of row r is entry
+``v + first[r] - node[r]``. The last few rows are stored densely in a ring buffer, in which a step
+is one look-up.
 """
 
 from __future__ import annotations
@@ -25,6 +18,9 @@ import numpy as np
 from numba import njit
 
 from kineme._util.parallel import OPTIONS
+
+RUN = 32
+"""Number of columns that are screened at a time, by one vectorised comparison."""
 
 
 @njit("Tuple((int64[::1], int32[::1]))(int64[::1], int32[::1], boolean)", **OPTIONS)
@@ -502,10 +498,6 @@ def find_paths_in_box(
             columns[position] = indices[v + first[r] - node[r]]
             v = before[v]
     return ptr, rows, columns, costs[ends]
-
-
-RUN = 32
-"""Number of columns that are screened at a time, by one vectorised comparison."""
 
 
 @njit("float32(float32[::1], int64, int64)", **OPTIONS)

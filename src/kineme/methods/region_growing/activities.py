@@ -1,42 +1,23 @@
-"""Find activities: blocks of the self-similarity matrix that repeat themselves.
+"""Find activities, their repetitions (primitives), and clusters of similar segments.
 
-A region grows along the diagonal while it finds new neighbours away from the
-diagonal. Grown forward from the first frame, it ends where an activity ends. Grown
-backward from the last frame, it ends where an activity starts. The span between an
-end and the next start is a transition.
+*Activities* are blocks of the self-similarity matrix that repeat themselves. A region grows along
+the diagonal while it finds new neighbours away from the diagonal. Grown forward from the first
+frame, it ends where an activity ends. Grown backward from the last frame, it ends where an activity
+starts. The span between an end and the next start is a transition. There are two variants: the
+region is a square whose neighbours are counted (2014), or it is scanned line by line (2017).
 
-There are two variants: the region is a square whose neighbours are counted (2014),
-or it is scanned line by line (2017).
+*Primitives.* Every repetition of an activity appears as a minor diagonal in the self-similarity
+matrix: a connected component of the neighbour graph, with a cheapest warping path through it. A
+repetition begins at the column where such a path meets the first rows of the activity.
 
-Sources: Vögele, Krüger and Klein 2014, section 3.1, figure 2; Krüger et al.
-2017; constants and details as in the authors' program.
+*Clusters.* A segment g is linked to a segment h if a warping path through the rows of g covers
+enough of both. Clusters are the connected components of these links, so their number is a result
+and not a parameter.
 
-@@primitives: Find primitives: the repetitions inside an activity.
-
-Every repetition of an activity appears as a minor diagonal in the self-similarity
-matrix: a connected component of the neighbour graph, with a cheapest warping path
-through it. A repetition begins at the column where such a path meets the first rows
-of the activity.
-
-Sources: Vögele, Krüger and Klein 2014, section 3.2, figure 3; Krüger et al.
-2017 and the authors' program for the choice between close cuts.
-
-@@clustering: Cluster segments that match each other, anywhere in the recording.
-
-A segment g is linked to a segment h if a warping path through the rows of g
-covers enough of both. Clusters are the connected components of these links, so
-their number is a result and not a parameter.
-
-Sources: Vögele, Krüger and Klein 2014, section 4; coverage and strong
-components as in the authors' program and Krüger et al. 2017.
-
-@@mirroring: Find mirrored cuts: starts of repetitions with left and right exchanged.
-
-A step with the right foot is similar to the mirrored step with the left. So warping
-paths between mirrored and original frames divide double steps into left and right ones.
-Activities and clusters do not use them.
-
-The symmetry of an activity follows from the positions of its mirrored paths:
+*Mirrored cuts.* A step with the right foot is similar to the mirrored step with the left. So
+warping paths between mirrored and original frames divide double steps into left and right ones.
+Activities and clusters do not use them. The symmetry of an activity follows from the positions of
+its mirrored paths:
 
 - ``symmetric``: on the other paths; left and right do the same at once (squats);
 - ``alternating``: between the other paths; left and right take turns (walking);
@@ -44,8 +25,10 @@ The symmetry of an activity follows from the positions of its mirrored paths:
   arm). Limitations: long rests between kicks count as symmetric, and a limp larger
   than the radius as one-sided.
 
-Source: Krueger et al. 2017, section V. There the type of symmetry decides which
-cuts are added. The authors' program and this module decide for each cut.
+Sources: Vögele, Krüger and Klein 2014, sections 3.1 (figure 2), 3.2 (figure 3) and 4; Krüger et al.
+2017, also section V for mirrored cuts. There the type of symmetry decides which cuts are added; the
+authors' program and this module decide for each cut. Constants, the choice between close cuts,
+coverage and strong components are as in the program.
 """
 
 from __future__ import annotations
@@ -66,6 +49,8 @@ from kineme.methods.region_growing.warping import Step, WarpingPaths, warping_pa
 from kineme.methods.segments import number_by_appearance
 
 Cuts = NDArray[np.int64]
+HALF = 0.5
+"""Share of frames or nodes that counts as a majority."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -331,10 +316,6 @@ def _find_best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArra
     np.maximum.at(scores, coo.row[same], coo.data[same])
     np.maximum.at(scores, coo.col[same], coo.data[same])
     return scores
-
-
-HALF = 0.5
-"""Share of frames or nodes that counts as a majority."""
 
 
 def merge_cuts(

@@ -1,8 +1,6 @@
 """Run the stages of the published methods, in frames at the working rate.
 
-Features are any array of frames × dims.
-
-@@found: Results of all stages of the published methods, and the segment table made from them.
+Features are any array of frames × dims. `RegionsFound` holds the results of all stages.
 """
 
 from __future__ import annotations
@@ -86,7 +84,11 @@ class RegionsFound:
         """Return the segment table; an activity is in the cluster of most of its frames."""
         # Activity of each primitive: the last one that begins at or before it.
         parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
-        clusters = _number_clusters(self, parents)
+        labels = self.clustering.labels
+        is_single = np.bincount(labels)[labels] == 1
+        # Transitions that are similar to no other segment have no cluster.
+        has_cluster = ~(is_single & ~self.repeats[parents])
+        clusters = number_by_appearance(np.where(has_cluster, labels, -1))
         activity_clusters = _find_main_clusters(clusters, parents, np.diff(self.primitives))
         return make_columns(
             self.borders,
@@ -99,14 +101,6 @@ class RegionsFound:
     def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
         """Return an empty list: the published methods estimate no confidence."""
         return []
-
-
-def _number_clusters(found: RegionsFound, parents: NDArray[np.intp]) -> Frames:
-    """Number clusters from 0 by appearance; -1 for transitions that are similar to no other."""
-    labels = found.clustering.labels
-    is_single = np.bincount(labels)[labels] == 1
-    has_cluster = ~(is_single & ~found.repeats[parents])
-    return number_by_appearance(np.where(has_cluster, labels, -1))
 
 
 def _find_main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
@@ -179,7 +173,10 @@ def analyze_regions(
             # Mirrored frames are compared with the original ones.
             graph_across = _find_neighbors(mirror(compared), compared, preset)
             mirrored = _find_primitives(graph_across, borders, preset)
-            cuts_inside = _merge_cuts(divided, mirrored, preset)
+            gap = preset.min_primitive * preset.working_fps
+            cuts_inside = [
+                merge_cuts(a.cuts, b.cuts, gap) for a, b in zip(divided, mirrored, strict=True)
+            ]
             symmetry = _classify_symmetry(borders, repeats, divided, mirrored, preset)
     with stage("clusters"):
         # Borders of activities are also borders of primitives.
@@ -272,13 +269,6 @@ def _find_primitives(
         )
 
     return map_threads(find_cuts, range(len(borders) - 1))
-
-
-def _merge_cuts(
-    main: list[PrimitiveCuts], mirrored: list[PrimitiveCuts], preset: RegionGrowingConstants
-) -> list[Frames]:
-    gap = preset.min_primitive * preset.working_fps
-    return [merge_cuts(a.cuts, b.cuts, gap) for a, b in zip(main, mirrored, strict=True)]
 
 
 def _classify_symmetry(

@@ -23,6 +23,11 @@ from kineme._util.parallel import make_even_slices, map_threads
 from kineme.errors import ParameterError
 from kineme.methods.region_growing import _kernels
 
+Part = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
+"""Rows of a graph: number of neighbours per row, their indices, their distances."""
+BLOCK_ENTRIES = 1 << 21
+"""Number of entries of one block of the matrix product: 8 MB of float32."""
+
 
 @dataclass(frozen=True, eq=False)
 class NeighborGraph:
@@ -194,13 +199,6 @@ def neighbor_graph(
     counts, indices, distances = (np.concatenate(part) for part in zip(*parts, strict=True))
     indptr = np.concatenate([[0], np.cumsum(counts)])
     return NeighborGraph(indptr, indices, distances, len(columns), float(radius))
-
-
-BLOCK_ENTRIES = 1 << 21
-"""Number of entries of one block of the matrix product: 8 MB of float32."""
-
-Part = tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float32]]
-"""Rows of a graph: number of neighbours per row, their indices, their distances."""
 
 
 def iterate_neighbors(
