@@ -3,8 +3,8 @@
  * confidence is the product of those of its start, its cluster and its number of repetitions. A
  * primitive's confidence is that of its start.
  */
-import type { Segment, Segments } from "./messages";
-import { memoize } from "./memoize";
+import type { Segment, Segments, Level } from "./messages";
+import { memoize } from "./util";
 import { getSegmentName } from "./segments";
 import { formatTime } from "./view";
 
@@ -130,4 +130,32 @@ function explainMissing(segment: Segment, around: TableStatistics): string {
 
 function getClusterKey({ level, cluster }: Segment): string {
   return `${level} ${cluster}`;
+}
+
+/** A segment to review and its confidence. */
+export interface Doubt {
+  segment: Segment;
+  confidence: Confidence;
+}
+
+/** Return the unchecked segments, lowest confidence first, unknown ones last. */
+export function listDoubts(table: Segments): Doubt[] {
+  const confidences = getConfidences(table);
+  return table.segments
+    .filter(({ checked }) => !checked)
+    .map((segment) => ({ segment, confidence: confidences.get(segment) }))
+    .sort(
+      (a, b) =>
+        (a.confidence.value ?? 2) - (b.confidence.value ?? 2) || compareTime(a.segment, b.segment),
+    );
+}
+
+/** Count the checked and all segments of a level. */
+export function countProgress(table: Segments, level: Level): [checked: number, all: number] {
+  const rows = table.segments.filter((row) => row.level === level);
+  return [rows.filter(({ checked }) => checked).length, rows.length];
+}
+
+function compareTime(a: Segment, b: Segment): number {
+  return a.start_frame - b.start_frame || a.level.localeCompare(b.level);
 }

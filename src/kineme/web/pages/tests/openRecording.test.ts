@@ -3,8 +3,7 @@ import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
 import type { MotionHead, Recording } from "../src/messages";
 import type { Motion } from "../src/motion";
-import { loadMotion, type OpenRecording } from "../src/openRecording";
-import type { RecordingData } from "../src/recordingData";
+import { loadMotion, type OpenRecording, type RecordingData } from "../src/recordingData";
 
 const head = (n_samples: number): MotionHead => ({
   n_samples,

@@ -1,16 +1,18 @@
 /** Show the self-similarity matrix; similar frames are bright. */
 import { useMemo } from "preact/hooks";
-import type { JSX } from "preact";
-import { useStore } from "../context";
-import { Canvas } from "../canvas/Canvas";
-import { PlayheadLine } from "../canvas/PlayheadLine";
+import { useStore } from "../store";
+import { Canvas, PlayheadLine } from "../canvas/Canvas";
 import { theme } from "../theme";
 import { formatTime, toPixel, type Span } from "../view";
 import { drawMatrix, EDGE } from "./drawing";
 import { MatrixGestures } from "./gestures";
 import { MatrixTiles } from "./tiles";
+import { NO_COLOR } from "../colors";
+import { getDuration, getSegmentName } from "../segments";
+import { IconButton, Swatch } from "../layout/controls";
+import { getConfidences } from "../confidence";
 
-export function Matrix(): JSX.Element {
+export function Matrix() {
   const store = useStore();
   const data = store.active.value?.data;
   const tiles = useMemo(() => (data ? new MatrixTiles(data) : null), [data]);
@@ -56,7 +58,7 @@ export function Matrix(): JSX.Element {
 }
 
 /** Show the playhead on both axes. */
-function Crosshair({ rows }: { rows: { value: Span } }): JSX.Element {
+function Crosshair({ rows }: { rows: { value: Span } }) {
   const store = useStore();
   const { playhead, range } = store;
   return (
@@ -64,5 +66,56 @@ function Crosshair({ rows }: { rows: { value: Span } }): JSX.Element {
       <PlayheadLine share={toPixel(range.value, 1, playhead.value)} />
       <PlayheadLine share={toPixel(rows.value, 1, playhead.value)} horizontal />
     </div>
+  );
+}
+
+/** Show the matrix and, if there is space, the current segment. */
+export function MatrixPanel() {
+  return (
+    <div class="matrix-place">
+      <div class="matrix-top">
+        <Matrix />
+      </div>
+      <CurrentSegment />
+    </div>
+  );
+}
+
+/** Show the primitive at the playhead, with buttons to the other members of its cluster. */
+export function CurrentSegment() {
+  const store = useStore();
+  const segment = store.present.value;
+  if (!segment) return null;
+  const table = store.recording.value?.segmentation;
+  const confidence = table && getConfidences(table).get(segment);
+  const cluster = store.clusters.value.find((each) => each.id === segment.cluster);
+  const members = cluster?.members ?? [];
+  const at = members.indexOf(segment);
+  const selectMember = (by: number): void => {
+    const next = members[(at + by + members.length) % members.length];
+    if (next) store.select(next);
+  };
+  return (
+    <section class="present" aria-label="At the playhead">
+      <p class="present-name">
+        <Swatch color={store.getColor(segment) ?? NO_COLOR} />
+        <b>{getSegmentName(segment)}</b>
+        <span class="spacer" />
+        {at >= 0 && (
+          <>
+            <span class="quiet number">
+              {at + 1} of {members.length}
+            </span>
+            <IconButton icon="back" label="Member before" onClick={() => selectMember(-1)} />
+            <IconButton icon="on" label="Next member" onClick={() => selectMember(1)} />
+          </>
+        )}
+      </p>
+      <p class="quiet number">
+        {formatTime(segment.start_s, 2)} to {formatTime(segment.stop_s, 2)} ·{" "}
+        {getDuration(segment).toFixed(2)} s
+        {confidence?.text && <span title={confidence.why}> · {confidence.text}</span>}
+      </p>
+    </section>
   );
 }

@@ -1,7 +1,6 @@
 /** Show messages: one line of news, and problems that stay until dismissed. */
-
 import { effect, signal, untracked } from "@preact/signals";
-import { explainError } from "./server/answers";
+import { explainError } from "./server/api";
 
 const READING_TIME = 6000; // milliseconds
 

@@ -1,5 +1,5 @@
 /** Compute the size of a body and the thickness of its bones. Pure functions. */
-import { memoize } from "../memoize";
+import { memoize } from "../util";
 import { computePose, type Motion } from "../motion";
 import type { MotionHead } from "../messages";
 

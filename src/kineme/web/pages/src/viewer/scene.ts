@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
 import { getHeading, computePose, findRoot, type Motion } from "../motion";
-import { formatPerson } from "../openRecording";
+import { formatPerson } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
 import { readColor, theme } from "../theme";
@@ -16,8 +16,7 @@ import {
   placeSideBySide,
   type PlacedFigure,
 } from "./placement";
-import { Figure } from "./figure";
-import { Ghost } from "./ghost";
+import { Figure, Ghost } from "./figure";
 import type { Tag } from "./nameTags";
 import { Stage } from "./stage";
 import { Trails } from "./trails";

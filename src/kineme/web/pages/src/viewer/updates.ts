@@ -1,7 +1,7 @@
 /** Redraw the viewer when signals change and handle its input. */
 import { effect } from "@preact/signals";
 import { CLICK_TOLERANCE } from "../canvas/pointers";
-import { listen } from "../layout/browser";
+import { listen } from "../util";
 import type { Store } from "../store";
 import { isPrinting, theme } from "../theme";
 import { ticker } from "../ticker";

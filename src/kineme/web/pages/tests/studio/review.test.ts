@@ -1,7 +1,6 @@
 import { expect, it } from "vitest";
-import { listDoubts, countProgress } from "../../src/studio/review/doubts";
+import { listDoubts, countProgress, getConfidences } from "../../src/confidence";
 import { sliceRows, NO_FILTER, listRows, findSpansToMerge } from "../../src/studio/table/rows";
-import { getConfidences } from "../../src/confidence";
 import { segment, createTable } from "../recordings";
 
 const rows = [

@@ -1,10 +1,9 @@
 /** Export the segments in any format that the package writes. */
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Level } from "../../messages";
-import { saveFile } from "../server/saveFile";
+import { saveFile } from "../server/api";
 import { Dialog, type DialogProps } from "./Dialog";
 import { Button } from "../../layout/controls";
 
@@ -14,7 +13,7 @@ const CHOICES: readonly (readonly [Level | "", string])[] = [
   ["primitive", "primitives alone"],
 ];
 
-export function ExportDialog({ close }: DialogProps): JSX.Element {
+export function ExportDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const level = useSignal<Level | "">("");
   const all = useSignal(false);

@@ -1,6 +1,5 @@
 /** List repetitions as loops, the best of each cluster first, to play and export. */
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { LoopRow, Segment } from "../../messages";
@@ -8,13 +7,12 @@ import { NO_COLOR } from "../../colors";
 import { getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
 import { unpackLoop, type Loop } from "../../viewer/loop";
-import { explainError } from "../server/api";
-import { saveFile } from "../server/saveFile";
+import { explainError, saveFile } from "../server/api";
 import { Dialog, type DialogProps } from "./Dialog";
 import { LoopPlayer } from "./LoopPlayer";
 import { Button, Checkbox, toggleMember, Swatch, TableHead } from "../../layout/controls";
 
-export function LoopsDialog({ close }: DialogProps): JSX.Element {
+export function LoopsDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const { edited, api, notifications, store } = session;
   const found = useSignal<LoopRow[] | null>(null);
@@ -29,7 +27,7 @@ export function LoopsDialog({ close }: DialogProps): JSX.Element {
     opened
       .waitUntilSent() // then its rows match those shown
       .then(() => api.loadLoops(opened.id))
-      .then((loops) => {
+      .then(({ loops }) => {
         found.value = loops;
         chosen.value = new Set(loops.filter(({ rank }) => rank === 1).map((each) => each.number));
       })

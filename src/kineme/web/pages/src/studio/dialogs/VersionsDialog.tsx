@@ -1,22 +1,21 @@
 /** List replaced tables of the recording, to compare or restore. */
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import type { Version } from "../../messages";
-import { formatCount } from "../../formatCount";
+import { formatCount } from "../../util";
 import { describeEdit } from "../editing/describeEdit";
 import { Dialog, type DialogProps } from "./Dialog";
 import { Button } from "../../layout/controls";
 
-export function VersionsDialog({ close }: DialogProps): JSX.Element {
+export function VersionsDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const versions = useSignal<Version[] | null>(null);
   const edited = session.edited.value;
   useEffect(() => {
     if (!edited) return;
     void session.notifications.attempt("versions", async () => {
-      versions.value = await session.api.loadVersions(edited.id);
+      versions.value = (await session.api.loadVersions(edited.id)).versions;
     });
   }, [edited, session, versions]);
   const fps = edited?.confirmed.value.fps ?? 1;

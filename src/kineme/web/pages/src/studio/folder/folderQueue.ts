@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import type { Segment, Segments } from "../../messages";
 import { findIndexAt, getSegmentKey } from "../../segments";
-import type { Doubt } from "../review/doubts";
+import type { Doubt } from "../../confidence";
 import { getDoubts } from "./briefTables";
 import type { Folder } from "./folder";
 

@@ -2,12 +2,11 @@
 import { computed, signal } from "@preact/signals";
 import type { Segment } from "../../messages";
 import type { Editor } from "../editing/editor";
-import { Folder } from "../folder/folder";
+import { Folder, NameOffer } from "../folder/folder";
 import { FolderQueue } from "../folder/folderQueue";
-import { NameOffer } from "../folder/nameOffer";
 import { findRow, getSegmentKey } from "../../segments";
 import type { Session } from "../session";
-import { listDoubts, type Doubt } from "./doubts";
+import { listDoubts, type Doubt } from "../../confidence";
 
 export class Review {
   /** Whether the review covers all recordings of the folder. */
