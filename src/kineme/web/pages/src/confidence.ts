@@ -1,11 +1,11 @@
 /**
- * Combine a segment's confidences into one number and explain it. Pure functions. An activity's
- * confidence is the product of those of its start, its cluster and its number of repetitions. A
- * primitive's confidence is that of its start.
+ * Combine a segment's confidences into one number and explain it; list what to review first. Pure
+ * functions. An activity's confidence is the product of those of its start, its cluster and its
+ * number of repetitions. A primitive's confidence is that of its start.
  */
 import type { Segment, Segments, Level } from "./messages";
 import { memoize } from "./util";
-import { getSegmentName } from "./segments";
+import { compareTime, getSegmentName } from "./segments";
 import { formatTime } from "./view";
 
 export interface Confidence {
@@ -25,21 +25,12 @@ interface Part {
   of: "start" | "cluster" | "count";
 }
 
-/** Return the confidences of a table's segments. */
-export const getConfidences = memoize((table: Segments) => new Confidences(table));
-
-/** Compute a segment's confidence on demand. */
-class Confidences {
-  private readonly statistics: TableStatistics;
-
-  constructor(table: Segments) {
-    this.statistics = new TableStatistics(table);
-  }
-
-  get(segment: Segment): Confidence {
-    return new SegmentConfidence(segment, this.statistics);
-  }
+/** Return the confidence of a table's segment. */
+export function getConfidence(table: Segments, segment: Segment): Confidence {
+  return new SegmentConfidence(segment, getStatistics(table));
 }
+
+const getStatistics = memoize((table: Segments) => new TableStatistics(table));
 
 /** Counts over the whole table that a segment's confidence depends on. */
 class TableStatistics {
@@ -140,10 +131,9 @@ export interface Doubt {
 
 /** Return the unchecked segments, lowest confidence first, unknown ones last. */
 export function listDoubts(table: Segments): Doubt[] {
-  const confidences = getConfidences(table);
   return table.segments
     .filter(({ checked }) => !checked)
-    .map((segment) => ({ segment, confidence: confidences.get(segment) }))
+    .map((segment) => ({ segment, confidence: getConfidence(table, segment) }))
     .sort(
       (a, b) =>
         (a.confidence.value ?? 2) - (b.confidence.value ?? 2) || compareTime(a.segment, b.segment),
@@ -154,8 +144,4 @@ export function listDoubts(table: Segments): Doubt[] {
 export function countProgress(table: Segments, level: Level): [checked: number, all: number] {
   const rows = table.segments.filter((row) => row.level === level);
   return [rows.filter(({ checked }) => checked).length, rows.length];
-}
-
-function compareTime(a: Segment, b: Segment): number {
-  return a.start_frame - b.start_frame || a.level.localeCompare(b.level);
 }

@@ -21,7 +21,7 @@ export const PAGE_KEYS: readonly (readonly [string, string])[] = [
 ];
 
 /** Return a key's command, or undefined. */
-export function getPageCommand(
+function getPageCommand(
   event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">,
   store: Store,
 ): (() => void) | undefined {
@@ -73,16 +73,8 @@ export function listenToKeys(
   };
 }
 
-const NAVIGATION_KEYS = [
-  "ArrowLeft",
-  "ArrowRight",
-  "ArrowUp",
-  "ArrowDown",
-  "Home",
-  "End",
-  "PageUp",
-  "PageDown",
-];
+const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
+const NAVIGATION_KEYS = [...ARROWS, "Home", "End", "PageUp", "PageDown"];
 const ACTIVATION_KEYS = [" ", "Enter"];
 const NON_TEXT_TYPES = ["range", "checkbox", "radio", "button", "submit", "file", "color"];
 
@@ -107,7 +99,10 @@ export function watchFocus(): () => void {
   return listen(window, listeners, { capture: true, passive: true });
 }
 
-/** Return whether the player may handle a key press. */
+/**
+ * Return whether the player may handle a key press. Text fields get all keys. A clicked control
+ * gets none. A control focused with Tab keeps the keys that operate it.
+ */
 export function isPlayerKey(event: KeyboardEvent): boolean {
   const target = event.target instanceof HTMLElement ? event.target : null;
   if (event.defaultPrevented || target?.closest("dialog[open]")) return false;
@@ -118,7 +113,7 @@ export function isPlayerKey(event: KeyboardEvent): boolean {
 }
 
 /** Remove the focus from a clicked control after the player handled a key. */
-export function blurClicked(): void {
+function blurClicked(): void {
   if (clickedElement instanceof HTMLElement && clickedElement === document.activeElement)
     clickedElement.blur();
 }
@@ -130,10 +125,9 @@ function isTextField(element: HTMLElement): boolean {
 
 /** Return the keys that operate a control. */
 function getControlKeys(element: HTMLElement): readonly string[] {
-  if (element instanceof HTMLSelectElement) return [...NAVIGATION_KEYS, ...ACTIVATION_KEYS];
   if (element instanceof HTMLInputElement)
     return element.type === "range" ? NAVIGATION_KEYS : ACTIVATION_KEYS;
-  if (element.closest("[role=tab], [role=separator]"))
+  if (element instanceof HTMLSelectElement || element.closest("[role=tab], [role=separator]"))
     return [...NAVIGATION_KEYS, ...ACTIVATION_KEYS];
   return element.closest("button, summary, a, label") ? ACTIVATION_KEYS : [];
 }

@@ -42,7 +42,18 @@ export function findRow(
   return segments.find((row) => row.level === level && row.start_frame === start_frame);
 }
 
-type SegmentId = Pick<Segment, "level" | "start_frame">;
+/** Identifies a segment by level and start frame. */
+export type SegmentId = Pick<Segment, "level" | "start_frame">;
+
+/** Order activities before primitives, then by time. */
+export function compareLevel(a: SegmentId, b: SegmentId): number {
+  return a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
+}
+
+/** Order by time, activities before primitives. */
+export function compareTime(a: SegmentId, b: SegmentId): number {
+  return a.start_frame - b.start_frame || a.level.localeCompare(b.level);
+}
 
 /** Return a key by level and start, which stays when the end changes. */
 export function getSegmentKey({ level, start_frame }: SegmentId): string {
@@ -148,7 +159,7 @@ export function joinLabels(
 }
 
 /** A label, how often it occurs and its total duration. */
-export interface LabelCount {
+interface LabelCount {
   label: string;
   count: number;
   total_s: number;
@@ -169,7 +180,7 @@ export function countLabels(lane: readonly Segment[]): LabelCount[] {
 }
 
 /** An activity with its repetitions and the mean duration of those not excluded. */
-export interface RepeatedActivity extends Mean {
+interface RepeatedActivity extends Mean {
   activity: Segment;
   /** Seconds of each repetition, in time order, and whether it is excluded. */
   durations: number[];

@@ -2,7 +2,7 @@
 import type { Store } from "./store";
 import { ticker } from "./ticker";
 
-/** @param more returns further properties */
+/** Expose the state; `more` returns further properties. */
 export function exposeSnapshot(store: Store, more = (): object => ({})): void {
   const get = (): object => Object.freeze({ ...createSnapshot(store), ...more() });
   Object.defineProperty(window, "kineme", { get });

@@ -9,7 +9,9 @@ import {
   joinLabels,
   getLane,
   findNearestBorder,
+  findRow,
   findSegmentAt,
+  type SegmentId,
 } from "./segments";
 import { revealTime, clampRange, panRange, zoomRange, type Span } from "./view";
 import { getClusterColor, assignLabelColors } from "./colors";
@@ -26,12 +28,6 @@ export interface Drag {
   to: number;
 }
 
-/** Identifies a segment by level and start frame. */
-export interface Selection {
-  level: Level;
-  start_frame: number;
-}
-
 /** Another result, shown below the first. */
 export interface OtherResult {
   name: string;
@@ -40,15 +36,15 @@ export interface OtherResult {
   marked?: boolean;
 }
 
-export interface Bounds {
+interface Bounds {
   start_s: number | null;
   stop_s: number | null;
 }
 
-export const UNBOUNDED: Bounds = { start_s: null, stop_s: null };
+const UNBOUNDED: Bounds = { start_s: null, stop_s: null };
 
 /** Available levels of detail, coarsest first, and the current one. */
-export interface Levels {
+interface Levels {
   all: readonly number[];
   detail: number;
   choose: (detail: number) => void;
@@ -72,7 +68,7 @@ export class Store {
   /** Marked start and stop, seconds; null if not set. */
   readonly bounds = signal<Bounds>(UNBOUNDED);
   /** The selected segment; moving the playhead out of it clears the selection. */
-  readonly selection = signal<Selection | null>(null);
+  readonly selection = signal<SegmentId | null>(null);
   /** The level that the user edits. */
   readonly level = signal<Level>("primitive");
   /** Number of the selected cluster. */
@@ -151,8 +147,7 @@ export class Store {
   );
   readonly selected = computed(() => {
     const at = this.selection.value;
-    if (!at) return undefined;
-    return this.getLane(at.level).find((each) => each.start_frame === at.start_frame);
+    return at && this.table.value ? findRow(this.table.value, at) : undefined;
   });
 
   /** Return the index of the open recording with an id; -1 if none. */

@@ -17,7 +17,7 @@ interface Props extends Omit<HTMLAttributes<HTMLCanvasElement>, "label"> {
   gestures?: PointerHandlers;
 }
 
-export interface PointerHandlers {
+interface PointerHandlers {
   down(event: PointerEvent): void;
   move(event: PointerEvent): void;
   up(event: PointerEvent): void;

@@ -112,7 +112,7 @@ interface ChannelChoiceProps {
 }
 
 /** List the curves to choose from, with a search field. */
-export function ChannelChoice({ list, defaultJoints }: ChannelChoiceProps) {
+function ChannelChoice({ list, defaultJoints }: ChannelChoiceProps) {
   const search = useSignal("");
   const shown = new Set(selectCurves(list, defaultJoints).map(({ curve }) => curve));
   const words = search.value.toLowerCase().split(/\s+/);

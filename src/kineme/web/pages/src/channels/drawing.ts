@@ -179,7 +179,7 @@ export function chooseLevel(framesPerPixel: number, factor: number, levels: numb
 }
 
 /** Return the range of values in each of `width` pixels, interpolated if bins are wider. */
-export function computeOutline(
+function computeOutline(
   bin: (index: number) => readonly [number, number] | null,
   bins: number,
   perSecond: number,

@@ -31,7 +31,7 @@ const ORDERS: readonly (readonly [string, (a: Cluster, b: Cluster) => number])[]
 ];
 
 /** Renumber clusters or merge two of them. */
-export function ClusterTools() {
+function ClusterTools() {
   const store = useStore();
   const edit = store.edit.value;
   const clusters = store.clusters.value;
@@ -91,7 +91,7 @@ function orderAllClusters(store: Store, ordered: readonly Cluster[]): number[] {
 }
 
 /** List the clusters with count and duration; without clusters, the labels. */
-export function ClusterList() {
+function ClusterList() {
   const store = useStore();
   const clusters = store.clusters.value;
   if (clusters.length === 0) return <LabelList />;
@@ -200,7 +200,7 @@ function LabelList() {
 }
 
 /** Show a cluster's name; double click or F2 edits it if the page allows edits. */
-export function ClusterName({ cluster }: { cluster: Cluster }) {
+function ClusterName({ cluster }: { cluster: Cluster }) {
   const store = useStore();
   const { id, label } = cluster;
   const isNaming = useSignal(false);

@@ -55,7 +55,7 @@ export function appendUnit(number: string, unit: string): string {
   return unit === "°" ? `${number}°` : `${number} ${unit}`.trim();
 }
 
-export interface MeasuredCurves {
+interface MeasuredCurves {
   data: RecordingData;
   channels: readonly CycleChannel[];
   /** null if the cluster has no curves. */

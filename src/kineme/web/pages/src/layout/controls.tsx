@@ -25,7 +25,7 @@ export function Button(props: ComponentProps<"button"> & { busy?: boolean }) {
 /** Render a button that switches a signal on and off. */
 export function Toggle({ on, ...rest }: ComponentProps<"button"> & { on: Signal<boolean> }) {
   const onClick = (): void => void (on.value = !on.value);
-  return <Button aria-pressed={on.value} onClick={onClick} {...(rest as object)} />;
+  return <Button aria-pressed={on.value} onClick={onClick} {...rest} />;
 }
 
 /** Render a titled field. */

@@ -62,7 +62,7 @@ function UnsentEdits({ edits }: { edits: string[] }) {
 }
 
 /** Offer to apply a cluster's new name to all recordings. */
-export function NameOfferNotice() {
+function NameOfferNotice() {
   const { review } = useStudio();
   const { offer } = review;
   const { value: present } = offer.present;

@@ -13,15 +13,13 @@ import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
 import { type DialogName, useStudio } from "./context";
 import { type DialogProps, HelpDialog } from "./dialogs/Dialog";
-import { CompareDialog } from "./dialogs/CompareDialog";
+import { CompareDialog, VersionsDialog } from "./dialogs/CompareDialog";
 import { ComparePanel } from "./panels/ComparePanel";
 import { DropZone, FolderPanel, OpeningProgress } from "./panels/FolderPanel";
-import { ExportDialog } from "./dialogs/ExportDialog";
+import { ExportDialog, LoopsDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
 import { QueueBar, ReviewPanel } from "./review/ReviewPanel";
 import { Header } from "./Header";
-import { VersionsDialog } from "./dialogs/VersionsDialog";
-import { LoopsDialog } from "./dialogs/LoopsDialog";
 import { Notices } from "./Notices";
 import { PosesOffer } from "./poses/PosesOffer";
 import { PresetPanel } from "./panels/PresetPanel";
@@ -197,7 +195,10 @@ function VideoOffset({ start }: { start: Signal<number> }) {
 
 const DRAW_DELAY = 300; // milliseconds for drawing the folder's rows first
 
-/** Return whether to set up the stage: at once if a recording opens, else after the folder page. */
+/**
+ * Return whether to set up the 3-D stage, which blocks a page for half a second: at once if a
+ * recording opens, else after the folder page.
+ */
 function useStageReady(): ReadonlySignal<boolean> {
   const { session, review } = useStudio();
   const isReady = useSignal(readOpenIds().length > 0);

@@ -4,7 +4,7 @@ import { explainError } from "./server/api";
 
 const READING_TIME = 6000; // milliseconds
 
-export interface News {
+interface News {
   text: string;
   /** Key of the active table; the news disappears when it changes. */
   of: string;
@@ -12,7 +12,7 @@ export interface News {
   refused: boolean;
 }
 
-export interface Problem {
+interface Problem {
   text: string;
   about: string;
 }

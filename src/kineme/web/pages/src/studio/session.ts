@@ -30,7 +30,7 @@ const OF_TABLE = ["preview", "compare"];
 const OF_RECORDING = ["video", "versions", "clips", "export"];
 
 /** A recording that could not be read. */
-export interface Unread {
+interface Unread {
   id: string;
   name: string;
   people: readonly string[];

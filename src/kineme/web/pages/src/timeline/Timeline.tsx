@@ -88,7 +88,7 @@ function SelectionStatus() {
 }
 
 /** Show the whole recording and the visible range; drag to move the range or to seek. */
-export function Overview() {
+function Overview() {
   const store = useStore();
   const dragging = useRef(false);
   const moveTo = (event: PointerEvent): void => {

@@ -209,7 +209,7 @@ export function drawRuler(pen: Pen, range: Span, plotWidth: number): void {
   }
 }
 
-export function drawLoop(pen: Pen, loop: Span | null, range: Span, plotWidth: number): void {
+function drawLoop(pen: Pen, loop: Span | null, range: Span, plotWidth: number): void {
   if (!loop) return;
   const left = Math.max(toPixel(range, plotWidth, loop.start_s), 0);
   const right = Math.min(toPixel(range, plotWidth, loop.stop_s), plotWidth);
@@ -219,7 +219,7 @@ export function drawLoop(pen: Pen, loop: Span | null, range: Span, plotWidth: nu
 }
 
 /** Draw the marks as brackets on the ruler. */
-export function drawMarks(pen: Pen, store: Store, range: Span, plotWidth: number): void {
+function drawMarks(pen: Pen, store: Store, range: Span, plotWidth: number): void {
   pen.fillStyle = readColor("accent");
   const { start_s, stop_s } = store.bounds.value;
   for (const [seconds, toward] of [

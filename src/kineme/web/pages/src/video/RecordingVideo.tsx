@@ -140,7 +140,7 @@ const FRAME_OFFSET = 0.004;
  * Synchronise the page with a video. During playback the video sets the time, so that picture,
  * sound and keypoints match. Outside of the video the page advances by itself.
  */
-export class VideoClock implements VideoTime {
+class VideoClock implements VideoTime {
   /** Time of the visible picture in the video, seconds; null if the browser does not report it. */
   private shownTime: number | null = null;
   private mayPlay = true;

@@ -41,7 +41,7 @@ export function Viewer() {
 }
 
 /** Offer the viewer's options. */
-export function ViewerButtons({ onFrame }: { onFrame: () => void }) {
+function ViewerButtons({ onFrame }: { onFrame: () => void }) {
   const store = useStore();
   const hasMotion = Boolean(store.active.value?.motion.value);
   return (

@@ -7,7 +7,7 @@ import { getHeading, computePose, findRoot, type Motion } from "../motion";
 import { readColor } from "../theme";
 import { movePose, getFigureTime, type Placement } from "./placement";
 
-export interface Colors {
+interface Colors {
   body: string;
   joint: string;
   shadow: string;
@@ -203,7 +203,7 @@ export class Ghost {
 }
 
 /** Return the placement that gives a repetition the start and heading of another. */
-export function computeGhostPlacement(motion: Motion, segment: Segment, over: Segment): Placement {
+function computeGhostPlacement(motion: Motion, segment: Segment, over: Segment): Placement {
   const pose = new Float32Array(motion.head.joints.length * 3);
   const root = 3 * findRoot(motion.head);
   const at = (seconds: number): [number, number] => {

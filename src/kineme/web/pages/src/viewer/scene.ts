@@ -17,12 +17,20 @@ import {
   type PlacedFigure,
 } from "./placement";
 import { Figure, Ghost } from "./figure";
-import type { Tag } from "./nameTags";
 import { Stage } from "./stage";
 import { Trails } from "./trails";
 
 const TRAIL_LENGTH = 1.2; // seconds
 const CATCH_UP = 3; // rate per second at which the camera follows during playback
+
+/** A name and its position (bottom centre), as shares of the canvas. */
+export interface Tag {
+  name: string;
+  x: number;
+  y: number;
+  /** Whether edits apply to this person. */
+  isActive: boolean;
+}
 
 export class FigureScene {
   readonly stage: Stage;

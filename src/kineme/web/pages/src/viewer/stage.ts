@@ -129,7 +129,7 @@ function createContext(canvas: HTMLCanvasElement): {
 const REACH = 40; // cells to each side
 
 /** Draw the ground: a plane with a grid that fades into the sky. */
-export class Floor {
+class Floor {
   /** Sky colour and the distances between which objects fade into it. */
   readonly fog: Fog = { sky: { value: new THREE.Color() }, fade: { value: new THREE.Vector2() } };
   readonly mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.Material>;
@@ -179,7 +179,7 @@ const SUPERSAMPLING = 2;
 const ADJUST_INTERVAL = 24; // frames between two changes
 
 /** Pixels per CSS pixel, adapted to the duration of frames. */
-export class Sharpness {
+class Sharpness {
   /** Share of the full ratio during playback. */
   private share = 1;
   private slow = 0;

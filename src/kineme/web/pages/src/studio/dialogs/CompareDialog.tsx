@@ -2,10 +2,11 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import type { CompareRequest, AnnotatorChoice } from "../../messages";
+import type { CompareRequest, AnnotatorChoice, Version } from "../../messages";
 import { Dialog, type DialogProps } from "./Dialog";
 import { Button, Checkbox, toggleMember } from "../../layout/controls";
 import { formatCount } from "../../util";
+import { describeEdit } from "../editing/describeEdit";
 
 export function CompareDialog({ close }: DialogProps) {
   const { session } = useStudio();
@@ -79,7 +80,7 @@ export function CompareDialog({ close }: DialogProps) {
 const TABLES_HERE = "tables"; // id of the tables edited here
 
 /** Choose whose labels to compare; all by default. */
-export function PeopleChoice({ close }: { close: () => void }) {
+function PeopleChoice({ close }: { close: () => void }) {
   const { session, view } = useStudio();
   const people = useSignal<AnnotatorChoice[]>([]);
   const ticked = useSignal<ReadonlySet<string>>(new Set());
@@ -131,5 +132,64 @@ export function PeopleChoice({ close }: { close: () => void }) {
         Compare {ticked.value.size} people
       </Button>
     </div>
+  );
+}
+
+/** List replaced tables of the recording, to compare or restore. */
+export function VersionsDialog({ close }: DialogProps) {
+  const { session } = useStudio();
+  const versions = useSignal<Version[] | null>(null);
+  const edited = session.edited.value;
+  useEffect(() => {
+    if (!edited) return;
+    void session.notifications.attempt("versions", async () => {
+      versions.value = (await session.api.loadVersions(edited.id)).versions;
+    });
+  }, [edited, session, versions]);
+  const fps = edited?.confirmed.value.fps ?? 1;
+  const look = (version: Version): Promise<boolean> =>
+    session.notifications.attempt("versions", async () => {
+      const found = await session.api.loadVersion(edited!.id, version.number);
+      session.comparisons.showBelow({ ...found, name: `Version ${version.number}` }, true);
+      close();
+    });
+  return (
+    <Dialog title="Tables that were replaced" close={close}>
+      <p class="quiet">
+        Every table that another one took the place of is kept. Undo goes back edit by edit; here,
+        whole tables come back, and what is shown now is kept in turn.
+      </p>
+      {versions.value?.length === 0 && <p>No table of this recording has been replaced yet.</p>}
+      <table class="formats versions">
+        <tbody>
+          {versions.value?.map((version) => (
+            <tr key={version.number}>
+              <td class="quiet">{new Date(version.at).toLocaleString()}</td>
+              <td>
+                {version.edit ? `last: ${describeEdit(version.edit, fps)}` : "as it was found"}
+                <br />
+                <span class="quiet">
+                  {formatCount(version.segments, "segment")}, {formatCount(version.names, "name")},{" "}
+                  {formatCount(version.corrections, "correction")}
+                </span>
+              </td>
+              <td>
+                <span class="group">
+                  <Button onClick={() => void look(version)}>Look</Button>
+                  <Button
+                    onClick={() => {
+                      void edited?.edit({ kind: "restore", version: version.number });
+                      close();
+                    }}
+                  >
+                    Bring back
+                  </Button>
+                </span>
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </Dialog>
   );
 }

@@ -91,7 +91,7 @@ export function LoopPlayer({ loop, name, color }: Props) {
 }
 
 /** Draw a loop on its own stage; the camera follows the figure. */
-export class LoopScene {
+class LoopScene {
   readonly stage: Stage;
   private loop: Loop | null = null;
   private figure: Figure | null = null;

@@ -70,7 +70,7 @@ export function TransferDialog({ close }: DialogProps) {
 }
 
 /** Create a knowledge base from recordings with named segments. */
-export function NewKnowledge() {
+function NewKnowledge() {
   const { session } = useStudio();
   const named = (session.state.value?.recordings ?? []).filter((each) => each.named > 0);
   const excluded = useSignal<ReadonlySet<string>>(new Set());

@@ -1,5 +1,5 @@
-/** Apply the rows that the server changed to a table; see `web/tables.py`. */
-import { getSegmentKey, findRow } from "../../segments";
+/** Apply what the server changed to a table (see `web/tables.py`) and to queued edits. */
+import { compareLevel, getSegmentKey, findRow } from "../../segments";
 import type { Segment, Segments, TableChange, Edit, Level } from "../../messages";
 
 export function applyChange(table: Segments, change: TableChange): Segments {
@@ -7,12 +7,8 @@ export function applyChange(table: Segments, change: TableChange): Segments {
   for (const [level, start_frame] of change.removed)
     rows.delete(getSegmentKey({ level, start_frame }));
   for (const row of change.rows) rows.set(getSegmentKey(row), row);
-  const { cluster_names } = change;
-  return {
-    ...table,
-    cluster_names,
-    segments: numberActivities([...rows.values()].sort(compareRows)),
-  };
+  const segments = numberActivities([...rows.values()].sort(compareLevel));
+  return { ...table, cluster_names: change.cluster_names, segments };
 }
 
 /** Return the rows with the index of the activity that contains each. */
@@ -27,12 +23,11 @@ function numberActivities(rows: readonly Segment[]): Segment[] {
   });
 }
 
-/** Order activities before primitives, then by time. */
-function compareRows(a: Segment, b: Segment): number {
-  return a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
-}
-
-/** Return the edit for the same segments of a later table; null if one is gone. */
+/**
+ * Return the edit for the same segments of a later table; null if one is gone. Level and start
+ * frame identify a segment; a border is the start of the segment after it. A segment whose start
+ * moved keeps its stop. Only a split applies to a frame, whichever segment contains it.
+ */
 export function retargetEdit(edit: Edit, before: Segments, now: Segments): Edit | null {
   let isGone = false;
   const followed = mapFrames(edit, before, (level, frame) => {

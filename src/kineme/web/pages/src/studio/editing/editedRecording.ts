@@ -20,7 +20,7 @@ const UNDECIDED = "Not done: first choose what becomes of the edits above.";
 /** An entry of the queue: an edit, or a command that needs the table of the edits before it. */
 type Turn = Unsent | (() => void);
 
-export interface RecordingContext {
+interface RecordingContext {
   api: Api;
   folder: string;
   /** Return whether the last request got no answer. */

@@ -265,7 +265,7 @@ interface FolderRowProps {
 }
 
 /** Render a recording's row in the folder table. */
-export function FolderRow({ row, at, top, columns }: FolderRowProps) {
+function FolderRow({ row, at, top, columns }: FolderRowProps) {
   const { session } = useStudio();
   const current = session.store.recording.value?.id === row.listing.id;
   return (

@@ -6,7 +6,7 @@ import { countChecked, getLane } from "../../segments";
 import { listDoubts } from "../../confidence";
 
 /** Segments with a lower confidence count as doubtful. */
-export const DOUBT_LIMIT = 0.5;
+const DOUBT_LIMIT = 0.5;
 
 /** Build a segment table from its columns. */
 export function unpackTable(brief: BriefTable): Segments {

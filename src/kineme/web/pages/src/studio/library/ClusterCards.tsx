@@ -187,7 +187,7 @@ interface Props<Value> {
 }
 
 /** Choose some entries of a list for one action. */
-export function ChoiceDialog<Value>(props: Props<Value>) {
+function ChoiceDialog<Value>(props: Props<Value>) {
   const { title, say, action, choices, most = choices.length, choose, close } = props;
   const chosen = useSignal<ReadonlySet<Value>>(new Set());
   const n = chosen.value.size;

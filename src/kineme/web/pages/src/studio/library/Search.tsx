@@ -115,7 +115,7 @@ function Downloads({ page }: { page: LibraryPage }) {
 }
 
 /** Edit the searched span and the largest distance. */
-export function SpanForm({ page }: { page: LibraryPage }) {
+function SpanForm({ page }: { page: LibraryPage }) {
   const recordings = (page.state.value?.recordings ?? []).filter((each) => each.vocabulary);
   const first = recordings[0];
   const span: Span = page.span.value ?? {
@@ -186,7 +186,7 @@ function Field(props: { label: string; value: number; change: (value: number) =>
 const prefersReducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
 /** Show a search hit with an animated figure, its place and distance, and buttons to judge it. */
-export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }) {
+function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }) {
   const looked = useSignal(false);
   const right = page.verdicts.value.get(getHitKey(hit))?.right;
   const front = page.hits.value[page.frontIndex.value] === hit;
@@ -259,7 +259,7 @@ export function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }) {
 }
 
 /** Listen to the keyboard and return a function that stops; `cards` contains the hits. */
-export function listenToHitKeys(page: LibraryPage, cards: () => HTMLElement | null): () => void {
+function listenToHitKeys(page: LibraryPage, cards: () => HTMLElement | null): () => void {
   const onKey = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.altKey || event.metaKey || !isPlayerKey(event)) return;
     const at = page.frontIndex.peek();

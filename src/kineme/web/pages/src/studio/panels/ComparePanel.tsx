@@ -75,7 +75,7 @@ interface Props {
 }
 
 /** List where results differ; a click goes there. */
-export function DifferenceTable({ caption, names, differences }: Props) {
+function DifferenceTable({ caption, names, differences }: Props) {
   const store = useStore();
   return (
     <table class="differences number">
@@ -110,7 +110,7 @@ const BY_MAPPING =
   "Names are missing or differ, so one person’s stand for another’s as they agree best.";
 
 /** Show how well people agree: pairs, all together, by recording, and where they differ. */
-export function AgreementPanel({ agreement }: { agreement: Agreement }) {
+function AgreementPanel({ agreement }: { agreement: Agreement }) {
   const { session } = useStudio();
   const here = session.people.recordingAgreement.value;
   return (

@@ -134,7 +134,7 @@ function EmptyHint(props: { all: number; found: number; suffixes: string[] | und
   return null;
 }
 
-export function formatFileSize(bytes: number): string {
+function formatFileSize(bytes: number): string {
   return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
 }
 

@@ -180,7 +180,7 @@ function isDefault({ name, value, step }: Parameter, values: Values): boolean {
 }
 
 /** Show the consequences of a previewed segmentation, and apply or discard it. */
-export function ProposalPanel(props: {
+function ProposalPanel(props: {
   proposal: Proposal;
   keep: boolean;
   setKeep: (keep: boolean) => void;
@@ -227,7 +227,7 @@ export function ProposalPanel(props: {
 }
 
 /** Edit a preset's parameter with a number field and a slider. */
-export function ParameterSlider(props: {
+function ParameterSlider(props: {
   parameter: Parameter;
   value: number;
   change: (value: number) => void;
@@ -268,7 +268,7 @@ function roundToThreeDigits(value: number): number {
 const POLL_INTERVAL = 400; // milliseconds between requests, and before the first
 
 /** Show a segmentation's progress, with a button to cancel. */
-export function RunProgress({ id }: { id: string }) {
+function RunProgress({ id }: { id: string }) {
   const { session } = useStudio();
   const progress = useSignal<Progress | null>(null);
   useEffect(() => {

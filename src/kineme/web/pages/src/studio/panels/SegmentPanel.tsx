@@ -16,7 +16,7 @@ import {
   TextInput,
 } from "../../layout/controls";
 import { getDuration, getSegmentName } from "../../segments";
-import { getConfidences } from "../../confidence";
+import { getConfidence } from "../../confidence";
 import { formatCount } from "../../util";
 import type { Session } from "../session";
 import { useSignal } from "@preact/signals";
@@ -35,7 +35,7 @@ export function SegmentPanel() {
   const called = table?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
-  const confidence = table && getConfidences(table).get(segment);
+  const confidence = table && getConfidence(table, segment);
   return (
     <div class="segment-panel">
       <p class="times number">

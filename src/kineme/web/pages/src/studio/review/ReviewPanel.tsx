@@ -139,7 +139,7 @@ function Progress(props: { level: Level; title: string; of: [number, number] }) 
 }
 
 /** Go to the next segment to review, optionally marking the current one. */
-export function ReviewButtons() {
+function ReviewButtons() {
   const { review } = useStudio();
   return (
     <>

@@ -251,7 +251,7 @@ export class ServerData implements RecordingData {
 }
 
 /** A file to save. */
-export interface Download {
+interface Download {
   name: string;
   data: Blob;
 }
@@ -326,7 +326,11 @@ function createRefusal(status: number, text: string): Refused {
   return new Refused(status, body?.error ?? `The server refused this with status ${status}.`, body);
 }
 
-/** Send this tab's token to other tabs and take over theirs if its own is no longer valid. */
+/**
+ * Send this tab's token to other tabs and take over theirs if its own is no longer valid. A
+ * restarted server has a new token, known to the tab it opens. Older tabs, which may hold unsent
+ * edits, continue with it.
+ */
 export function shareToken(api: Api): void {
   const channel = new BroadcastChannel("kineme.token");
   const isGood = (token: string): Promise<boolean> =>
