@@ -1,11 +1,11 @@
 /**
- * Combine a segment's confidences into one number and explain it. Pure functions. An activity's
- * confidence is the product of those of its start, its cluster and its number of repetitions. A
- * primitive's confidence is that of its start.
+ * Combine a segment's confidences into one number and explain it; list what to review first. Pure
+ * functions. An activity's confidence is the product of those of its start, its cluster and its
+ * number of repetitions. A primitive's confidence is that of its start.
  */
-import type { Segment, Segments } from "./messages";
-import { memoize } from "./memoize";
-import { getSegmentName } from "./segments";
+import type { Segment, Segments, Level } from "./messages";
+import { memoize } from "./util";
+import { compareTime, getSegmentName } from "./segments";
 import { formatTime } from "./view";
 
 export interface Confidence {
@@ -25,21 +25,12 @@ interface Part {
   of: "start" | "cluster" | "count";
 }
 
-/** Return the confidences of a table's segments. */
-export const getConfidences = memoize((table: Segments) => new Confidences(table));
-
-/** Compute a segment's confidence on demand. */
-class Confidences {
-  private readonly statistics: TableStatistics;
-
-  constructor(table: Segments) {
-    this.statistics = new TableStatistics(table);
-  }
-
-  get(segment: Segment): Confidence {
-    return new SegmentConfidence(segment, this.statistics);
-  }
+/** Return the confidence of a table's segment. */
+export function getConfidence(table: Segments, segment: Segment): Confidence {
+  return new SegmentConfidence(segment, getStatistics(table));
 }
+
+const getStatistics = memoize((table: Segments) => new TableStatistics(table));
 
 /** Counts over the whole table that a segment's confidence depends on. */
 class TableStatistics {
@@ -130,4 +121,27 @@ function explainMissing(segment: Segment, around: TableStatistics): string {
 
 function getClusterKey({ level, cluster }: Segment): string {
   return `${level} ${cluster}`;
+}
+
+/** A segment to review and its confidence. */
+export interface Doubt {
+  segment: Segment;
+  confidence: Confidence;
+}
+
+/** Return the unchecked segments, lowest confidence first, unknown ones last. */
+export function listDoubts(table: Segments): Doubt[] {
+  return table.segments
+    .filter(({ checked }) => !checked)
+    .map((segment) => ({ segment, confidence: getConfidence(table, segment) }))
+    .sort(
+      (a, b) =>
+        (a.confidence.value ?? 2) - (b.confidence.value ?? 2) || compareTime(a.segment, b.segment),
+    );
+}
+
+/** Count the checked and all segments of a level. */
+export function countProgress(table: Segments, level: Level): [checked: number, all: number] {
+  const rows = table.segments.filter((row) => row.level === level);
+  return [rows.filter(({ checked }) => checked).length, rows.length];
 }

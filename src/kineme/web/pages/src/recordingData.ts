@@ -1,9 +1,16 @@
 /** Load a recording's data: from the page itself (report) or the server (studio). */
-import type { ClusterCurves, CurveList, CycleChannel, Recording, ReportCurves } from "./messages";
-import { inflate } from "./motion";
+import type {
+  ClusterCurves,
+  CurveList,
+  CycleChannel,
+  Recording,
+  ReportCurves,
+  MotionHead,
+} from "./messages";
+import { inflate, unpackMotion, type Motion } from "./motion";
+import type { ReadonlySignal, Signal } from "@preact/signals";
 
 export interface RecordingData {
-  loadRecording(): Promise<Recording>;
   /** Return the deflated binary motion (see motion.ts) with the given number of poses. */
   loadMotion(n_samples: number): Promise<ArrayBuffer>;
   /** Return the keypoints in the video, in the format of the motion. */
@@ -42,10 +49,10 @@ export class EmbeddedData implements RecordingData {
     this.drawn = JSON.parse(this.readText("kineme-curves") || "null") as typeof this.drawn;
   }
 
-  loadRecording(): Promise<Recording> {
+  readRecording(): Recording {
     const text = this.readText("kineme-recording");
-    if (!text) return Promise.reject(new Error("This page holds no recording."));
-    return Promise.resolve(JSON.parse(text) as Recording);
+    if (!text) throw new Error("This page holds no recording.");
+    return JSON.parse(text) as Recording;
   }
 
   loadMotion(): Promise<ArrayBuffer> {
@@ -58,7 +65,7 @@ export class EmbeddedData implements RecordingData {
 
   /** First the original address, then beside the page, since both are often moved together. */
   getVideoAddresses(): string[] {
-    const { video } = JSON.parse(this.readText("kineme-recording")) as Recording;
+    const { video } = this.readRecording();
     return video?.address ? [video.address, encodeURIComponent(video.name)] : [];
   }
 
@@ -108,4 +115,39 @@ export function decodeBase64(base64: string): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
   return bytes;
+}
+
+/** A recording on the page; edits replace the table inside `recording`. */
+export interface OpenRecording {
+  data: RecordingData;
+  recording: ReadonlySignal<Recording>;
+  /** null without a skeleton or while loading. */
+  motion: Signal<Motion | null>;
+  /** Keypoints in the video; null without them or while loading. */
+  keypoints: Signal<Motion | null>;
+}
+
+/** Return a person's display name; numbers become "person 1". */
+export function formatPerson(name: string): string {
+  return /^\d+$/.test(name) ? `person ${name}` : name;
+}
+
+/** Load a recording's motion, again until all poses of a large recording are there. */
+export async function loadMotion(opened: OpenRecording): Promise<void> {
+  const keypoints = loadKeypoints(opened);
+  for (;;) {
+    const { motion: head } = opened.recording.peek(); // it may have changed while loading
+    if (!head || isComplete(head, opened.motion.peek())) return keypoints;
+    opened.motion.value = await unpackMotion(head, await opened.data.loadMotion(head.n_samples));
+  }
+}
+
+async function loadKeypoints(opened: OpenRecording): Promise<void> {
+  const picture = opened.recording.peek().video?.picture;
+  if (!picture || opened.keypoints.peek()) return;
+  opened.keypoints.value = await unpackMotion(picture.keypoints, await opened.data.loadKeypoints());
+}
+
+function isComplete({ n_samples, step }: MotionHead, motion: Motion | null): boolean {
+  return motion?.head.n_samples === n_samples && motion.head.step === step;
 }

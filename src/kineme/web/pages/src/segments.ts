@@ -1,6 +1,5 @@
 /** Query segment tables. */
-import { formatCount } from "./formatCount";
-import { memoize } from "./memoize";
+import { formatCount, memoize, type Mean, computeMean } from "./util";
 import type { Level, Segment, Segments } from "./messages";
 
 /** A cluster with its members and durations. */
@@ -30,10 +29,9 @@ export function formatCounts(table: Segments): string {
 }
 
 /** Return the segments of a level in time order; they tile the recording. */
-export function getLane(table: Segments, level: Level): Segment[] {
-  return table.segments
-    .filter((segment) => segment.level === level)
-    .sort((a, b) => a.start_frame - b.start_frame);
+export function getLane(table: Segments | undefined, level: Level): Segment[] {
+  const rows = table?.segments.filter((segment) => segment.level === level) ?? [];
+  return rows.sort((a, b) => a.start_frame - b.start_frame);
 }
 
 /** Return the row with the same level and start frame. */
@@ -44,7 +42,18 @@ export function findRow(
   return segments.find((row) => row.level === level && row.start_frame === start_frame);
 }
 
-type SegmentId = Pick<Segment, "level" | "start_frame">;
+/** Identifies a segment by level and start frame. */
+export type SegmentId = Pick<Segment, "level" | "start_frame">;
+
+/** Order activities before primitives, then by time. */
+export function compareLevel(a: SegmentId, b: SegmentId): number {
+  return a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
+}
+
+/** Order by time, activities before primitives. */
+export function compareTime(a: SegmentId, b: SegmentId): number {
+  return a.start_frame - b.start_frame || a.level.localeCompare(b.level);
+}
 
 /** Return a key by level and start, which stays when the end changes. */
 export function getSegmentKey({ level, start_frame }: SegmentId): string {
@@ -150,7 +159,7 @@ export function joinLabels(
 }
 
 /** A label, how often it occurs and its total duration. */
-export interface LabelCount {
+interface LabelCount {
   label: string;
   count: number;
   total_s: number;
@@ -168,4 +177,31 @@ export function countLabels(lane: readonly Segment[]): LabelCount[] {
     counts.set(label, total);
   }
   return [...counts.values()].sort((a, b) => b.total_s - a.total_s);
+}
+
+/** An activity with its repetitions and the mean duration of those not excluded. */
+interface RepeatedActivity extends Mean {
+  activity: Segment;
+  /** Seconds of each repetition, in time order, and whether it is excluded. */
+  durations: number[];
+  leftOut: boolean[];
+}
+
+/** Return the activities that have repetitions, in time order. */
+export function listRepetitions(table: Segments): RepeatedActivity[] {
+  const inside = new Map<number, Segment[]>();
+  for (const row of getLane(table, "primitive")) {
+    if (row.kind !== "primitive") continue;
+    const others = inside.get(row.activity);
+    if (others) others.push(row);
+    else inside.set(row.activity, [row]);
+  }
+  return getLane(table, "activity").flatMap((activity, number) => {
+    const rows = inside.get(number) ?? [];
+    if (activity.kind === "transition" || !rows.length) return [];
+    const durations = rows.map(getDuration);
+    const leftOut = rows.map((row) => row.excluded ?? false);
+    const counted = durations.filter((_, i) => !leftOut[i]);
+    return [{ activity, durations, leftOut, ...computeMean(counted) }];
+  });
 }

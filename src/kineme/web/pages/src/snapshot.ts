@@ -1,47 +1,16 @@
 /** Expose the state as read-only `window.kineme`, for tests. */
-import type { Selection } from "./state";
 import type { Store } from "./store";
-import type { Span } from "./view";
 import { ticker } from "./ticker";
 
-export interface Snapshot {
-  readonly name: string;
-  readonly playhead: number;
-  readonly frame: number;
-  readonly duration: number;
-  readonly playing: boolean;
-  readonly speed: number;
-  readonly loop: Span | null;
-  readonly selection: Selection | null;
-  readonly cluster: number | null;
-  readonly inStep: boolean;
-  readonly range: Span;
-  readonly revision: number;
-  readonly saved: string;
-  readonly n_segments: number;
-  readonly finding: boolean;
-  readonly hasMotion: boolean;
-  readonly other: string | null;
-  readonly others: readonly string[];
-  /** Frames drawn within the last second, and in total. */
-  readonly rate: number;
-  readonly drawn: number;
+/** Expose the state; `more` returns further properties. */
+export function exposeSnapshot(store: Store, more = (): object => ({})): void {
+  const get = (): object => Object.freeze({ ...createSnapshot(store), ...more() });
+  Object.defineProperty(window, "kineme", { get });
 }
 
-declare global {
-  interface Window {
-    readonly kineme: Snapshot;
-  }
-}
-
-export function exposeSnapshot(store: Store): void {
-  Object.defineProperty(window, "kineme", { get: () => createSnapshot(store), configurable: true });
-}
-
-/** Return the current state of the page. */
-export function createSnapshot(store: Store): Snapshot {
+function createSnapshot(store: Store): object {
   const recording = store.recording.value;
-  return Object.freeze({
+  return {
     name: recording?.name ?? "",
     playhead: store.playhead.value,
     frame: store.frame.value,
@@ -60,7 +29,8 @@ export function createSnapshot(store: Store): Snapshot {
     hasMotion: Boolean(store.active.value?.motion.value),
     other: store.others.value[0]?.name ?? null,
     others: store.others.value.map(({ name }) => name),
+    /** Frames drawn within the last second, and in total. */
     rate: ticker.measureRate(),
     drawn: ticker.drawn,
-  });
+  };
 }

@@ -1,15 +1,177 @@
-/** Change the state of a page. */
-import { batch } from "@preact/signals";
-import type { Level, Segment } from "./messages";
-import type { OpenRecording } from "./openRecording";
-import { getDuration, findIndexAt } from "./segments";
-import { State, UNBOUNDED } from "./state";
+/** Hold a page's state as signals, and change it. */
+import { batch, computed, signal, type ReadonlySignal } from "@preact/signals";
+import type { Level, Segment, ByHand, Segments } from "./messages";
+import type { OpenRecording } from "./recordingData";
+import {
+  getDuration,
+  findIndexAt,
+  groupClusters,
+  joinLabels,
+  getLane,
+  findNearestBorder,
+  findRow,
+  findSegmentAt,
+  type SegmentId,
+} from "./segments";
 import { revealTime, clampRange, panRange, zoomRange, type Span } from "./view";
+import { getClusterColor, assignLabelColors } from "./colors";
+import { createContext } from "preact";
+import { useContext } from "preact/hooks";
 
 const MIN_VISIBLE_SHARE = 1 / 30; // of the visible time
 const ZOOM_CONTEXT = 12; // visible time, as a multiple of the segment's duration
 
-export class Store extends State {
+/** A border being dragged to another frame. */
+export interface Drag {
+  lane: string;
+  frame: number;
+  to: number;
+}
+
+/** Another result, shown below the first. */
+export interface OtherResult {
+  name: string;
+  segmentation: Segments;
+  /** Whether to mark borders that only one of the two results has. */
+  marked?: boolean;
+}
+
+interface Bounds {
+  start_s: number | null;
+  stop_s: number | null;
+}
+
+const UNBOUNDED: Bounds = { start_s: null, stop_s: null };
+
+/** Available levels of detail, coarsest first, and the current one. */
+interface Levels {
+  all: readonly number[];
+  detail: number;
+  choose: (detail: number) => void;
+}
+
+/** Time source that playback follows. */
+export interface VideoTime {
+  /** Return the time in the recording, seconds; null if the video has no picture for it. */
+  getTime(): number | "waiting" | null;
+}
+
+export class Store {
+  /** Recordings shown side by side. */
+  readonly opened = signal<OpenRecording[]>([]);
+  /** Index of the active recording. */
+  readonly current = signal(0);
+  readonly playhead = signal(0);
+  readonly playing = signal(false);
+  readonly speed = signal(1);
+  readonly loop = signal<Span | null>(null);
+  /** Marked start and stop, seconds; null if not set. */
+  readonly bounds = signal<Bounds>(UNBOUNDED);
+  /** The selected segment; moving the playhead out of it clears the selection. */
+  readonly selection = signal<SegmentId | null>(null);
+  /** The level that the user edits. */
+  readonly level = signal<Level>("primitive");
+  /** Number of the selected cluster. */
+  readonly cluster = signal<number | null>(null);
+  /** Number of the cluster under the pointer. */
+  readonly hovered = signal<number | null>(null);
+  /** Whether the viewer plays all members of `cluster` in step. */
+  readonly inStep = signal(false);
+  /** A repetition shown over the current one, in step with it. */
+  readonly ghost = signal<Segment | null>(null);
+  readonly follow = signal(true);
+  readonly trails = signal(true);
+  /** Time of the visible video; null without one. */
+  readonly videoTime = signal<VideoTime | null>(null);
+  readonly figureFirst = signal(false);
+  readonly muted = signal(false);
+  /** Visible time span of timeline and matrix; null for all. */
+  readonly zoom = signal<Span | null>(null);
+  /** Other results of the recording, shown below it. */
+  readonly others = signal<readonly OtherResult[]>([]);
+  /** Whether curves are shown below the timeline. */
+  readonly curves = signal(false);
+  /** null if there is only one level of detail. */
+  readonly levels = signal<Levels | null>(null);
+  /** Applies an edit; null in a report. */
+  readonly edit = signal<((edit: ByHand) => void) | null>(null);
+  /** The border that a pointer or a pressed key is moving. */
+  readonly drag = signal<Drag | null>(null);
+
+  readonly active = computed(() => this.opened.value[this.current.value]);
+  readonly recording = computed(() => this.active.value?.recording.value);
+  /** Open people of the active recording's file; empty if only one is open. */
+  readonly people = computed(() => {
+    const file = this.recording.value?.file;
+    const same = this.opened.value.filter((each) => file && each.recording.value.file === file);
+    return same.length > 1 ? same : [];
+  });
+  /** The active segment table; each edit replaces it. */
+  readonly table = computed(() => this.recording.value?.segmentation);
+  readonly fps = computed(() => this.recording.value?.fps ?? 1);
+  readonly duration = computed(() => (this.recording.value?.n_frames ?? 0) / this.fps.value);
+  readonly range: ReadonlySignal<Span> = computed(
+    () => this.zoom.value ?? { start_s: 0, stop_s: Math.max(this.duration.value, 1e-3) },
+  );
+  readonly frame = computed(() => this.getFrameAt(this.playhead.value));
+  readonly activities = computed(() => getLane(this.table.value, "activity"));
+  readonly primitives = computed(() => getLane(this.table.value, "primitive"));
+  readonly labels = computed(() => joinLabels(this.activities.value, this.primitives.value));
+  /** Colours of the labels of all shown results. */
+  readonly labelColors = computed(() =>
+    assignLabelColors([
+      ...(this.table.value?.segments ?? []),
+      ...this.others.value.flatMap(({ segmentation }) => segmentation.segments),
+      ...this.people.value.flatMap(({ recording }) => recording.value.segmentation.segments),
+    ]),
+  );
+  readonly clusters = computed(() =>
+    groupClusters(this.primitives.value, this.table.value?.cluster_names ?? {}),
+  );
+  readonly shownCluster = computed(() =>
+    this.clusters.value.find((cluster) => cluster.id === this.cluster.value),
+  );
+  /** The primitive at the playhead. */
+  readonly present = computed(() => findSegmentAt(this.primitives.value, this.frame.value));
+  /** The edited level: activities if there are no primitives. */
+  readonly workLevel: ReadonlySignal<Level> = computed(() =>
+    this.primitives.value.length ? this.level.value : "activity",
+  );
+  /** Segment that edits apply to: the one at the playhead. */
+  readonly target = computed(() =>
+    findSegmentAt(this.getLane(this.workLevel.value), this.frame.value),
+  );
+  /** Segment after the border nearest to the playhead. */
+  readonly border = computed(() =>
+    findNearestBorder(this.getLane(this.workLevel.value), this.frame.value),
+  );
+  readonly selected = computed(() => {
+    const at = this.selection.value;
+    return at && this.table.value ? findRow(this.table.value, at) : undefined;
+  });
+
+  /** Return the index of the open recording with an id; -1 if none. */
+  findIndex(id: string | undefined): number {
+    return this.opened.value.findIndex((each) => each.recording.value.id === id);
+  }
+
+  /** Return a segment's colour: its cluster's, else its label's, else null. */
+  getColor(segment: Segment): string | null {
+    if (segment.cluster >= 0) return getClusterColor(segment.cluster);
+    return this.labelColors.value.get(segment.label) ?? null;
+  }
+
+  /** Return the frame shown at a time (seconds), clipped to the recording. */
+  getFrameAt(seconds: number): number {
+    const last = Math.max((this.recording.value?.n_frames ?? 1) - 1, 0);
+    return Math.min(Math.max(Math.floor(seconds * this.fps.value + 1e-6), 0), last);
+  }
+
+  /** Return the segments of a level in time order. */
+  getLane(level: Level): Segment[] {
+    return level === "activity" ? this.activities.value : this.primitives.value;
+  }
+
   seek(seconds: number): void {
     const playhead = Math.min(Math.max(seconds, 0), this.duration.value);
     batch(() => {
@@ -146,15 +308,10 @@ export class Store extends State {
   toggleLoop(): void {
     const marked = this.getMarkedSpan();
     const segment = this.target.value;
-    if (this.loop.value || (!segment && !marked)) {
-      this.loop.value = null;
+    if (this.loop.value || marked || !segment) {
+      this.loop.value = this.loop.value ? null : marked;
       return;
     }
-    if (marked) {
-      this.loop.value = marked;
-      return;
-    }
-    if (!segment) return;
     this.select(segment, { seek: !containsFrame(segment, this.frame.value) });
     this.loop.value = { start_s: segment.start_s, stop_s: segment.stop_s };
   }
@@ -207,4 +364,15 @@ export function findDetailIndex(detail: number, all: readonly number[]): number 
 
 function containsFrame(segment: Segment, frame: number): boolean {
   return segment.start_frame <= frame && frame < segment.stop_frame && getDuration(segment) > 0;
+}
+
+const StoreContext = createContext<Store | null>(null);
+
+/** Provide the store to all components of a page. */
+export const StoreProvider = StoreContext.Provider;
+
+export function useStore(): Store {
+  const store = useContext(StoreContext);
+  if (!store) throw new Error("A component stands outside of the StoreProvider.");
+  return store;
 }

@@ -2,9 +2,9 @@
 import { effect } from "@preact/signals";
 
 /** Called before each frame with the seconds since the last one (at most 0.5). */
-export type Task = (seconds: number) => void;
+type Task = (seconds: number) => void;
 
-export class Ticker {
+class Ticker {
   /** Number of frames drawn. */
   drawn = 0;
   private readonly tasks = new Set<Task>();

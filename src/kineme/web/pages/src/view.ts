@@ -42,7 +42,7 @@ export function clampRange(range: Span, total: number): Span {
   return { start_s: start, stop_s: start + length };
 }
 
-export interface Tick {
+interface Tick {
   seconds: number;
   label: string;
 }

@@ -49,7 +49,7 @@ test("the server is asked in one place", () => {
   const requesting = files.filter((file) =>
     /\bfetch\(|EventSource\(|XMLHttpRequest\(|["`]\/api/.test(readFileSync(file, "utf-8")),
   );
-  const allowed = ["api.ts", "paths.ts", "libraryApi.ts"];
+  const allowed = ["api.ts", "paths.ts"];
   expect(requesting.filter((file) => !allowed.includes(basename(file)))).toEqual([]);
 });
 

@@ -1,22 +1,10 @@
 import { signal } from "@preact/signals";
 import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
-import type { MotionHead, Recording } from "../src/messages";
+import type { Recording } from "../src/messages";
 import type { Motion } from "../src/motion";
-import { loadMotion, type OpenRecording } from "../src/openRecording";
-import type { RecordingData } from "../src/recordingData";
-
-const head = (n_samples: number): MotionHead => ({
-  n_samples,
-  sample_fps: 30,
-  joints: ["hips"],
-  parents: [-1],
-  bones: [],
-  origin: [0, 0, 0],
-  step: 1,
-  heading: null,
-  effectors: {},
-});
+import { loadMotion, type OpenRecording, type RecordingData } from "../src/recordingData";
+import { head } from "./recordings";
 
 test("all poses follow the few that a large recording shows first, also where they overtake", async () => {
   const recording = signal({ motion: head(2) } as Recording);
@@ -25,7 +13,7 @@ test("all poses follow the few that a large recording shows first, also where th
     loadMotion(n_samples: number) {
       asked.push(n_samples);
       recording.value = { motion: head(5) } as Recording; // it has been read meanwhile
-      return Promise.resolve(new Uint8Array(deflateSync(new Uint8Array(6 * n_samples))).buffer);
+      return Promise.resolve(new Uint8Array(deflateSync(new Uint8Array(12 * n_samples))).buffer);
     },
   } as unknown as RecordingData;
   const opened: OpenRecording = {

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Segments } from "../src/messages";
-import { listRepetitions } from "../src/print/repetitions";
+import { listRepetitions } from "../src/segments";
 import { segment, createTable } from "./recordings";
 
 it("lists each activity with the durations of its repetitions", () => {

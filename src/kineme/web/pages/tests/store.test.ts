@@ -1,7 +1,6 @@
-import { signal } from "@preact/signals";
+import { signal, type Signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import type { Recording } from "../src/messages";
-import type { ShownRecording } from "../src/openRecording";
 import type { RecordingData } from "../src/recordingData";
 import { Store } from "../src/store";
 import { segment, createTable } from "./recordings";
@@ -106,13 +105,10 @@ test("the view follows the playhead, and all of it is shown again at the end of 
 test("a selection that an edit took away is none", () => {
   const store = page();
   store.select(primitives[1]!);
-  const opened = store.active.value as ShownRecording;
-  const { segmentation } = opened.recording.value;
+  const recording = store.active.value!.recording as Signal<Recording>;
+  const { segmentation } = recording.value;
   const segments = segmentation.segments.filter((each) => each.start_frame !== 10);
-  opened.recording.value = {
-    ...opened.recording.value,
-    segmentation: { ...segmentation, segments },
-  };
+  recording.value = { ...recording.value, segmentation: { ...segmentation, segments } };
   expect(store.selected.value).toBeUndefined();
 });
 

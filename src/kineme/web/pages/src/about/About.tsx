@@ -1,11 +1,10 @@
 /** Show where a result comes from and how long each stage took. */
-import type { ComponentChildren, JSX } from "preact";
-import { useStore } from "../context";
+import type { ComponentChildren } from "preact";
+import { useStore, type Store } from "../store";
 import { formatCounts } from "../segments";
-import type { Store } from "../store";
 import { formatTime } from "../view";
 
-export function About(): JSX.Element | null {
+export function About() {
   const store = useStore();
   const recording = store.recording.value;
   if (!recording) return null;
@@ -45,7 +44,7 @@ export function getAboutTitle(store: Store): string {
   return warnings ? `About ⚠ ${warnings}` : "About";
 }
 
-function Fact({ name, children }: { name: string; children: ComponentChildren }): JSX.Element {
+function Fact({ name, children }: { name: string; children: ComponentChildren }) {
   return (
     <>
       <dt>{name}</dt>
@@ -55,7 +54,7 @@ function Fact({ name, children }: { name: string; children: ComponentChildren })
 }
 
 /** Render any JSON value; objects become definition lists. */
-function Value({ value }: { value: unknown }): JSX.Element {
+function Value({ value }: { value: unknown }) {
   if (isObject(value))
     return (
       <dl>
@@ -72,7 +71,7 @@ function Value({ value }: { value: unknown }): JSX.Element {
   return <>{typeof value === "number" ? formatNumber(value) : JSON.stringify(value)}</>;
 }
 
-function SentenceList(props: { title: string; sentences: readonly string[] }): JSX.Element | null {
+function SentenceList(props: { title: string; sentences: readonly string[] }) {
   const { title, sentences } = props;
   if (sentences.length === 0) return null;
   return (
@@ -87,7 +86,7 @@ function SentenceList(props: { title: string; sentences: readonly string[] }): J
   );
 }
 
-function Timings({ timings }: { timings: Record<string, number> }): JSX.Element | null {
+function Timings({ timings }: { timings: Record<string, number> }) {
   const stages = Object.entries(timings);
   if (stages.length === 0) return null;
   const most = Math.max(...stages.map(([, seconds]) => seconds), 1e-9);
@@ -118,4 +117,22 @@ function isObject(value: unknown): value is Record<string, unknown> {
 
 function formatNumber(value: number): string {
   return String(Number(value.toPrecision(6)));
+}
+
+/** Show a table of keys and their actions. */
+export function Keys({ keys }: { keys: readonly (readonly [string, string])[] }) {
+  return (
+    <table class="keys">
+      <tbody>
+        {keys.map(([key, what]) => (
+          <tr key={key}>
+            <th scope="row">
+              <kbd>{key}</kbd>
+            </th>
+            <td>{what}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
 }

@@ -1,7 +1,7 @@
 /** Draw a canvas that fills its container, in device pixels, whenever its signals change. */
-import { useEffect, useRef } from "preact/hooks";
-import type { HTMLAttributes, JSX } from "preact";
-import { signal } from "@preact/signals";
+import { useEffect, useRef, useMemo } from "preact/hooks";
+import type { HTMLAttributes } from "preact";
+import { signal, effect, type ReadonlySignal } from "@preact/signals";
 import { theme } from "../theme";
 import { drawOnChange } from "../ticker";
 
@@ -17,7 +17,7 @@ interface Props extends Omit<HTMLAttributes<HTMLCanvasElement>, "label"> {
   gestures?: PointerHandlers;
 }
 
-export interface PointerHandlers {
+interface PointerHandlers {
   down(event: PointerEvent): void;
   move(event: PointerEvent): void;
   up(event: PointerEvent): void;
@@ -26,7 +26,7 @@ export interface PointerHandlers {
   wheel(event: WheelEvent): void;
 }
 
-export function Canvas({ label, watch, draw, gestures, ...rest }: Props): JSX.Element {
+export function Canvas({ label, watch, draw, gestures, ...rest }: Props) {
   const ref = useRef<HTMLCanvasElement>(null);
   const latest = useRef({ watch, draw, gestures });
   latest.current = { watch, draw, gestures };
@@ -80,4 +80,41 @@ function paintCanvas(
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
   draw(pen, width, height);
+}
+
+interface PlayheadLineProps {
+  /** Position from 0 (start of the container) to 1 (end); hidden outside this range. */
+  share: number;
+  /** Whether the line is horizontal and moves down. */
+  horizontal?: boolean;
+  handle?: boolean;
+}
+
+/** Draw the playhead as a line across its container; moving it redraws no canvas. */
+export function PlayheadLine({ share, horizontal = false, handle = false }: PlayheadLineProps) {
+  if (!(share >= 0 && share <= 1)) return null;
+  const move = horizontal ? `translateY(${100 * share}cqh)` : `translateX(${100 * share}cqw)`;
+  const kind = `${horizontal ? "horizontal" : "vertical"}${handle ? " handle" : ""}`;
+  return <div class={`line ${kind}`} style={{ transform: move }} />;
+}
+
+const INTERVAL = 100; // milliseconds
+
+/** Return a copy of a signal that changes at most ten times a second during playback. */
+export function useThrottled<T>(
+  fast: ReadonlySignal<T>,
+  playing: ReadonlySignal<boolean>,
+): ReadonlySignal<T> {
+  const calm = useMemo(() => signal(fast.peek()), [fast]);
+  useEffect(() => {
+    let last = -Infinity;
+    return effect(() => {
+      const value = fast.value;
+      const now = performance.now();
+      if (playing.value && now - last < INTERVAL) return;
+      last = now;
+      calm.value = value;
+    });
+  }, [fast, playing, calm]);
+  return calm;
 }

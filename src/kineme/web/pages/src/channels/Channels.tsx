@@ -1,26 +1,19 @@
 /** Show curves over time, below the timeline or in place of the 3-D view. */
 import { useMemo } from "preact/hooks";
-import type { JSX } from "preact";
-import { useStore } from "../context";
-import { useThrottled } from "../canvas/useThrottled";
-import { Canvas } from "../canvas/Canvas";
-import { PlayheadLine } from "../canvas/PlayheadLine";
-import type { Store } from "../store";
+import { useStore, type Store } from "../store";
+import { useThrottled, Canvas, PlayheadLine } from "../canvas/Canvas";
 import { TimelineGestures } from "../timeline/gestures";
 import { GUTTER_WIDTH } from "../timeline/lanes";
 import { toPixel } from "../view";
-import { ChannelChoice } from "./ChannelChoice";
-import { getDefaultJoints, selectCurves } from "./curveSelection";
+import { getDefaultJoints, selectCurves, getCurveKey, toggleCurve } from "./curveSelection";
 import { getRowBounds, drawChannels, type Row } from "./drawing";
-import type { CurveTiles } from "./tiles";
-import { useCurveTiles } from "./useCurveTiles";
+import { type CurveTiles, useCurveTiles } from "./tiles";
+import { useSignal } from "@preact/signals";
+import type { CurveList } from "../messages";
+import { Checkbox, TextInput } from "../layout/controls";
 
-interface Props {
-  /** Whether to draw a time axis above the curves. */
-  ruler?: boolean;
-}
-
-export function Channels({ ruler = false }: Props): JSX.Element | null {
+/** @param ruler whether to draw a time axis above the curves */
+export function Channels({ ruler = false }: { ruler?: boolean }) {
   const store = useStore();
   const current = useCurveTiles();
   const gestures = useMemo(
@@ -82,11 +75,7 @@ function getDefaultJointsOfStore(store: Store): string[] {
 }
 
 /** Show each curve's value at the playhead. */
-function CurrentValues(props: {
-  rows: readonly Row[];
-  tiles: CurveTiles;
-  ruler: boolean;
-}): JSX.Element {
+function CurrentValues(props: { rows: readonly Row[]; tiles: CurveTiles; ruler: boolean }) {
   const store = useStore();
   const { rows, tiles, ruler } = props;
   const frame = useThrottled(store.frame, store.playing);
@@ -114,4 +103,51 @@ function formatShort(value: number): string {
   const size = Math.abs(value);
   if (size >= 1e5 || (size > 0 && size < 1e-3)) return value.toExponential(1);
   return value.toFixed(size >= 100 ? 0 : size >= 10 ? 1 : 2);
+}
+
+interface ChannelChoiceProps {
+  list: CurveList;
+  /** Joints whose heights are shown by default. */
+  defaultJoints: readonly string[];
+}
+
+/** List the curves to choose from, with a search field. */
+function ChannelChoice({ list, defaultJoints }: ChannelChoiceProps) {
+  const search = useSignal("");
+  const shown = new Set(selectCurves(list, defaultJoints).map(({ curve }) => curve));
+  const words = search.value.toLowerCase().split(/\s+/);
+  const found = list.curves
+    .map((head, curve) => ({ head, curve }))
+    .filter(({ head }) => words.every((word) => getCurveKey(head).toLowerCase().includes(word)));
+  const groups = [...new Set(found.map(({ head }) => head.group))];
+  return (
+    <details class="channel-choice">
+      <summary>Curves…</summary>
+      <div class="channel-list">
+        <TextInput
+          type="search"
+          placeholder="Search: height foot"
+          aria-label="Search the curves"
+          value={search}
+        />
+        {groups.map((group) => (
+          <fieldset key={group}>
+            <legend class="quiet">{group}</legend>
+            {found
+              .filter(({ head }) => head.group === group)
+              .map(({ head, curve }) => (
+                <Checkbox
+                  key={curve}
+                  checked={shown.has(curve)}
+                  onCheck={() => toggleCurve(list, defaultJoints, head)}
+                >
+                  {head.name}
+                </Checkbox>
+              ))}
+          </fieldset>
+        ))}
+        {!found.length && <p class="quiet">No curve has that name.</p>}
+      </div>
+    </details>
+  );
 }

@@ -1,6 +1,6 @@
 /** Remember which curves are shown, by name, for all recordings. */
 import { signal, type Signal } from "@preact/signals";
-import { readStored } from "../layout/browser";
+import { readStored } from "../util";
 import type { Curve, CurveList, MotionHead } from "../messages";
 import type { Row } from "./drawing";
 

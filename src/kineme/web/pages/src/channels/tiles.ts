@@ -1,7 +1,9 @@
 /** Load a recording's curves in tiles on demand and cache the latest. */
-import { signal } from "@preact/signals";
+import { signal, useComputed, useSignal, type ReadonlySignal } from "@preact/signals";
 import type { CurveList } from "../messages";
 import type { RecordingData } from "../recordingData";
+import { useEffect } from "preact/hooks";
+import { useStore } from "../store";
 
 const MAX_TILES = 2000; // of 8 kB each
 
@@ -53,4 +55,22 @@ export class CurveTiles {
     this.cache.set(key, pairs);
     this.loadCount.value += 1;
   }
+}
+
+/** Return the curve tiles of the active recording; null while loading. */
+export function useCurveTiles(): ReadonlySignal<CurveTiles | null> {
+  const store = useStore();
+  const data = store.active.value?.data;
+  const loaded = useSignal<CurveTiles | null>(null);
+  useEffect(() => {
+    let isCurrent = true;
+    void data?.loadCurves().then(
+      (list) => {
+        if (isCurrent && list) loaded.value = new CurveTiles(data, list);
+      },
+      () => undefined,
+    );
+    return () => void (isCurrent = false);
+  }, [data, loaded]);
+  return useComputed(() => (loaded.value?.data === store.active.value?.data ? loaded.value : null));
 }

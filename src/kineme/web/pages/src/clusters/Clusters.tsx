@@ -1,10 +1,15 @@
 /** Show the clusters and the curves of the selected one. */
-import type { JSX } from "preact";
-import { ClusterList } from "./ClusterList";
-import { ClusterTools } from "./ClusterTools";
 import { Curves } from "./Curves";
+import { useSignal } from "@preact/signals";
+import { useStore, type Store } from "../store";
+import { type Cluster, countLabels } from "../segments";
+import { getClusterColor, NO_COLOR } from "../colors";
+import type { Segment } from "../messages";
+import { formatTime } from "../view";
+import { Button, Swatch, TableHead, NameInput } from "../layout/controls";
+import { useLayoutEffect, useRef } from "preact/hooks";
 
-export function Clusters(): JSX.Element {
+export function Clusters() {
   return (
     <div class="cluster-panel">
       <div>
@@ -15,5 +20,217 @@ export function Clusters(): JSX.Element {
         <Curves />
       </div>
     </div>
+  );
+}
+
+const ORDERS: readonly (readonly [string, (a: Cluster, b: Cluster) => number])[] = [
+  ["first seen first", (a, b) => a.members[0]!.start_frame - b.members[0]!.start_frame],
+  ["most seconds first", (a, b) => b.total_s - a.total_s],
+  ["most repetitions first", (a, b) => b.members.length - a.members.length],
+  ["by name", (a, b) => (a.label || "\uffff").localeCompare(b.label || "\uffff") || a.id - b.id],
+];
+
+/** Renumber clusters or merge two of them. */
+function ClusterTools() {
+  const store = useStore();
+  const edit = store.edit.value;
+  const clusters = store.clusters.value;
+  const shown = store.shownCluster.value;
+  if (!edit || clusters.length < 2) return null;
+  const applyOrder = (name: string): void => {
+    const by = ORDERS.find(([each]) => each === name)?.[1];
+    const order = by && orderAllClusters(store, clusters.slice().sort(by));
+    if (order) edit({ kind: "order_clusters", order });
+  };
+  return (
+    <div class="cluster-tools">
+      <select
+        aria-label="Number the clusters anew"
+        value=""
+        onChange={(event) => {
+          applyOrder(event.currentTarget.value);
+          event.currentTarget.value = "";
+        }}
+      >
+        <option value="">Number anew…</option>
+        {ORDERS.map(([name]) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+      {shown && (
+        <select
+          aria-label={`Merge cluster ${shown.id} into another`}
+          value=""
+          onChange={(event) => {
+            const target = Number(event.currentTarget.value);
+            event.currentTarget.value = "";
+            edit({ kind: "merge_clusters", cluster: shown.id, into: target });
+          }}
+        >
+          <option value="">Merge {shown.label || shown.id} into…</option>
+          {clusters
+            .filter(({ id }) => id !== shown.id)
+            .map(({ id, label }) => (
+              <option key={id} value={id}>
+                {label || `cluster ${id}`}
+              </option>
+            ))}
+        </select>
+      )}
+    </div>
+  );
+}
+
+/** Return all cluster numbers of the table; clusters that only activities have come last. */
+function orderAllClusters(store: Store, ordered: readonly Cluster[]): number[] {
+  const rows = store.recording.value?.segmentation.segments ?? [];
+  const others = [...new Set(rows.map((row) => row.cluster))].filter((each) => each >= 0);
+  return [...new Set([...ordered.map(({ id }) => id), ...others.sort((a, b) => a - b)])];
+}
+
+/** List the clusters with count and duration; without clusters, the labels. */
+function ClusterList() {
+  const store = useStore();
+  const clusters = store.clusters.value;
+  if (clusters.length === 0) return <LabelList />;
+  const most = Math.max(...clusters.map((cluster) => cluster.members.length));
+  return (
+    <table class="clusters">
+      <Head first="Cluster" />
+      <tbody onPointerLeave={() => (store.hovered.value = null)}>
+        {clusters.map((cluster) => (
+          <ClusterRow key={cluster.id} cluster={cluster} most={most} />
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function Head({ first }: { first: string }) {
+  return (
+    <TableHead
+      columns={[
+        first,
+        "Count",
+        ["Mean", "Mean duration of one, seconds"],
+        ["Total", "All of them together"],
+      ]}
+    />
+  );
+}
+
+function ClusterRow({ cluster, most }: { cluster: Cluster; most: number }) {
+  const store = useStore();
+  const { id, members, mean_s, total_s } = cluster;
+  const shown = store.cluster.value === id;
+  return (
+    <tr
+      class={shown ? "shown" : ""}
+      onPointerEnter={() => (store.hovered.value = id)}
+      onClick={() => store.selectCluster(id)}
+    >
+      <th scope="row">
+        <ClusterName cluster={cluster} />
+      </th>
+      <CountCells
+        color={getClusterColor(id)}
+        {...{ count: members.length, most, mean_s, total_s }}
+      />
+    </tr>
+  );
+}
+
+interface CountProps extends Pick<Cluster, "mean_s" | "total_s"> {
+  color: string;
+  count: number;
+  most: number;
+}
+
+function CountCells({ color, count, most, mean_s, total_s }: CountProps) {
+  return (
+    <>
+      <td class="number count">
+        <span class="bar" style={{ width: `${(40 * count) / most}px`, background: color }} />
+        {count}
+      </td>
+      <td class="number">{mean_s.toFixed(2)} s</td>
+      <td class="number">{formatTime(total_s, total_s < 60 ? 1 : 0)}</td>
+    </>
+  );
+}
+
+/** List the labels of a table without clusters. */
+function LabelList() {
+  const store = useStore();
+  const { primitives, activities } = store;
+  const lane = primitives.value.some((each) => each.label) ? primitives : activities;
+  const labels = countLabels(lane.value);
+  if (!labels.length)
+    return <p class="empty quiet">Nothing repeats itself here: there are no clusters.</p>;
+  const most = Math.max(...labels.map(({ count }) => count));
+  const selectNext = (label: string): void => {
+    const next = (each: Segment): boolean => each.label === label;
+    const later = lane.value.find((each) => next(each) && each.start_frame > store.frame.value);
+    const target = later ?? lane.value.find(next);
+    if (target) store.select(target);
+  };
+  return (
+    <table class="clusters">
+      <Head first="Label" />
+      <tbody>
+        {labels.map(({ label, count, total_s }) => {
+          const color = store.labelColors.value.get(label) ?? NO_COLOR;
+          return (
+            <tr key={label} onClick={() => selectNext(label)}>
+              <th scope="row">
+                <Button class="plain" title="Go to the next one">
+                  <Swatch color={color} />
+                  <span class="cluster-name">{label}</span>
+                </Button>
+              </th>
+              <CountCells {...{ color, count, most, mean_s: total_s / count, total_s }} />
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
+  );
+}
+
+/** Show a cluster's name; double click or F2 edits it if the page allows edits. */
+function ClusterName({ cluster }: { cluster: Cluster }) {
+  const store = useStore();
+  const { id, label } = cluster;
+  const isNaming = useSignal(false);
+  const field = useRef<HTMLInputElement>(null);
+  const edit = store.edit.value;
+  useLayoutEffect(() => {
+    if (isNaming.value) field.current?.select();
+  }, [isNaming.value]);
+  if (isNaming.value && edit)
+    return (
+      <NameInput
+        field={field}
+        value={label}
+        aria-label={`Name of cluster ${id}`}
+        onName={(name) => edit({ kind: "name_cluster", cluster: id, label: name })}
+        onDone={() => (isNaming.value = false)}
+      />
+    );
+  const startNaming = (): void => void (isNaming.value = edit !== null);
+  return (
+    <Button
+      class="plain"
+      aria-pressed={store.cluster.value === id}
+      title={edit ? "Double click or F2 to name it" : undefined}
+      onDblClick={startNaming}
+      onKeyDown={(event) => event.key === "F2" && startNaming()}
+    >
+      <Swatch color={getClusterColor(id)} />
+      <span class="cluster-name">{label || `cluster ${id}`}</span>
+      {store.present.value?.cluster === id && <span class="now" title="At the playhead" />}
+    </Button>
   );
 }

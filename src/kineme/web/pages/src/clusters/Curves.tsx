@@ -1,27 +1,28 @@
 /** Overlay the repetitions of a cluster with their mean and standard deviation. */
-import { formatCount } from "../formatCount";
+import { formatCount } from "../util";
 import { useComputed, useSignal } from "@preact/signals";
-import type { JSX } from "preact";
-import { useStore } from "../context";
-import { Canvas } from "../canvas/Canvas";
-import { PlayheadLine } from "../canvas/PlayheadLine";
+import { useStore, type Store } from "../store";
+import { Canvas, PlayheadLine } from "../canvas/Canvas";
 import { getClusterColor } from "../colors";
 import type { ClusterCurves, CycleChannel, CycleCurve } from "../messages";
 import {
-  ComparisonSelect,
-  getId,
-  getOtherRecordings,
-  describeComparison,
-} from "./ComparisonSelect";
-import { findCurrentCycle, findExcluded, selectCycle, summarizeRanges, appendUnit } from "./cycles";
-import { CurrentCycle, FarthestCycles, ExcludedCycles } from "./Outliers";
+  findCurrentCycle,
+  findExcluded,
+  selectCycle,
+  summarizeRanges,
+  appendUnit,
+  formatNumber,
+  computeRange,
+  getShownCluster,
+  useClusterCurves,
+} from "./cycles";
 import { drawCurves, MARGIN_LEFT, findNearestCurve, MARGIN_RIGHT } from "./curveDrawing";
-import { getShownCluster, useClusterCurves } from "./useClusterCurves";
-import { Select, Swatch } from "../layout/controls";
+import { Select, Swatch, Button } from "../layout/controls";
+import type { OpenRecording } from "../recordingData";
 
 const DASHED = " (dashed)";
 
-export function Curves(): JSX.Element {
+export function Curves() {
   const store = useStore();
   const chosen = useSignal("");
   const besideId = useSignal("");
@@ -65,29 +66,17 @@ export function Curves(): JSX.Element {
         <Canvas
           label={`Curves of ${formatCount(curves.total, "repetition")}, with mean and deviation. Click one to go to it.`}
           watch={() => void [measured.value, selected.value, leftOut.value, store.cluster.value]}
-          draw={(pen, width, height) => {
-            const shown = measured.value;
-            if (shown?.curves)
-              drawCurves(
-                pen,
-                {
-                  curves: shown.curves,
-                  opposite: shown.opposite,
-                  leftOut: leftOut.value,
-                  selected: selected.value,
-                  color: getClusterColor(getShownCluster(store)),
-                },
-                width,
-                height,
-              );
+          draw={(pen, ...size) => {
+            const { curves, opposite } = measured.value ?? {};
+            const color = getClusterColor(getShownCluster(store));
+            const marks = { leftOut: leftOut.value, selected: selected.value, color };
+            if (curves) drawCurves(pen, { curves, opposite: opposite ?? null, ...marks }, ...size);
           }}
           onClick={(event) => {
             const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
             const [x, y] = [event.clientX - left, event.clientY - top];
-            selectCycle(
-              store,
-              curves.cycles[findNearestCurve(now.curves!, now.opposite, x, y, width, height)],
-            );
+            const nearest = findNearestCurve(curves, opposite, x, y, width, height);
+            selectCycle(store, curves.cycles[nearest]);
           }}
         />
         <CyclePlayhead cycles={curves.cycles} />
@@ -120,13 +109,12 @@ function describeRepetitions({ n, total, ends, left_out, cycles }: ClusterCurves
   return `${n}${ends ? "" : " inner"} of ${all}${drawn}${without}, ${mean}`;
 }
 
-interface ChannelSelectProps {
+function ChannelSelect(props: {
   channels: readonly CycleChannel[];
   channel: string;
   onChoose: (name: string) => void;
-}
-
-function ChannelSelect({ channels, channel, onChoose }: ChannelSelectProps): JSX.Element {
+}) {
+  const { channels, channel, onChoose } = props;
   const group = channels.find(({ name }) => name === channel)?.group ?? "";
   const groups = [...new Set(channels.map((each) => each.group))];
   const listNames = (of: string): string[] =>
@@ -150,7 +138,7 @@ function ChannelSelect({ channels, channel, onChoose }: ChannelSelectProps): JSX
 }
 
 /** Show the playhead in the current repetition, above the canvas to avoid redrawing it. */
-function CyclePlayhead({ cycles }: { cycles: readonly CycleCurve[] }): JSX.Element {
+function CyclePlayhead({ cycles }: { cycles: readonly CycleCurve[] }) {
   const store = useStore();
   const at = store.playhead.value;
   const present = cycles.find((each) => each.start_s <= at && at < each.stop_s);
@@ -161,4 +149,169 @@ function CyclePlayhead({ cycles }: { cycles: readonly CycleCurve[] }): JSX.Eleme
       )}
     </div>
   );
+}
+
+/** Describe the other recording's curve, or why it has none. */
+function describeComparison(
+  store: Store,
+  other: OpenRecording,
+  { beside, channel }: ClusterCurves,
+): string {
+  const { name } = other.recording.value;
+  if (beside)
+    return `; ${name} (dashed): ${beside.n} of ${beside.total}; a bar where they differ (95 %)`;
+  const { label } = store.shownCluster.value ?? store.clusters.value[0] ?? {};
+  if (!label) return `; name this movement alike in both to see that of ${name}`;
+  return `; ${name} has no “${label}”, or no ${channel}`;
+}
+
+/** Return the open recordings except the active one. */
+function getOtherRecordings(store: Store): readonly OpenRecording[] {
+  return store.opened.value.filter((each) => each !== store.active.value);
+}
+
+function getId({ recording }: OpenRecording): string {
+  return recording.value.id;
+}
+
+/** Select another open recording whose mean curve is drawn for comparison; `id` is empty for none. */
+function ComparisonSelect(props: {
+  others: readonly OpenRecording[];
+  id: string;
+  onChoose: (id: string) => void;
+}) {
+  const { others, id, onChoose } = props;
+  if (!others.length) return null;
+  return (
+    <div class="curve-choice">
+      <span class="quiet">Beside</span>
+      <Select
+        label="Beside"
+        value={id}
+        options={[
+          ["", "no other recording"],
+          ...others.map((each) => [getId(each), each.recording.value.name] as const),
+        ]}
+        onSelect={onChoose}
+      />
+    </div>
+  );
+}
+
+const MAX_FARTHEST = 3;
+
+interface OutlierProps {
+  curves: ClusterCurves;
+  /** Indices of the excluded repetitions. */
+  leftOut: ReadonlySet<number>;
+}
+
+/** Show the repetition at the playhead and its distance from the mean. */
+function CurrentCycle({ curves, leftOut, at }: OutlierProps & { at: number }) {
+  const store = useStore();
+  const cycle = curves.cycles[at];
+  if (!cycle) return <p class="chosen quiet">None of them at the playhead.</p>;
+  const isOut = leftOut.has(at);
+  const range = computeRange(cycle);
+  const key = store.selected.value?.start_frame === cycle.start_frame ? " (X)" : "";
+  const edit = store.edit.value;
+  return (
+    <p class="chosen" aria-label="At the playhead">
+      <span class="number">{cycle.start_s.toFixed(2)} s</span>
+      {range !== null && (
+        <span class="quiet">range {appendUnit(formatNumber(range), curves.unit)}</span>
+      )}
+      <span class="quiet">
+        {isOut ? "left out by hand" : describeDeviation(cycle, curves.unit)}
+      </span>
+      <span class="spacer" />
+      {edit && (
+        <Button
+          title={(isOut ? "Count it in the mean again" : "Leave it out of the mean") + key}
+          onClick={() => edit({ kind: "exclude", frames: [cycle.start_frame], excluded: !isOut })}
+        >
+          {isOut ? "Bring back" : "Leave out"}
+        </Button>
+      )}
+    </p>
+  );
+}
+
+/** List the repetitions farthest from the mean, with buttons to exclude them. */
+function FarthestCycles({ curves, leftOut }: OutlierProps) {
+  const { cycles, unit, n } = curves;
+  if (n < 3) return null;
+  const inMean = cycles.filter(({ counts }, i) => counts && !leftOut.has(i));
+  return (
+    <p class="farthest" aria-label="Farthest from the mean">
+      <span class="quiet">Farthest:</span>
+      {inMean.slice(0, MAX_FARTHEST).map((cycle) => (
+        <CycleChip
+          key={cycle.start_frame}
+          cycle={cycle}
+          deviation={describeDeviation(cycle, unit)}
+          excluded={true}
+        />
+      ))}
+    </p>
+  );
+}
+
+/** List the excluded repetitions, with buttons to include them again. */
+function ExcludedCycles({ curves, leftOut }: OutlierProps) {
+  if (!leftOut.size) return null;
+  return (
+    <p class="farthest left-out" aria-label="Left out by hand">
+      <span class="quiet">Left out:</span>
+      {curves.cycles.map(
+        (cycle, i) =>
+          leftOut.has(i) && (
+            <CycleChip
+              key={cycle.start_frame}
+              cycle={cycle}
+              deviation="left out by hand"
+              excluded={false}
+            />
+          ),
+      )}
+    </p>
+  );
+}
+
+/** @param excluded the state that a click on the second button sets */
+function CycleChip(props: { cycle: CycleCurve; deviation: string; excluded: boolean }) {
+  const { cycle, deviation, excluded } = props;
+  const store = useStore();
+  const edit = store.edit.value;
+  const at = `${cycle.start_s.toFixed(1)} s`;
+  const what = excluded ? "Leave out of the mean" : "Bring back into the mean";
+  return (
+    <span class="chip">
+      <Button
+        title={`${deviation}, from ${cycle.start_s.toFixed(2)} to ${cycle.stop_s.toFixed(2)} s`}
+        onClick={() => selectCycle(store, cycle)}
+      >
+        {at}
+      </Button>
+      {edit && (
+        <Button
+          title={what}
+          aria-label={`${what}: ${at}`}
+          onClick={({ detail }) => {
+            // Ignore double clicks: the next chip moves under the pointer.
+            if (detail < 2) edit({ kind: "exclude", frames: [cycle.start_frame], excluded });
+          }}
+        >
+          {excluded ? "×" : "↺"}
+        </Button>
+      )}
+    </span>
+  );
+}
+
+/** Describe a repetition's distance from the mean and why it is not included. */
+function describeDeviation({ distance, note }: CycleCurve, unit: string): string {
+  const number = distance?.toPrecision(2);
+  const far = number === undefined ? "" : appendUnit(number, unit);
+  return [far && `${far} from the mean`, note].filter(Boolean).join(", ");
 }

@@ -7,7 +7,7 @@ type Pen = CanvasRenderingContext2D;
 /** Values over the cycle; null if not recorded. */
 type Values = readonly (number | null)[];
 
-export interface CurvePicture {
+interface CurvePicture {
   curves: ClusterCurves;
   /** Curves of the other side of the body; only their mean is drawn. */
   opposite: ClusterCurves | null;

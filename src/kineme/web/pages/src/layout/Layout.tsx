@@ -1,7 +1,8 @@
 /** Arrange the parts of a page. */
-import type { ComponentChildren, JSX } from "preact";
-import { getSizeStyle, SIZES } from "./sizes";
-import { Splitter } from "./Splitter";
+import type { ComponentChildren, TargetedEvent } from "preact";
+import { readStored } from "../util";
+import { signal, type Signal } from "@preact/signals";
+import { isPlayerKey } from "../keys";
 
 interface LayoutProps {
   header: ComponentChildren;
@@ -17,7 +18,7 @@ interface LayoutProps {
   curves?: ComponentChildren;
 }
 
-export function Layout(places: LayoutProps): JSX.Element {
+export function Layout(places: LayoutProps) {
   const names = ["layout"];
   if (places.left) names.push("with-left");
   if (!places.viewer) names.push("without-viewer");
@@ -52,5 +53,93 @@ export function Layout(places: LayoutProps): JSX.Element {
         </section>
       )}
     </div>
+  );
+}
+
+/** A panel's size in pixels; null for the default. */
+interface Size {
+  name: string;
+  title: string;
+  minimum: number;
+  pixels: Signal<number | null>;
+}
+
+const STORAGE_KEY = "kineme.sizes";
+const stored = (readStored(STORAGE_KEY) ?? {}) as Record<string, number | null>;
+
+function createSize(name: string, title: string, minimum: number): Size {
+  return { name, title, minimum, pixels: signal(stored[name] ?? null) };
+}
+
+const SIZES = {
+  left: createSize("left", "recordings and segmentation", 150),
+  matrix: createSize("matrix", "matrix", 160),
+  side: createSize("side", "side panel", 220),
+  timeline: createSize("timeline", "timeline", 110),
+  curves: createSize("curves", "curves", 70),
+};
+
+/** Return the changed sizes as CSS variables of the layout. */
+function getSizeStyle(): Record<string, string> {
+  return Object.fromEntries(
+    Object.values(SIZES).flatMap(({ name, pixels }) =>
+      pixels.value === null ? [] : [[`--${name}`, `${pixels.value}px`]],
+    ),
+  );
+}
+
+/** Set a size between the minimum and `most` pixels; null restores the default. */
+function setSize({ name, minimum, pixels }: Size, extent: number | null, most: number): void {
+  pixels.value = extent === null ? null : Math.round(Math.min(Math.max(extent, minimum), most));
+  stored[name] = pixels.value;
+  localStorage.setItem(STORAGE_KEY, JSON.stringify(stored));
+}
+
+const STEP = 16; // pixels per arrow key
+
+/**
+ * Resize a panel by dragging or with arrow keys; a double click restores its size.
+ *
+ * @param at side of the panel
+ */
+function Splitter({ size, at }: { size: Size; at: "left" | "right" | "top" }) {
+  const isVertical = at !== "top";
+  const sign = at === "right" ? 1 : -1;
+  const getExtent = (edge: HTMLElement): number =>
+    isVertical ? edge.parentElement!.clientWidth : edge.parentElement!.clientHeight;
+  const getPlace = (event: PointerEvent): number => (isVertical ? event.clientX : event.clientY);
+  const resize = (extent: number | null): void =>
+    setSize(size, extent, 0.6 * (isVertical ? innerWidth : innerHeight));
+  const onPointerDown = (event: TargetedEvent<HTMLDivElement, PointerEvent>): void => {
+    const edge = event.currentTarget;
+    const from = getPlace(event);
+    const before = getExtent(edge);
+    event.preventDefault();
+    edge.setPointerCapture(event.pointerId);
+    edge.onpointermove = (move) => resize(before + sign * (getPlace(move) - from));
+    edge.onpointerup = edge.onpointercancel = () => (edge.onpointermove = null);
+  };
+  const onKeyDown = (event: TargetedEvent<HTMLDivElement, KeyboardEvent>): void => {
+    const keys = isVertical ? ["ArrowLeft", "ArrowRight"] : ["ArrowUp", "ArrowDown"];
+    const by = keys.indexOf(event.key);
+    if (by < 0 || isPlayerKey(event)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    resize(getExtent(event.currentTarget) + sign * (by === 0 ? -STEP : STEP));
+  };
+  return (
+    <div
+      class={`splitter ${at}`}
+      role="separator"
+      tabIndex={0}
+      aria-orientation={isVertical ? "vertical" : "horizontal"}
+      aria-label={`Size of ${size.title}`}
+      aria-valuenow={size.pixels.value ?? 0}
+      aria-valuemin={size.minimum}
+      title="Drag, or arrow keys; a double click gives the usual size back"
+      onPointerDown={onPointerDown}
+      onKeyDown={onKeyDown}
+      onDblClick={() => resize(null)}
+    />
   );
 }

@@ -1,7 +1,7 @@
 /** Show one of several panels; arrow keys switch between tabs. */
 import { useSignal, type Signal } from "@preact/signals";
-import type { ComponentChildren, JSX } from "preact";
-import { isPlayerKey } from "../focus";
+import type { ComponentChildren } from "preact";
+import { isPlayerKey } from "../keys";
 import { Button } from "./controls";
 
 export interface Tab {
@@ -17,7 +17,7 @@ interface Props {
   open?: Signal<string>;
 }
 
-export function Tabs({ label, tabs, open }: Props): JSX.Element {
+export function Tabs({ label, tabs, open }: Props) {
   const chosen = useSignal(tabs[0]?.id ?? "");
   const shown = open ?? chosen;
   const tab = tabs.find((each) => each.id === shown.value) ?? tabs[0];

@@ -21,7 +21,7 @@ export const EDGE = 9;
 const SMOOTH_BELOW = 3; // smooth cells below this many pixels, draw larger ones as squares
 
 /** The visible part: `side` pixels show `down` and `across`, right of and below the edge. */
-export interface View {
+interface View {
   side: number;
   down: Span;
   across: Span;

@@ -1,19 +1,16 @@
 /** Show the table of repetitions. */
 import { type ReadonlySignal, useSignal, useSignalEffect } from "@preact/signals";
-import { formatCount } from "../formatCount";
-import type { JSX } from "preact";
+import { formatCount } from "../util";
 import type { Recording } from "../messages";
-import { useStore } from "../context";
+import { useStore } from "../store";
 import { NO_COLOR } from "../colors";
-import { getDuration, getSegmentName } from "../segments";
+import { getDuration, getSegmentName, listRepetitions } from "../segments";
 import { isPrinting } from "../theme";
 import { formatTime } from "../view";
-import { listRepetitions } from "./repetitions";
 import { Button, Swatch, TableHead } from "../layout/controls";
+import { ticker } from "../ticker";
 
-export function Repetitions(props: {
-  recording: ReadonlySignal<Recording | undefined>;
-}): JSX.Element {
+export function Repetitions(props: { recording: ReadonlySignal<Recording | undefined> }) {
   const store = useStore();
   const table = props.recording.value?.segmentation;
   const rows = table ? listRepetitions(table) : [];
@@ -72,7 +69,7 @@ function formatTimes(leftOut: readonly boolean[]): string {
 }
 
 /** Show what is printed below the pictures. */
-export function PrintedReport(): JSX.Element | null {
+export function PrintedReport() {
   const store = useStore();
   const settled = useSettled(store.recording);
   const recording = settled.value;
@@ -104,4 +101,27 @@ function useSettled(
     return () => clearTimeout(timer);
   });
   return settled;
+}
+
+/**
+ * Print pages in light colours. Canvases are redrawn at once, since a printing browser draws no
+ * further frames. 3-D canvases would be empty, so images replace them.
+ */
+export function startPrinting(): void {
+  const images: HTMLImageElement[] = [];
+  addEventListener("beforeprint", () => {
+    isPrinting.value = true;
+    ticker.drawNow();
+    for (const canvas of document.querySelectorAll<HTMLCanvasElement>(".viewer canvas")) {
+      const image = new Image();
+      image.className = "on-paper";
+      image.src = canvas.toDataURL();
+      canvas.after(image);
+      images.push(image);
+    }
+  });
+  addEventListener("afterprint", () => {
+    isPrinting.value = false;
+    for (const image of images.splice(0)) image.remove();
+  });
 }

@@ -1,23 +1,34 @@
 /** Start a report: one recording, stored in the page itself. */
-import { batch } from "@preact/signals";
+import { batch, signal, type Signal } from "@preact/signals";
 import { render } from "preact";
+import type { Recording } from "../messages";
 import "../styles/index.css";
-import { StoreProvider } from "../context";
-import { listenToKeys } from "../keys";
+import { StoreProvider, findDetailIndex, Store, useStore } from "../store";
+import { listenToKeys, PAGE_KEYS } from "../keys";
 import { startPlayer } from "../player";
-import { startPrinting } from "../print/printing";
+import { startPrinting, PrintedReport, Repetitions } from "../print/Repetitions";
 import { exposeSnapshot } from "../snapshot";
-import { EmbeddedData } from "../recordingData";
-import { loadMotion, openRecording, type ShownRecording } from "../openRecording";
-import { findDetailIndex, Store } from "../store";
-import { Report } from "./Report";
+import { EmbeddedData, loadMotion } from "../recordingData";
+import { About, getAboutTitle, Keys } from "../about/About";
+import { Channels } from "../channels/Channels";
+import { Clusters } from "../clusters/Clusters";
+import { RecordingVideo } from "../video/RecordingVideo";
+import { DetailSlider, ThemeButton } from "../layout/controls";
+import { Layout } from "../layout/Layout";
+import { Tabs } from "../layout/Tabs";
+import { MatrixPanel } from "../matrix/Matrix";
+import { Timeline } from "../timeline/Timeline";
+import { Transport } from "../transport/Transport";
+import { Viewer } from "../viewer/Viewer";
 
 async function start(): Promise<void> {
   const store = new Store();
-  const opened = await openRecording(new EmbeddedData());
+  const data = new EmbeddedData();
+  const recording = signal(data.readRecording());
+  const opened = { data, recording, motion: signal(null), keypoints: signal(null) };
   store.add(opened);
-  offerLevels(store, opened);
-  document.title = `${opened.recording.value.name} · kineme report`;
+  offerLevels(store, recording);
+  document.title = `${recording.value.name} · kineme report`;
   exposeSnapshot(store);
   startPlayer(store);
   listenToKeys(store);
@@ -32,7 +43,7 @@ async function start(): Promise<void> {
 }
 
 /** Let the user replace the table by those at other details. */
-function offerLevels(store: Store, { recording }: ShownRecording): void {
+function offerLevels(store: Store, recording: Signal<Recording>): void {
   const { levels, segmentation } = recording.value;
   if (levels.length < 2) return;
   const given = segmentation.provenance.detail;
@@ -53,6 +64,60 @@ function offerLevels(store: Store, { recording }: ShownRecording): void {
   const all = levels.map(({ detail }) => detail);
   const shown = typeof given === "number" ? given : 1;
   store.levels.value = { all, detail: shown, choose };
+}
+
+/** Render the page of a report. */
+function Report() {
+  const store = useStore();
+  const tabs = [
+    {
+      id: "clusters",
+      title: "Clusters",
+      panel: () => (
+        <>
+          <DetailSlider />
+          <Clusters />
+        </>
+      ),
+    },
+    {
+      id: "repetitions",
+      title: "Repetitions",
+      panel: () => <Repetitions recording={store.recording} />,
+    },
+    { id: "keys", title: "Keys", panel: () => <Keys keys={PAGE_KEYS} /> },
+    { id: "about", title: getAboutTitle(store), panel: () => <About /> },
+  ];
+  return (
+    <>
+      <Layout
+        header={<Header />}
+        viewer={
+          <>
+            {store.recording.value?.motion ? <Viewer /> : <Channels ruler />}
+            <RecordingVideo />
+          </>
+        }
+        matrix={<MatrixPanel />}
+        side={<Tabs label="About the recording" tabs={tabs} />}
+        transport={<Transport />}
+        timeline={<Timeline />}
+      />
+      <PrintedReport />
+    </>
+  );
+}
+
+function Header() {
+  const store = useStore();
+  return (
+    <>
+      <h1>{store.recording.value?.name}</h1>
+      <span class="quiet">kineme report</span>
+      <span class="spacer" />
+      <ThemeButton />
+    </>
+  );
 }
 
 void start();

@@ -1,12 +1,17 @@
 /** Show the header: what is open, undo and redo, save state and dialogs. */
-import { formatCount } from "../formatCount";
-import type { JSX } from "preact";
-import { ThemeButton } from "../transport/icons";
+import { formatCount } from "../util";
+import { ThemeButton, Button } from "../layout/controls";
 import { type DialogName, useStudio } from "./context";
 import { buildPageAddress } from "./server/address";
-import { Button } from "../layout/controls";
 
-export function Header(): JSX.Element {
+const DIALOGS: readonly (readonly [DialogName, text: string, title: string])[] = [
+  ["versions", "History…", "Tables that were replaced: look at them, bring them back (H)"],
+  ["transfer", "Labels…", "Labels from a knowledge base (T)"],
+  ["compare", "Compare…", "Compare with another result (C)"],
+  ["export", "Export…", "Write the segments as a file (E)"],
+];
+
+export function Header() {
   const { session, view } = useStudio();
   const edited = session.edited.value;
   const recording = edited?.confirmed.value;
@@ -39,26 +44,11 @@ export function Header(): JSX.Element {
       </span>
       <SaveState />
       <span class="group">
-        <DialogButton
-          name="versions"
-          title="Tables that were replaced: look at them, bring them back (H)"
-          disabled={!recording}
-        >
-          History…
-        </DialogButton>
-        <DialogButton
-          name="transfer"
-          title="Labels from a knowledge base (T)"
-          disabled={!recording}
-        >
-          Labels…
-        </DialogButton>
-        <DialogButton name="compare" title="Compare with another result (C)" disabled={!recording}>
-          Compare…
-        </DialogButton>
-        <DialogButton name="export" title="Write the segments as a file (E)" disabled={!recording}>
-          Export…
-        </DialogButton>
+        {DIALOGS.map(([name, text, title]) => (
+          <Button key={name} title={title} disabled={!recording} onClick={() => view.show(name)}>
+            {text}
+          </Button>
+        ))}
       </span>
       <ThemeButton />
       <Button
@@ -73,22 +63,8 @@ export function Header(): JSX.Element {
   );
 }
 
-function DialogButton(props: {
-  name: DialogName;
-  title: string;
-  disabled: boolean;
-  children: string;
-}): JSX.Element {
-  const { view } = useStudio();
-  return (
-    <Button title={props.title} disabled={props.disabled} onClick={() => view.show(props.name)}>
-      {props.children}
-    </Button>
-  );
-}
-
 /** Show whether segments are being computed, the file name, or the number of unsaved edits. */
-function SaveState(): JSX.Element {
+function SaveState() {
   const { session } = useStudio();
   const { saved, finding } = session.edited.value?.confirmed.value ?? {};
   const waiting = session.unsent.value.length;

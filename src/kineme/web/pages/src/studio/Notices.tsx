@@ -1,11 +1,9 @@
 /** Show problems and unsaved edits above the page. */
-import type { JSX } from "preact";
-import { NameOfferNotice } from "./folder/NameOfferNotice";
 import { useStudio } from "./context";
 import type { EditedRecording } from "./editing/editedRecording";
 import { Button, CloseButton } from "../layout/controls";
 
-export function Notices(): JSX.Element {
+export function Notices() {
   const { session } = useStudio();
   const { notifications, trouble, unsent } = session;
   return (
@@ -37,7 +35,7 @@ export function Notices(): JSX.Element {
 }
 
 /** Ask whether to apply edits that were made on an older table. */
-function BlockedEdits({ edited }: { edited: EditedRecording }): JSX.Element {
+function BlockedEdits({ edited }: { edited: EditedRecording }) {
   return (
     <div class="notice" data-notice="held">
       <p>
@@ -52,7 +50,7 @@ function BlockedEdits({ edited }: { edited: EditedRecording }): JSX.Element {
   );
 }
 
-function UnsentEdits({ edits }: { edits: string[] }): JSX.Element {
+function UnsentEdits({ edits }: { edits: string[] }) {
   const last = edits.slice(-3);
   const more = edits.length - last.length;
   return (
@@ -60,5 +58,28 @@ function UnsentEdits({ edits }: { edits: string[] }): JSX.Element {
       Not saved yet: {more > 0 && `${more} earlier, `}
       {last.join("; ")}.
     </span>
+  );
+}
+
+/** Offer to apply a cluster's new name to all recordings. */
+function NameOfferNotice() {
+  const { review } = useStudio();
+  const { offer } = review;
+  const { value: present } = offer.present;
+  if (!present) return <div role="status" />;
+  const { cluster, before, label } = present;
+  return (
+    <div class="notice" role="status">
+      <p>
+        Cluster {cluster} is “{label}” here.{" "}
+        {offer.isLibrary()
+          ? "The library knows it in other recordings, too."
+          : `In other recordings it is known by its name, “${before}”.`}
+      </p>
+      <Button class="primary" onClick={() => void offer.accept()}>
+        “{label}” in all recordings
+      </Button>
+      <CloseButton label="Here only" onClick={() => (offer.present.value = null)} />
+    </div>
   );
 }

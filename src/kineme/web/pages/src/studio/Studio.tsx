@@ -3,41 +3,38 @@ import type { JSX } from "preact";
 import { About, getAboutTitle } from "../about/About";
 import { Channels } from "../channels/Channels";
 import { Clusters } from "../clusters/Clusters";
-import { useStore } from "../context";
+import { useStore } from "../store";
 import { Layout } from "../layout/Layout";
 import { Tabs } from "../layout/Tabs";
-import { MatrixPanel } from "../matrix/MatrixPanel";
+import { MatrixPanel } from "../matrix/Matrix";
 import { PrintedReport } from "../print/Repetitions";
 import { Timeline } from "../timeline/Timeline";
 import { Transport } from "../transport/Transport";
 import { Viewer } from "../viewer/Viewer";
 import { type DialogName, useStudio } from "./context";
-import type { DialogProps } from "./dialogs/Dialog";
-import { CompareDialog } from "./dialogs/CompareDialog";
+import { type DialogProps, HelpDialog } from "./dialogs/Dialog";
+import { CompareDialog, VersionsDialog } from "./dialogs/CompareDialog";
 import { ComparePanel } from "./panels/ComparePanel";
-import { DropZone } from "./panels/DropZone";
-import { EditTools } from "./panels/EditTools";
-import { ExportDialog } from "./dialogs/ExportDialog";
+import { DropZone, FolderPanel, OpeningProgress } from "./panels/FolderPanel";
+import { ExportDialog, LoopsDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
-import { QueueBar } from "./folder/QueueBar";
-import { useStageReady } from "./folder/useStageReady";
-import { FolderPanel } from "./panels/FolderPanel";
+import { QueueBar, ReviewPanel } from "./review/ReviewPanel";
 import { Header } from "./Header";
-import { VersionsDialog } from "./dialogs/VersionsDialog";
-import { LoopsDialog } from "./dialogs/LoopsDialog";
-import { HelpDialog } from "./dialogs/HelpDialog";
 import { Notices } from "./Notices";
-import { OpeningProgress } from "./panels/OpeningProgress";
-import { StudioVideo } from "./panels/StudioVideo";
 import { PosesOffer } from "./poses/PosesOffer";
 import { PresetPanel } from "./panels/PresetPanel";
 import { ReadingPanel } from "./panels/ReadingPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
-import { ReviewPanel } from "./review/ReviewPanel";
 import { SegmentTable } from "./table/SegmentTable";
 import { TransferDialog } from "./dialogs/TransferDialog";
+import type { Level } from "../messages";
+import { createDeletion, createMerge } from "./editing/commands";
+import { Button } from "../layout/controls";
+import { type Signal, useSignal, useSignalEffect, type ReadonlySignal } from "@preact/signals";
+import { RecordingVideo } from "../video/RecordingVideo";
+import { readOpenIds } from "./server/address";
 
-export function Studio(): JSX.Element {
+export function Studio() {
   const store = useStore();
   const { view } = useStudio();
   const { value: dialog } = view.dialog;
@@ -87,23 +84,14 @@ export function Studio(): JSX.Element {
 }
 
 /** Show the figures; the 3-D stage is set up while the first recording loads. */
-function Stage(): JSX.Element {
+function Stage() {
   const store = useStore();
   const { session } = useStudio();
   const turn = useStageReady();
-  if (store.recording.value?.motion === null)
-    return (
-      <>
-        <Channels ruler />
-        <StudioVideo />
-        <QueueBar />
-        <PosesOffer />
-        <OpeningProgress />
-      </>
-    );
+  const isSignals = store.recording.value?.motion === null;
   return (
     <>
-      {turn.value && <Viewer />}
+      {isSignals ? <Channels ruler /> : turn.value && <Viewer />}
       <StudioVideo />
       <QueueBar />
       <PosesOffer />
@@ -129,3 +117,96 @@ const DIALOGS: Record<DialogName, (props: DialogProps) => JSX.Element> = {
   loops: LoopsDialog,
   help: HelpDialog,
 };
+
+const LEVELS: readonly (readonly [Level, string])[] = [
+  ["activity", "Activities"],
+  ["primitive", "Primitives"],
+];
+
+/** Offer buttons to split, merge and delete. */
+function EditTools() {
+  const store = useStore();
+  const { editor } = useStudio();
+  const where = { lane: store.getLane(store.workLevel.value), frame: store.frame.value };
+  const merge = "The segment and the next one become one (M)";
+  const remove = "Delete the border nearest to the playhead (Delete)";
+  const tools = [
+    ["Split", "A border at the playhead (S)", editor.segment.value, () => editor.split()],
+    ["Merge", merge, createMerge(where), () => editor.mergeWithNext()],
+    ["Delete border", remove, createDeletion(where), () => editor.deleteBorder()],
+  ] as const;
+  return (
+    <>
+      <span class="group" role="group" aria-label="Work on">
+        {LEVELS.map(([level, name]) => (
+          <Button
+            key={level}
+            aria-pressed={store.workLevel.value === level}
+            disabled={!store.getLane(level).length}
+            title={`Work on ${name.toLowerCase()} (A)`}
+            onClick={() => store.setLevel(level)}
+          >
+            {name}
+          </Button>
+        ))}
+      </span>
+      <span class="group edit-tools" role="group" aria-label="Segments">
+        {tools.map(([text, title, enabled, act]) => (
+          <Button key={text} disabled={!enabled} title={title} onClick={act}>
+            {text}
+          </Button>
+        ))}
+      </span>
+    </>
+  );
+}
+
+/** Show the recording's video, with a field for its offset. */
+function StudioVideo() {
+  return <RecordingVideo>{(start) => <VideoOffset start={start} />}</RecordingVideo>;
+}
+
+function VideoOffset({ start }: { start: Signal<number> }) {
+  const { session } = useStudio();
+  const { store, api } = session;
+  // The poses come from it, so the offset is known.
+  if (store.recording.value?.video?.picture) return null;
+  const place = (seconds: number): void => {
+    const { value: recording } = store.recording;
+    if (!recording || !Number.isFinite(seconds)) return;
+    start.value = seconds;
+    const request = { offset_s: seconds };
+    void session.notifications.attempt("video", () => api.placeVideo(recording.id, request));
+  };
+  return (
+    <label title="Seconds of the video at the start of the recording">
+      starts at{" "}
+      <input
+        type="number"
+        class="number"
+        step="0.02"
+        defaultValue={String(+start.peek().toFixed(3))}
+        onChange={(event) => place(event.currentTarget.valueAsNumber)}
+      />{" "}
+      s of the video
+    </label>
+  );
+}
+
+const DRAW_DELAY = 300; // milliseconds for drawing the folder's rows first
+
+/**
+ * Return whether to set up the 3-D stage, which blocks a page for half a second: at once if a
+ * recording opens, else after the folder page.
+ */
+function useStageReady(): ReadonlySignal<boolean> {
+  const { session, review } = useStudio();
+  const isReady = useSignal(readOpenIds().length > 0);
+  useSignalEffect(() => {
+    if (isReady.value) return;
+    const opens = session.opening.value !== null || session.store.opened.value.length > 0;
+    if (opens) isReady.value = true;
+    else if (review.folder.isReady.value) setTimeout(() => (isReady.value = true), DRAW_DELAY);
+  });
+  return isReady;
+}

@@ -1,23 +1,21 @@
 /** Start the studio. */
-import { effect } from "@preact/signals";
+import { effect, computed, untracked } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
 import "./folder/folder.css";
-import { StoreProvider } from "../context";
-import { startPrinting } from "../print/printing";
+import { StoreProvider, Store } from "../store";
+import { startPrinting } from "../print/Repetitions";
 import { listenToKeys } from "../keys";
 import { startPlayer } from "../player";
-import { Store } from "../store";
 import { StudioView, StudioProvider } from "./context";
 import { Api } from "./server/api";
 import { Editor } from "./editing/editor";
 import { getStudioCommand } from "./keys";
-import { rememberLevel } from "./rememberedLevel";
 import { Poses } from "./poses/poses";
 import { Review } from "./review/review";
 import { Session } from "./session";
-import { exposeStudio } from "./snapshot";
+import { exposeSnapshot } from "../snapshot";
 import { Studio } from "./Studio";
 import { readOpenIds, readToken } from "./server/address";
 import { announceTab } from "./editing/unsent";
@@ -47,7 +45,16 @@ function start(): void {
   });
   rememberLevel(store);
   startPlayer(store);
-  exposeStudio(session);
+  exposeSnapshot(store, () => {
+    const { segments } = store.table.value ?? { segments: [] };
+    return {
+      recordings: store.opened.value.map((opened) => opened.recording.value.name),
+      segments,
+      checked: segments.flatMap((row, i) => (row.checked ? [i] : [])),
+      selected: store.selected.value ?? null,
+      unsent: session.unsent.value,
+    };
+  });
   startPrinting();
   listenToKeys(store, (event) => getStudioCommand(event, services));
   for (const what of ["keyup", "blur"]) addEventListener(what, () => editor.release());
@@ -61,6 +68,22 @@ function start(): void {
   );
   if (!readOpenIds().length) void review.folder.refresh(); // in parallel with the list
   void session.start(announceTab());
+}
+
+/** Remember the edited level of each recording. */
+function rememberLevel(store: Store): void {
+  const key = computed(
+    () => `kineme.level|${location.pathname}|${store.recording.value?.id ?? ""}`,
+  );
+  effect(() => {
+    const level = localStorage.getItem(key.value) === "activity" ? "activity" : "primitive";
+    untracked(() => (store.level.value = level));
+  });
+  effect(() => {
+    const level = store.level.value;
+    if (level === "activity") localStorage.setItem(key.peek(), level);
+    else localStorage.removeItem(key.peek());
+  });
 }
 
 start();

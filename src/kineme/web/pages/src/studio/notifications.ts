@@ -1,11 +1,10 @@
 /** Show messages: one line of news, and problems that stay until dismissed. */
-
 import { effect, signal, untracked } from "@preact/signals";
-import { explainError } from "./server/answers";
+import { explainError } from "./server/api";
 
 const READING_TIME = 6000; // milliseconds
 
-export interface News {
+interface News {
   text: string;
   /** Key of the active table; the news disappears when it changes. */
   of: string;
@@ -13,7 +12,7 @@ export interface News {
   refused: boolean;
 }
 
-export interface Problem {
+interface Problem {
   text: string;
   about: string;
 }

@@ -1,18 +1,23 @@
 /** Manage the folder, the recordings (until their edits are sent) and the connection. */
-
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { Changed, ReadRequest, Recording, State } from "../messages";
-import { loadMotion, type OpenRecording } from "../openRecording";
+import { loadMotion, type OpenRecording } from "../recordingData";
 import type { Store } from "../store";
-import { type Api, explainError, Refused, RETRY_INTERVAL, Unreachable } from "./server/api";
-import { Comparisons } from "./editing/comparisons";
-import { needsPoses, getUnreadPeople } from "./server/answers";
+import {
+  type Api,
+  explainError,
+  Refused,
+  RETRY_INTERVAL,
+  Unreachable,
+  needsPoses,
+  getUnreadPeople,
+  ServerData,
+  shareToken,
+} from "./server/api";
+import { Comparisons, PeopleComparison } from "./editing/comparisons";
 import { EditedRecording } from "./editing/editedRecording";
 import { readOpenIds, writeOpenIds, readStartTime } from "./server/address";
-import { ServerData } from "./server/serverData";
-import { shareToken } from "./server/token";
 import { Notifications } from "./notifications";
-import { PeopleComparison } from "./people/people";
 import { RecordingList } from "./recordingList";
 
 const NO_ANSWER =
@@ -25,7 +30,7 @@ const OF_TABLE = ["preview", "compare"];
 const OF_RECORDING = ["video", "versions", "clips", "export"];
 
 /** A recording that could not be read. */
-export interface Unread {
+interface Unread {
   id: string;
   name: string;
   people: readonly string[];
@@ -118,7 +123,7 @@ export class Session {
   async open(id: string, { beside = false, shown = (): void => undefined } = {}): Promise<void> {
     const { store } = this;
     if (this.opening.value === id) return;
-    const index = store.opened.value.findIndex((each) => each.recording.value.id === id);
+    const index = store.findIndex(id);
     if (index >= 0) {
       store.show(index);
       this.notifications.clearProblem("open");
@@ -140,8 +145,8 @@ export class Session {
       void this.refresh();
       await loadMotion(opened);
     } catch (error) {
-      const isShown = store.opened.value.some((each) => each.recording.value.id === id);
-      if (this.opening.value !== id && !isShown) return; // cancelled, or another one was chosen
+      // It was cancelled, or another one was chosen.
+      if (this.opening.value !== id && store.findIndex(id) < 0) return;
       if (needsPoses(error)) {
         this.videoWithoutPoses.value = id;
         this.notifications.clearProblem("open");
@@ -186,8 +191,7 @@ export class Session {
   /** Open recordings together and activate the first. */
   private async openTogether(ids: readonly string[]): Promise<void> {
     for (const [i, id] of ids.entries()) await this.open(id, { beside: i > 0 });
-    const { opened } = this.store;
-    const first = opened.value.findIndex((each) => each.recording.value.id === ids[0]);
+    const first = this.store.findIndex(ids[0]);
     if (ids.length > 1 && first >= 0) this.store.show(first);
   }
 
@@ -214,7 +218,7 @@ export class Session {
   }
 
   close(id: string): void {
-    const index = this.store.opened.value.findIndex((each) => each.recording.value.id === id);
+    const index = this.store.findIndex(id);
     if (index >= 0) this.store.close(index);
     this.forgetClosed();
   }
@@ -329,7 +333,7 @@ export class Session {
 
   /** Reload a recording's motion: large recordings are read in parts. */
   private async renewMotion(id: string): Promise<void> {
-    const opened = this.store.opened.value.find((each) => each.recording.value.id === id);
+    const opened = this.store.opened.value[this.store.findIndex(id)];
     try {
       if (opened?.motion.value) await loadMotion(opened);
     } catch (error) {

@@ -10,10 +10,8 @@ import {
   type Pinch,
 } from "../canvas/pointers";
 import { findIndexAt } from "../segments";
-import type { Drag } from "../state";
-import type { Store } from "../store";
+import type { Drag, Store } from "../store";
 import { toSeconds } from "../view";
-
 import {
   findBorder,
   GUTTER_WIDTH,

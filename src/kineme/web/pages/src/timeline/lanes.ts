@@ -19,7 +19,7 @@ export interface Lane {
 }
 
 /** A person of the file, with the table unless it is the active one. */
-export interface PersonLanes {
+interface PersonLanes {
   name: string;
   /** Index among the open recordings. */
   index: number;

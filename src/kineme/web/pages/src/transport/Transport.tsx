@@ -1,22 +1,15 @@
 /** Offer the playback controls. */
-import type { JSX } from "preact";
-import { useStore } from "../context";
-import { useThrottled } from "../canvas/useThrottled";
-import { toggleFullScreen } from "../layout/fullScreen";
-import { NumberInput } from "../layout/NumberInput";
+import { useStore } from "../store";
+import { useThrottled } from "../canvas/Canvas";
+import { toggleFullScreen } from "../util";
+import { IconButton, NumberInput, Select, Toggle } from "../layout/controls";
 import { togglePlay } from "../player";
 import { formatTime } from "../view";
-import { IconButton } from "./icons";
-import { Button, Select } from "../layout/controls";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
-interface Props {
-  /** Whether curves are available below the timeline. */
-  curves?: boolean;
-}
-
-export function Transport({ curves = false }: Props): JSX.Element {
+/** @param curves whether curves are available below the timeline */
+export function Transport({ curves = false }: { curves?: boolean }) {
   const store = useStore();
   const { playing, loop, speed } = store;
   return (
@@ -58,14 +51,9 @@ export function Transport({ curves = false }: Props): JSX.Element {
       />
       <Clock />
       {curves && (
-        <Button
-          class="curves-button"
-          aria-pressed={store.curves.value}
-          title="Curves and signals over time (G)"
-          onClick={() => (store.curves.value = !store.curves.value)}
-        >
+        <Toggle class="curves-button" on={store.curves} title="Curves and signals over time (G)">
           Curves
-        </Button>
+        </Toggle>
       )}
       <div class="group">
         <IconButton icon="minus" label="Zoom out" keys="−" onClick={() => store.zoomBy(1 / 0.7)} />
@@ -83,7 +71,7 @@ export function Transport({ curves = false }: Props): JSX.Element {
 }
 
 /** Show time and frame, with a slider over the recording. */
-function Clock(): JSX.Element {
+function Clock() {
   const store = useStore();
   const { duration } = store;
   const playhead = useThrottled(store.playhead, store.playing);
@@ -97,7 +85,7 @@ function Clock(): JSX.Element {
       <label class="clock-frame quiet">
         frame
         <NumberInput
-          label="Frame"
+          aria-label="Frame"
           min={0}
           max={Math.max((store.recording.value?.n_frames ?? 1) - 1, 0)}
           value={frame}

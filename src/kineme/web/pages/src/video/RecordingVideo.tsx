@@ -2,18 +2,16 @@
  * Show the recording's video with sound and detected keypoints. During playback the page follows
  * the video; otherwise the video shows the frame at the playhead.
  */
-import { useSignal, useSignalEffect, type Signal } from "@preact/signals";
+import { useSignal, useSignalEffect, type Signal, effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { JSX } from "preact";
 import { NO_COLOR, adaptColor } from "../colors";
-import { useStore } from "../context";
-import { Button } from "../layout/controls";
-import type { OpenRecording } from "../openRecording";
+import { useStore, type Store, type VideoTime } from "../store";
+import { Button, Toggle } from "../layout/controls";
+import type { OpenRecording } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
-import type { Store } from "../store";
 import { theme } from "../theme";
-import { Caption } from "../viewer/Caption";
-import { VideoClock } from "./VideoClock";
+import { Caption } from "../viewer/Viewer";
 import { drawKeypoints, fitPicture } from "./keypoints";
 
 interface Props {
@@ -21,7 +19,7 @@ interface Props {
   children?: (start: Signal<number>) => JSX.Element;
 }
 
-export function RecordingVideo({ children }: Props): JSX.Element | null {
+export function RecordingVideo({ children }: Props) {
   const store = useStore();
   const { value: opened } = store.active;
   if (!opened?.recording.value.video) return null;
@@ -29,7 +27,7 @@ export function RecordingVideo({ children }: Props): JSX.Element | null {
   return <VideoPlayer key={file || id} opened={opened} {...(children && { children })} />;
 }
 
-function VideoPlayer({ opened, children }: Props & { opened: OpenRecording }): JSX.Element {
+function VideoPlayer({ opened, children }: Props & { opened: OpenRecording }) {
   const store = useStore();
   const { name, offset_s, picture } = opened.recording.value.video!;
   const element = useRef<HTMLVideoElement>(null);
@@ -98,13 +96,12 @@ function VideoPlayer({ opened, children }: Props & { opened: OpenRecording }): J
           Sound
         </Button>
         {motion && (
-          <Button
-            aria-pressed={store.figureFirst.value}
+          <Toggle
+            on={store.figureFirst}
             title="The figure large and the video small, or the other way round"
-            onClick={() => (store.figureFirst.value = !store.figureFirst.value)}
           >
             Figure large
-          </Button>
+          </Toggle>
         )}
       </figcaption>
     </figure>
@@ -131,5 +128,101 @@ function drawOverlay(store: Store, canvas: HTMLCanvasElement | null, clock: Vide
     const present = findPrimitiveAt(each.recording.value.segmentation, seconds);
     const color = adaptColor((present && store.getColor(present)) ?? NO_COLOR, "dark");
     if (motion) drawKeypoints(pen, fitPicture(picture, width, height), motion, seconds, color);
+  }
+}
+
+// Seconds between playhead and video; more means that the user moved the playhead.
+const MAX_DRIFT = 0.1;
+// Seconds added to a frame's time, which may be rounded down to the previous frame.
+const FRAME_OFFSET = 0.004;
+
+/**
+ * Synchronise the page with a video. During playback the video sets the time, so that picture,
+ * sound and keypoints match. Outside of the video the page advances by itself.
+ */
+class VideoClock implements VideoTime {
+  /** Time of the visible picture in the video, seconds; null if the browser does not report it. */
+  private shownTime: number | null = null;
+  private mayPlay = true;
+
+  constructor(
+    private readonly store: Store,
+    private readonly video: HTMLVideoElement,
+    private readonly offset: Signal<number>,
+  ) {}
+
+  /** Return the time of the visible picture in the recording, in seconds. */
+  getShownTime(): number {
+    return (this.shownTime ?? this.video.currentTime) - this.offset.peek() + 1e-6;
+  }
+
+  getTime(): number | "waiting" | null {
+    const { video } = this;
+    const target = this.store.playhead.peek() + this.offset.peek();
+    if (!this.mayPlay || video.error || target < 0 || video.ended || target >= video.duration)
+      return null;
+    if (video.paused || video.seeking || video.readyState < 3) return "waiting";
+    return video.currentTime - this.offset.peek();
+  }
+
+  /** Synchronise video and page and call `draw` for each picture; return a function that stops. */
+  start(draw: () => void): () => void {
+    const { video } = this;
+    const syncVideo = (): void => this.syncVideo();
+    const stopEffect = effect(syncVideo);
+    const events = ["loadedmetadata", "seeked", "canplay"] as const;
+    for (const each of events) video.addEventListener(each, syncVideo);
+    video.addEventListener("seeked", draw);
+    let request = 0;
+    const onPicture = (_: number, { mediaTime }: { mediaTime: number }): void => {
+      this.shownTime = mediaTime;
+      draw();
+      request = video.requestVideoFrameCallback(onPicture);
+    };
+    // Browsers without frame callbacks only report the video's time.
+    const tells = typeof HTMLVideoElement.prototype.requestVideoFrameCallback === "function";
+    if (tells) request = video.requestVideoFrameCallback(onPicture);
+    else video.addEventListener("timeupdate", draw);
+    return () => {
+      stopEffect();
+      if (tells) video.cancelVideoFrameCallback(request);
+      for (const each of [...events, "timeupdate"]) video.removeEventListener(each, syncVideo);
+      video.removeEventListener("seeked", draw);
+      video.removeEventListener("timeupdate", draw);
+      video.pause();
+    };
+  }
+
+  /** Move the video to the playhead. */
+  private syncVideo(): void {
+    const { video, store } = this;
+    const playing = store.playing.value;
+    const speed = store.speed.value;
+    const target = Math.max(store.playhead.value + this.offset.value, 0);
+    if (video.readyState === 0) return;
+    video.playbackRate = Math.min(Math.max(speed, 0.0625), 16);
+    if (!playing && !video.paused) video.pause();
+    // Seeking again before a seek has ended would delay the picture.
+    if (!video.seeking) {
+      const to = playing ? target : target + FRAME_OFFSET;
+      const apart = Math.abs(video.currentTime - Math.min(to, video.duration));
+      if (apart > (playing ? MAX_DRIFT * Math.max(speed, 1) : 1e-3)) video.currentTime = to;
+    }
+    if (playing && video.paused && target < video.duration) void this.play();
+  }
+
+  private async play(): Promise<void> {
+    const { video, store } = this;
+    try {
+      await video.play();
+    } catch (error) {
+      if (!(error instanceof DOMException) || error.name !== "NotAllowedError") return;
+      // Browsers only play muted video until the user has clicked the page.
+      if (video.muted) this.mayPlay = false;
+      else {
+        store.muted.value = video.muted = true;
+        if (store.playing.peek()) await this.play();
+      }
+    }
   }
 }

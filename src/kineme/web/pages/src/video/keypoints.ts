@@ -3,7 +3,7 @@ import type { Picture } from "../messages";
 import { computePose, type Motion } from "../motion";
 
 /** Position of a picture that is scaled to fit a box, and box pixels per picture pixel. */
-export interface PictureFit {
+interface PictureFit {
   left: number;
   top: number;
   scale: number;

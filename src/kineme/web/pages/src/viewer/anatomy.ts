@@ -1,5 +1,5 @@
 /** Compute the size of a body and the thickness of its bones. Pure functions. */
-import { memoize } from "../memoize";
+import { memoize } from "../util";
 import { computePose, type Motion } from "../motion";
 import type { MotionHead } from "../messages";
 
@@ -17,7 +17,7 @@ export interface Anatomy {
 
 export const TAPER = 0.62;
 
-export function measureAnatomy(motion: Motion): Anatomy {
+function measureAnatomy(motion: Motion): Anatomy {
   const { head } = motion;
   const pose = new Float32Array(head.joints.length * 3);
   const lowest: number[] = [];
@@ -78,7 +78,7 @@ function tracePathToRoot(head: MotionHead, joint: number): Set<number> {
 }
 
 /** Return the bounding box of the joints that are not missing; null if all are. */
-export function computeBox(
+function computeBox(
   pose: Float32Array,
 ): { low: [number, number, number]; high: [number, number, number] } | null {
   const low: [number, number, number] = [Infinity, Infinity, Infinity];
@@ -99,7 +99,7 @@ function computeDistance(pose: Float32Array, a: number, b: number): number {
 }
 
 /** Return a quantile; 0 of no values. */
-export function computeQuantile(values: readonly number[], share: number): number {
+function computeQuantile(values: readonly number[], share: number): number {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)] ?? 0;
 }

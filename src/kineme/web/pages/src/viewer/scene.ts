@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
 import { getHeading, computePose, findRoot, type Motion } from "../motion";
-import { formatPerson } from "../openRecording";
+import { formatPerson } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
 import { readColor, theme } from "../theme";
@@ -16,14 +16,21 @@ import {
   placeSideBySide,
   type PlacedFigure,
 } from "./placement";
-import { Figure } from "./figure";
-import { Ghost } from "./ghost";
-import type { Tag } from "./nameTags";
+import { Figure, Ghost } from "./figure";
 import { Stage } from "./stage";
 import { Trails } from "./trails";
 
 const TRAIL_LENGTH = 1.2; // seconds
 const CATCH_UP = 3; // rate per second at which the camera follows during playback
+
+/** A name and its position (bottom centre), as shares of the canvas. */
+export interface Tag {
+  name: string;
+  x: number;
+  y: number;
+  /** Whether edits apply to this person. */
+  isActive: boolean;
+}
 
 export class FigureScene {
   readonly stage: Stage;

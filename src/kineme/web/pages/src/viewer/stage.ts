@@ -2,9 +2,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { readColor } from "../theme";
-import { Floor } from "./floor";
-import { createBodyMaterial, type Fog } from "./materials";
-import { Sharpness } from "./sharpness";
+import { createBodyMaterial, type Fog, createFloorMaterial } from "./materials";
 
 const FIELD_OF_VIEW = 32; // vertical, degrees
 
@@ -126,4 +124,82 @@ function createContext(canvas: HTMLCanvasElement): {
   const info = context.getExtension("WEBGL_debug_renderer_info");
   const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
   return { context, software: /swiftshader|llvmpipe|software|basic render/i.test(name) };
+}
+
+const REACH = 40; // cells to each side
+
+/** Draw the ground: a plane with a grid that fades into the sky. */
+class Floor {
+  /** Sky colour and the distances between which objects fade into it. */
+  readonly fog: Fog = { sky: { value: new THREE.Color() }, fade: { value: new THREE.Vector2() } };
+  readonly mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.Material>;
+  private readonly uniforms = {
+    ...this.fog,
+    ground: { value: new THREE.Color() },
+    grid: { value: new THREE.Color() },
+    cell: { value: 1 },
+  };
+
+  constructor() {
+    const plane = new THREE.PlaneGeometry(1, 1).rotateX(-Math.PI / 2);
+    this.mesh = new THREE.Mesh(plane, createFloorMaterial(this.uniforms));
+    this.mesh.renderOrder = -1; // drawn first, below everything else
+    this.mesh.frustumCulled = false;
+  }
+
+  setColors(): void {
+    for (const name of ["ground", "grid", "sky"] as const)
+      this.uniforms[name].value.set(readColor(name));
+  }
+
+  /** Set the grid's height and choose a cell size for a body's size. */
+  fit(size: number, height: number): void {
+    this.uniforms.cell.value = 10 ** Math.round(Math.log10(size / 1.7));
+    this.mesh.scale.setScalar(2 * REACH * this.uniforms.cell.value);
+    this.mesh.position.y = height;
+  }
+
+  /** Centre the floor below a point `away` metres from the camera. */
+  centerOn(target: THREE.Vector3, away: number): void {
+    this.mesh.position.x = target.x;
+    this.mesh.position.z = target.z;
+    const far = Math.min(away * 6, away + 0.8 * REACH * this.uniforms.cell.value);
+    this.uniforms.fade.value.set(away * 1.1, far);
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+}
+
+const MIN_FRAME_RATE = 36; // frames per second; a higher rate is not worth blurred edges
+const MIN_SHARE = 0.5;
+const SUPERSAMPLING = 2;
+const ADJUST_INTERVAL = 24; // frames between two changes
+
+/** Pixels per CSS pixel, adapted to the duration of frames. */
+class Sharpness {
+  /** Share of the full ratio during playback. */
+  private share = 1;
+  private slow = 0;
+  private drawn = 0;
+
+  constructor(private readonly software: boolean) {}
+
+  /** Return the pixel ratio for a moving or a static picture. */
+  getRatio(screen: number, moving: boolean): number {
+    if (!moving) return this.software ? Math.max(screen, 1.5) : SUPERSAMPLING;
+    return this.share * (this.software ? Math.min(screen, 1) : SUPERSAMPLING);
+  }
+
+  /** Record the seconds since the last moving frame and lower the resolution if most are slow. */
+  recordDuration(seconds: number): void {
+    this.drawn += 1;
+    if (seconds > 1 / MIN_FRAME_RATE) this.slow += 1;
+    if (this.drawn < ADJUST_INTERVAL) return;
+    const late = this.slow / this.drawn > 0.5;
+    this.drawn = this.slow = 0;
+    if (late) this.share = Math.max(this.share * 0.8, MIN_SHARE);
+  }
 }

@@ -1,12 +1,11 @@
 /** Redraw the viewer when signals change and handle its input. */
 import { effect } from "@preact/signals";
 import { CLICK_TOLERANCE } from "../canvas/pointers";
-import { listen } from "../layout/browser";
+import { listen } from "../util";
 import type { Store } from "../store";
 import { isPrinting, theme } from "../theme";
 import { ticker } from "../ticker";
-import { NameTags } from "./nameTags";
-import type { FigureScene } from "./scene";
+import type { FigureScene, Tag } from "./scene";
 import type { Stage } from "./stage";
 
 const TURN_STEP = Math.PI / 24; // radians per key press
@@ -117,4 +116,32 @@ function pickOnClick(store: Store, scene: FigureScene, canvas: HTMLCanvasElement
     }
   };
   return listen(canvas, { pointerdown: onDown, click: onClick });
+}
+
+/** Show the names of several people above their heads. */
+class NameTags {
+  private readonly place = document.createElement("div");
+
+  constructor(over: HTMLElement) {
+    this.place.className = "name-tags";
+    this.place.ariaHidden = "true"; // the caption also has them
+    over.append(this.place);
+  }
+
+  show(tags: readonly Tag[]): void {
+    const { place } = this;
+    while (place.children.length > tags.length) place.lastChild!.remove();
+    while (place.children.length < tags.length) place.append(document.createElement("span"));
+    tags.forEach(({ name, x, y, isActive }, i) => {
+      const tag = place.children[i] as HTMLElement;
+      if (tag.textContent !== name) tag.textContent = name;
+      tag.classList.toggle("front", isActive);
+      tag.style.left = `${100 * x}%`;
+      tag.style.top = `${100 * y}%`;
+    });
+  }
+
+  dispose(): void {
+    this.place.remove();
+  }
 }

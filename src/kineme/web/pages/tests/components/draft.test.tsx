@@ -2,8 +2,7 @@
 import "./offscreen";
 import { cleanup, fireEvent, render, waitFor } from "@testing-library/preact";
 import { afterEach, expect, test } from "vitest";
-import { NameInput } from "../../src/layout/NameInput";
-import { NumberInput } from "../../src/layout/NumberInput";
+import { NameInput, NumberInput } from "../../src/layout/controls";
 import { SegmentPanel } from "../../src/studio/panels/SegmentPanel";
 import { row, table } from "../studio/tables";
 import "./browser";
@@ -14,7 +13,11 @@ afterEach(cleanup);
 test("a draft stays while the value changes, and goes to what it was begun for", () => {
   const named: string[] = [];
   const field = (segment: string, value: string) => (
-    <NameInput label="Name" value={value} onName={(name) => named.push(`${segment}: ${name}`)} />
+    <NameInput
+      aria-label="Name"
+      value={value}
+      onName={(name) => named.push(`${segment}: ${name}`)}
+    />
   );
   const page = render(field("first", "walk"));
   const input = page.getByLabelText("Name") as HTMLInputElement;
@@ -31,7 +34,9 @@ test("a draft stays while the value changes, and goes to what it was begun for",
 
 test("Escape leaves the name as it was", () => {
   const named: string[] = [];
-  const page = render(<NameInput label="Name" value="walk" onName={(name) => named.push(name)} />);
+  const page = render(
+    <NameInput aria-label="Name" value="walk" onName={(name) => named.push(name)} />,
+  );
   const input = page.getByLabelText("Name") as HTMLInputElement;
   fireEvent.focus(input);
   fireEvent.input(input, { target: { value: "hop" } });
@@ -44,7 +49,7 @@ test("Escape leaves the name as it was", () => {
 test("each step of a number is handed over at once, and once", () => {
   const given: number[] = [];
   const page = render(
-    <NumberInput label="Frame" value={7} onNumber={(number) => given.push(number)} />,
+    <NumberInput aria-label="Frame" value={7} onNumber={(number) => given.push(number)} />,
   );
   const input = page.getByLabelText("Frame") as HTMLInputElement;
   fireEvent.focus(input);

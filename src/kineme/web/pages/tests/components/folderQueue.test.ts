@@ -5,7 +5,7 @@ import type { BriefTable, FolderTables, State } from "../../src/messages";
 import { Store } from "../../src/store";
 import { unpackTable } from "../../src/studio/folder/briefTables";
 import { Folder } from "../../src/studio/folder/folder";
-import { FolderQueue } from "../../src/studio/folder/folderQueue";
+import { FolderQueue } from "../../src/studio/review/review";
 import type { Api } from "../../src/studio/server/api";
 import { Session } from "../../src/studio/session";
 import { brief, createBrief, listing } from "../studio/briefs";

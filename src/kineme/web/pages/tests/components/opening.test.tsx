@@ -3,7 +3,7 @@ import "./offscreen";
 import { act, cleanup, fireEvent } from "@testing-library/preact";
 import { afterEach, expect, test, vi } from "vitest";
 import type { State } from "../../src/messages";
-import { OpeningProgress } from "../../src/studio/panels/OpeningProgress";
+import { OpeningProgress } from "../../src/studio/panels/FolderPanel";
 import { listing } from "../studio/briefs";
 import { table } from "../studio/tables";
 import "./browser";

@@ -1,9 +1,8 @@
 /** Render studio components with an open recording and a server that edits it. */
 import { render, type RenderResult } from "@testing-library/preact";
 import type { JSX } from "preact";
-import { StoreProvider } from "../../src/context";
+import { StoreProvider, Store } from "../../src/store";
 import type { Segments, State } from "../../src/messages";
-import { Store } from "../../src/store";
 import { StudioView, StudioProvider, type StudioServices } from "../../src/studio/context";
 import { Editor } from "../../src/studio/editing/editor";
 import { Poses } from "../../src/studio/poses/poses";

@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Edit, Segment, Segments } from "../../src/messages";
-import { applyChange } from "../../src/studio/editing/changes";
-import { retargetEdit } from "../../src/studio/editing/retargetEdit";
+import { applyChange, retargetEdit } from "../../src/studio/editing/changes";
 import { row, table } from "./tables";
 
 const starts = ({ segments }: Segments): [string, number, number][] =>

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { formatCount } from "../../src/formatCount";
+import { formatCount } from "../../src/util";
 import { describeEdit } from "../../src/studio/editing/describeEdit";
 
 it("says edits in words, with seconds", () => {

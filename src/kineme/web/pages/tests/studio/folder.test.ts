@@ -7,8 +7,7 @@ import {
   unpackTable,
   computeTally,
 } from "../../src/studio/folder/briefTables";
-import type { Folder } from "../../src/studio/folder/folder";
-import { NameOffer } from "../../src/studio/folder/nameOffer";
+import { type Folder, NameOffer } from "../../src/studio/folder/folder";
 import { COLUMNS, fitColumns, sortRows, createRow } from "../../src/studio/folder/rows";
 import { brief, listing } from "./briefs";
 

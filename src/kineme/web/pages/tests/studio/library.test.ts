@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { LibraryCluster, LibraryHit } from "../../src/messages";
-import { findWidestDirection } from "../../src/studio/library/flattenMotion";
+import { findWidestDirection } from "../../src/studio/library/drawing";
 import { toCsv, toJson, sortClusters, countByCluster } from "../../src/studio/library/hits";
 
 const hit = (some: Partial<LibraryHit>): LibraryHit => ({

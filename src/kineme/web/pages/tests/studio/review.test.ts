@@ -1,7 +1,6 @@
 import { expect, it } from "vitest";
-import { listDoubts, countProgress } from "../../src/studio/review/doubts";
+import { listDoubts, countProgress, getConfidence } from "../../src/confidence";
 import { sliceRows, NO_FILTER, listRows, findSpansToMerge } from "../../src/studio/table/rows";
-import { getConfidences } from "../../src/confidence";
 import { segment, createTable } from "../recordings";
 
 const rows = [
@@ -56,7 +55,7 @@ it("has one number for a segment, wherever that is shown", () => {
   ]);
   const [doubt] = listDoubts(found);
   const [first] = listRows(found, NO_FILTER, "confidence", false);
-  const { short, text, why } = getConfidences(found).get(found.segments[0]!);
+  const { short, text, why } = getConfidence(found, found.segments[0]!);
   expect([short, text]).toEqual(["19 %", "confidence 19 %"]);
   expect([doubt!.segment, doubt!.confidence.short]).toEqual([found.segments[0], short]);
   expect([first!.segment, first!.confidence.short]).toEqual([found.segments[0], short]);

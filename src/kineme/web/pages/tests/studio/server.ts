@@ -1,6 +1,6 @@
 /** Simulate the studio's server. */
 import type { Edit, Edited, EditRequest, Level, Recording } from "../../src/messages";
-import { Refused, Unreachable } from "../../src/studio/server/answers";
+import { Refused, Unreachable } from "../../src/studio/server/api";
 import { recording, row } from "./tables";
 
 type Table = Pick<Recording, "segmentation">;

@@ -1,45 +1,22 @@
 /** Create small segment tables and recordings for tests of the studio. */
-import {
-  bareSegment,
-  type Level,
-  type Recording,
-  type Segment,
-  type Segments,
-} from "../../src/messages";
+import type { Level, Recording, Segment, Segments } from "../../src/messages";
+import { createTable, segment } from "../recordings";
 
 export const FPS = 10;
 
 /** Create a row. */
 export function row(level: Level, start: number, stop: number, cluster = 0, label = ""): Segment {
-  return {
-    ...bareSegment,
-    level,
-    kind: level,
-    start_frame: start,
-    stop_frame: stop,
-    start_s: start / FPS,
-    stop_s: stop / FPS,
-    cluster,
-    label,
-  };
+  return segment(start, stop, { level, cluster, label });
 }
 
 /** Create one activity of 100 frames and primitives of 30, 30 and 40. */
 export function table(): Segments {
-  return {
-    schema: "kineme.segments/2",
-    n_frames: 100,
-    fps: FPS,
-    provenance: {},
-    timings: {},
-    cluster_names: {},
-    segments: [
-      row("activity", 0, 100),
-      row("primitive", 0, 30, 0),
-      row("primitive", 30, 60, 1),
-      row("primitive", 60, 100, 0),
-    ],
-  };
+  return createTable([
+    row("activity", 0, 100),
+    row("primitive", 0, 30, 0),
+    row("primitive", 30, 60, 1),
+    row("primitive", 60, 100, 0),
+  ]);
 }
 
 export function recording(segmentation = table(), revision = 0): Recording {

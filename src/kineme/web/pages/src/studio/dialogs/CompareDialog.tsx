@@ -1,14 +1,14 @@
 /** Choose another result to compare with: a preset's or a label file's. */
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
-import type { CompareRequest } from "../../messages";
-import { PeopleChoice } from "../people/PeopleChoice";
+import type { CompareRequest, AnnotatorChoice, Version } from "../../messages";
 import { Dialog, type DialogProps } from "./Dialog";
-import { Button } from "../../layout/controls";
+import { Button, Checkbox, toggleMember } from "../../layout/controls";
+import { formatCount } from "../../util";
+import { describeEdit } from "../editing/describeEdit";
 
-export function CompareDialog({ close }: DialogProps): JSX.Element {
+export function CompareDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const busy = useSignal("");
   useEffect(() => void session.refresh(), [session]); // files may have been added
@@ -73,6 +73,123 @@ export function CompareDialog({ close }: DialogProps): JSX.Element {
           </p>
         )}
       </div>
+    </Dialog>
+  );
+}
+
+const TABLES_HERE = "tables"; // id of the tables edited here
+
+/** Choose whose labels to compare; all by default. */
+function PeopleChoice({ close }: { close: () => void }) {
+  const { session, view } = useStudio();
+  const people = useSignal<AnnotatorChoice[]>([]);
+  const ticked = useSignal<ReadonlySet<string>>(new Set());
+  const busy = useSignal(false);
+  useEffect(() => {
+    void session.notifications.attempt("agreement", async () => {
+      const found = await session.api.loadAnnotators();
+      const others = found.filter(({ id }) => id !== TABLES_HERE);
+      people.value = found;
+      ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
+    });
+  }, [session, people, ticked]);
+  const compare = async (): Promise<void> => {
+    busy.value = true;
+    if (await session.people.compare([...ticked.value])) {
+      view.tab.value = "compare";
+      view.folder.value = null;
+      close();
+    }
+    busy.value = false;
+  };
+
+  if (people.value.length < 2)
+    return (
+      <p class="quiet">
+        None yet. Put the label files of each person into a folder of its own here (anna/walk.eaf),
+        or their names behind that of the recording (walk.anna.eaf).
+      </p>
+    );
+  return (
+    <div class="choices">
+      <fieldset class="people">
+        {people.value.map(({ id, name, recordings }) => (
+          <Checkbox
+            key={id}
+            checked={ticked.value.has(id)}
+            onCheck={() => (ticked.value = toggleMember(ticked.value, id))}
+          >
+            {name} <span class="quiet">{formatCount(recordings, "recording")}</span>
+          </Checkbox>
+        ))}
+      </fieldset>
+      <Button
+        class="primary"
+        disabled={busy.value || ticked.value.size < 2}
+        onClick={() => void compare()}
+        busy={busy.value}
+      >
+        Compare {ticked.value.size} people
+      </Button>
+    </div>
+  );
+}
+
+/** List replaced tables of the recording, to compare or restore. */
+export function VersionsDialog({ close }: DialogProps) {
+  const { session } = useStudio();
+  const versions = useSignal<Version[] | null>(null);
+  const edited = session.edited.value;
+  useEffect(() => {
+    if (!edited) return;
+    void session.notifications.attempt("versions", async () => {
+      versions.value = (await session.api.loadVersions(edited.id)).versions;
+    });
+  }, [edited, session, versions]);
+  const fps = edited?.confirmed.value.fps ?? 1;
+  const look = (version: Version): Promise<boolean> =>
+    session.notifications.attempt("versions", async () => {
+      const found = await session.api.loadVersion(edited!.id, version.number);
+      session.comparisons.showBelow({ ...found, name: `Version ${version.number}` }, true);
+      close();
+    });
+  return (
+    <Dialog title="Tables that were replaced" close={close}>
+      <p class="quiet">
+        Every table that another one took the place of is kept. Undo goes back edit by edit; here,
+        whole tables come back, and what is shown now is kept in turn.
+      </p>
+      {versions.value?.length === 0 && <p>No table of this recording has been replaced yet.</p>}
+      <table class="formats versions">
+        <tbody>
+          {versions.value?.map((version) => (
+            <tr key={version.number}>
+              <td class="quiet">{new Date(version.at).toLocaleString()}</td>
+              <td>
+                {version.edit ? `last: ${describeEdit(version.edit, fps)}` : "as it was found"}
+                <br />
+                <span class="quiet">
+                  {formatCount(version.segments, "segment")}, {formatCount(version.names, "name")},{" "}
+                  {formatCount(version.corrections, "correction")}
+                </span>
+              </td>
+              <td>
+                <span class="group">
+                  <Button onClick={() => void look(version)}>Look</Button>
+                  <Button
+                    onClick={() => {
+                      void edited?.edit({ kind: "restore", version: version.number });
+                      close();
+                    }}
+                  >
+                    Bring back
+                  </Button>
+                </span>
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
     </Dialog>
   );
 }

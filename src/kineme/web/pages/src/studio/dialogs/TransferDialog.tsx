@@ -1,13 +1,11 @@
 /** Transfer labels from a knowledge base of the folder. */
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 import { useStudio } from "../context";
 import { Dialog, type DialogProps } from "./Dialog";
-import { NewKnowledge } from "./NewKnowledge";
-import { Checkbox, Select, TextInput } from "../../layout/controls";
+import { Checkbox, Select, TextInput, toggleMember, Field } from "../../layout/controls";
 
-export function TransferDialog({ close }: DialogProps): JSX.Element {
+export function TransferDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const bases = session.state.value?.knowledge_bases ?? [];
   const chosen = useSignal("");
@@ -39,16 +37,14 @@ export function TransferDialog({ close }: DialogProps): JSX.Element {
             A knowledge base is a file of movements that have names. Each primitive without a name
             takes that of the most similar one in it, if it is similar enough.
           </p>
-          <label class="field">
-            <span>Knowledge base</span>
+          <Field title="Knowledge base">
             <Select
               value={base}
               options={bases.map(({ id, name }) => [id, name])}
               onSelect={(id) => (chosen.value = id)}
             />
-          </label>
-          <label class="field">
-            <span>Largest distance at which two movements are the same</span>
+          </Field>
+          <Field title="Largest distance at which two movements are the same">
             <TextInput
               type="number"
               min="0.01"
@@ -57,7 +53,7 @@ export function TransferDialog({ close }: DialogProps): JSX.Element {
               placeholder="as usual"
               value={threshold}
             />
-          </label>
+          </Field>
           <Checkbox checked={spread.value} onCheck={(checked) => (spread.value = checked)}>
             Give each cluster the name that most of its members got
           </Checkbox>
@@ -70,5 +66,51 @@ export function TransferDialog({ close }: DialogProps): JSX.Element {
       )}
       <NewKnowledge />
     </Dialog>
+  );
+}
+
+/** Create a knowledge base from recordings with named segments. */
+function NewKnowledge() {
+  const { session } = useStudio();
+  const named = (session.state.value?.recordings ?? []).filter((each) => each.named > 0);
+  const excluded = useSignal<ReadonlySet<string>>(new Set());
+  const name = useSignal("moves");
+  const busy = useSignal(false);
+  useEffect(() => void session.refresh(), [session]); // names may have been added
+  const makeKnowledge = async (event: Event): Promise<void> => {
+    event.preventDefault();
+    busy.value = true;
+    await session.notifications.attempt("knowledge", async () => {
+      const recordings = named.map(({ id }) => id).filter((id) => !excluded.value.has(id));
+      const made = await session.api.makeKnowledge({ name: name.value.trim(), recordings });
+      session.notifications.tell(
+        `${made.name} is in the folder: other recordings can take its names.`,
+      );
+      await session.refresh();
+    });
+    busy.value = false;
+  };
+  return (
+    <form class="new-knowledge" onSubmit={(event) => void makeKnowledge(event)}>
+      <h2>Make a knowledge base of recordings with names</h2>
+      {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
+      <div class="choices">
+        {named.map(({ id, name: title, named: count }) => (
+          <Checkbox
+            key={id}
+            checked={!excluded.value.has(id)}
+            onCheck={() => (excluded.value = toggleMember(excluded.value, id))}
+          >
+            {title} <span class="quiet">{count}</span>
+          </Checkbox>
+        ))}
+      </div>
+      <p class="actions">
+        <TextInput aria-label="Name of the knowledge base" value={name} />
+        <button type="submit" disabled={busy.value || !name.value.trim() || !named.length}>
+          Make it {busy.value && <span class="busy" />}
+        </button>
+      </p>
+    </form>
   );
 }

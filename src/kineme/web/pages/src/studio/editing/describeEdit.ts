@@ -1,5 +1,5 @@
 /** Describe edits for messages and the list of versions. */
-import { formatCount } from "../../formatCount";
+import { formatCount } from "../../util";
 import type { Edit, Level, Segments } from "../../messages";
 import { formatCounts } from "../../segments";
 

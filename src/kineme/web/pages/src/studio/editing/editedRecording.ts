@@ -6,12 +6,10 @@
  * closes, and accepts no more edits. The same holds if the server's table is not the edited one,
  * until the user decides.
  */
-
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import type { Edit, Edited, Recording, Segments } from "../../messages";
 import { type Api, Refused, Unreachable } from "../server/api";
-import { applyChange } from "./changes";
-import { retargetEdit } from "./retargetEdit";
+import { applyChange, retargetEdit } from "./changes";
 import { storeUnsent, takeOverUnsent, type Unsent } from "./unsent";
 import { describeResult, describeEdit, isLossNote, replacesTable } from "./describeEdit";
 
@@ -22,7 +20,7 @@ const UNDECIDED = "Not done: first choose what becomes of the edits above.";
 /** An entry of the queue: an edit, or a command that needs the table of the edits before it. */
 type Turn = Unsent | (() => void);
 
-export interface RecordingContext {
+interface RecordingContext {
   api: Api;
   folder: string;
   /** Return whether the last request got no answer. */

@@ -11,7 +11,7 @@ import * as commands from "./commands";
 import type { EditedRecording } from "./editedRecording";
 import type { Session } from "../session";
 import { findRow, getLane, findNearestBorder, findSegmentAt } from "../../segments";
-import { formatCount } from "../../formatCount";
+import { formatCount } from "../../util";
 
 /** Playhead position of queued keys; a key that moves a border updates it for later keys. */
 interface PlayheadPosition {

@@ -1,28 +1,38 @@
 /** List all recordings of the folder; only visible rows are rendered. */
-import { formatCount } from "../../formatCount";
+import { formatCount, listen } from "../../util";
 import { computed, useSignal, useSignalEffect } from "@preact/signals";
-import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
-import { listen } from "../../layout/browser";
-import { isPlayerKey } from "../../focus";
-import { AddFiles } from "../panels/AddFiles";
-
+import { isPlayerKey } from "../../keys";
+import { AddFiles, TruncatedName } from "../panels/FolderPanel";
 import { useStudio } from "../context";
 import { PosesOffer } from "../poses/PosesOffer";
+import { type ColumnOrder, OrderButton, useVisibleRows } from "../longTable";
 import { STATUSES } from "../recordingList";
-import { FolderProgress } from "./FolderProgress";
-import { FolderRow } from "./FolderRow";
-import { COLUMNS, fitColumns, getGrid, sortRows, createRow, type Column } from "./rows";
-import { shownColumns, showColumn } from "./shownColumns";
+import { FolderProgress } from "../review/ReviewPanel";
+import {
+  COLUMNS,
+  fitColumns,
+  getGrid,
+  sortRows,
+  createRow,
+  type Column,
+  shownColumns,
+  showColumn,
+  getLength,
+  type Row,
+} from "./rows";
 import { Button, Checkbox, Select, TextInput } from "../../layout/controls";
+import type { JSX } from "preact";
+import { getSegmentKey, getSegmentName } from "../../segments";
+import { formatTime } from "../../view";
+import { getDoubts, getStrip } from "./briefTables";
 
 const COVERED = ".layout > :not(.place-header)";
 const [ROW_HEIGHT, LOW_ROW_HEIGHT] = [30, 26]; // pixels; the lower one is for low windows
 const LOW_WINDOW = 480; // pixels, as in folder.css
 const HEADER_BOTTOM = 40; // pixels, if the header has one line and no notices above
-const OVERSCAN = 6; // rows rendered above and below the visible ones
 
-export function FolderPage(): JSX.Element | null {
+export function FolderPage() {
   const { session, view } = useStudio();
   const files = new Set(session.state.value?.recordings.map((each) => each.file));
   const several = files.size > 1;
@@ -33,16 +43,15 @@ export function FolderPage(): JSX.Element | null {
   return <Page />;
 }
 
-function Page(): JSX.Element {
+function Page() {
   const { session, review, view } = useStudio();
   const { folder } = review;
   const { list } = session;
-  const order = useSignal<[Column, boolean]>(["name", false]);
-  const top = useSignal(0);
-  const height = useSignal(600);
+  const order = useSignal<ColumnOrder<Column>>(["name", false]);
   const width = useSignal(Infinity);
   const head = useSignal(HEADER_BOTTOM);
-  const place = useRef<HTMLDivElement>(null);
+  const rowHeight = innerHeight > LOW_WINDOW ? ROW_HEIGHT : LOW_ROW_HEIGHT;
+  const { ref, onScroll, from, to } = useVisibleRows(rowHeight);
   const rows = useMemo(
     () =>
       computed(() => {
@@ -57,27 +66,23 @@ function Page(): JSX.Element {
     const bar = document.querySelector(".place-header");
     scrollTo(0, 0); // on small screens the header scrolls as well
     const sized = new ResizeObserver(() => {
-      height.value = place.current?.clientHeight ?? 600;
-      width.value = place.current?.clientWidth ?? Infinity;
+      width.value = ref.current?.clientWidth ?? Infinity;
       head.value = bar?.getBoundingClientRect().bottom ?? HEADER_BOTTOM;
     });
-    for (const each of [place.current, bar, document.querySelector(".notices")])
+    for (const each of [ref.current, bar, document.querySelector(".notices")])
       if (each) sized.observe(each);
     return () => sized.disconnect();
-  }, [folder, height, width, head]);
+  }, [folder, ref, width, head]);
   useOverlay();
   const chosen = COLUMNS.filter(({ id }) => shownColumns.value.includes(id));
   const columns = fitColumns(chosen, width.value);
   const [widths, least] = getGrid(columns);
-  const rowHeight = innerHeight > LOW_WINDOW ? ROW_HEIGHT : LOW_ROW_HEIGHT;
   const grid = {
     "--columns": widths,
     "--least": `${least}px`,
     "--row": `${rowHeight}px`,
     "--head": `${head.value}px`,
   };
-  const from = Math.max(Math.floor(top.value / rowHeight) - OVERSCAN, 0);
-  const to = Math.ceil((top.value + height.value) / rowHeight) + OVERSCAN;
   const isOpen = session.store.opened.value.length > 0;
   return (
     <section class="folder-page" aria-label="Folder" style={grid}>
@@ -140,13 +145,13 @@ function Page(): JSX.Element {
         </details>
       </div>
       <div
-        ref={place}
+        ref={ref}
         class="folder-rows"
         role="table"
         aria-label="Recordings of the folder"
         aria-rowcount={rows.value.length + 1}
         tabIndex={0}
-        onScroll={(event) => (top.value = event.currentTarget.scrollTop)}
+        onScroll={onScroll}
       >
         <div role="row" class="folder-row folder-head" aria-rowindex={1}>
           {columns.map(({ id, title, help }) => {
@@ -154,14 +159,12 @@ function Page(): JSX.Element {
             const sorted = by === id ? (reverse ? "descending" : "ascending") : "none";
             return (
               <span key={id} role="columnheader" aria-sort={sorted}>
-                <Button
-                  class="plain"
-                  title={`${help}; order by it`}
-                  onClick={() => (order.value = [id, by === id && !reverse])}
-                >
-                  {title}
-                  {by === id && (reverse ? " ▾" : " ▴")}
-                </Button>
+                <OrderButton
+                  order={order}
+                  column={id}
+                  title={title}
+                  tooltip={`${help}; order by it`}
+                />
               </span>
             );
           })}
@@ -210,7 +213,7 @@ function useOverlay(): void {
 }
 
 /** Segment all recordings without segments and show the progress. */
-function SegmentAllButton(): JSX.Element | null {
+function SegmentAllButton() {
   const { review } = useStudio();
   const { folder } = review;
   const { value: finding } = folder.segmenting;
@@ -229,5 +232,104 @@ function SegmentAllButton(): JSX.Element | null {
     >
       Segment {formatCount(n, "recording")}
     </Button>
+  );
+}
+
+const MAX_PLACES = 2;
+const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
+  name: (row) => <Name row={row} />,
+  strip: (row) => <Strip row={row} />,
+  length: ({ table }) => (table ? formatTime(getLength(table), 0) : ""),
+  rate: ({ table }) => (table ? `${Number(table.fps.toFixed(2))} Hz` : ""),
+  activities: ({ activities }) => String(activities ?? ""),
+  primitives: ({ primitives }) => String(primitives ?? ""),
+  checked: ({ tally }) =>
+    tally ? (
+      <>
+        <progress max={tally.all} value={tally.checked} aria-hidden="true" />{" "}
+        {Math.floor((100 * tally.checked) / Math.max(tally.all, 1))} %
+      </>
+    ) : (
+      ""
+    ),
+  least: (row) => <LowestConfidence row={row} />,
+  notes: ({ comments }) => (comments ? String(comments) : ""),
+  status: ({ status }) => status,
+};
+
+interface FolderRowProps {
+  row: Row;
+  at: number;
+  top: number;
+  columns: readonly Column[];
+}
+
+/** Render a recording's row in the folder table. */
+function FolderRow({ row, at, top, columns }: FolderRowProps) {
+  const { session } = useStudio();
+  const current = session.store.recording.value?.id === row.listing.id;
+  return (
+    <div
+      role="row"
+      class={current ? "folder-row current" : "folder-row"}
+      aria-rowindex={at + 2}
+      style={{ top: `${top}px` }}
+    >
+      {columns.map((column) => (
+        <span key={column} role={column === "name" ? "rowheader" : "cell"} class={`cell ${column}`}>
+          {CELLS[column](row)}
+        </span>
+      ))}
+    </div>
+  );
+}
+
+function Name({ row: { listing } }: { row: Row }) {
+  const { session, view } = useStudio();
+  const opening = session.opening.value === listing.id;
+  return (
+    <Button
+      class="plain name"
+      aria-label={`Open ${listing.name}`}
+      title={`Open ${listing.name}`}
+      aria-busy={opening}
+      onClick={() => void session.open(listing.id).then(() => (view.folder.value = null))}
+      busy={opening}
+    >
+      <TruncatedName name={listing.name} />
+    </Button>
+  );
+}
+
+function Strip({ row: { table } }: { row: Row }) {
+  const { review } = useStudio();
+  if (table) return <span class="gradient" style={{ background: getStrip(table) }} />;
+  return <span class="quiet">{review.folder.isReady.value ? "not segmented yet" : ""}</span>;
+}
+
+function LowestConfidence({ row: { listing, table } }: { row: Row }) {
+  const { review, view } = useStudio();
+  const { id, name } = listing;
+  const places = table ? getDoubts(table).slice(0, MAX_PLACES) : [];
+  return (
+    <>
+      {places
+        .filter(({ confidence }) => confidence.value !== null)
+        .map((doubt) => (
+          <Button
+            key={getSegmentKey(doubt.segment)}
+            class="plain"
+            title={`${getSegmentName(doubt.segment)}. ${doubt.confidence.why}`}
+            onClick={() => {
+              void review.queue
+                .goTo({ id, recording: name, doubt })
+                .then(() => (view.folder.value = null));
+            }}
+          >
+            {doubt.confidence.short}{" "}
+            <span class="quiet">at {formatTime(doubt.segment.start_s, 1)}</span>
+          </Button>
+        ))}
+    </>
   );
 }

@@ -1,12 +1,12 @@
 /** Unpack and summarise tables of recordings that are not open. Pure functions. */
 import { bareSegment, type BriefTable, type Segment, type Segments } from "../../messages";
 import { getClusterColor, assignLabelColors, NO_COLOR } from "../../colors";
-import { memoize } from "../../memoize";
+import { memoize } from "../../util";
 import { countChecked, getLane } from "../../segments";
-import { listDoubts } from "../review/doubts";
+import { listDoubts } from "../../confidence";
 
 /** Segments with a lower confidence count as doubtful. */
-export const DOUBT_LIMIT = 0.5;
+const DOUBT_LIMIT = 0.5;
 
 /** Build a segment table from its columns. */
 export function unpackTable(brief: BriefTable): Segments {

@@ -1,15 +1,14 @@
 /** Show a card for each cluster of a library, with an editable name. */
-import { formatCount } from "../../formatCount";
+import { formatCount } from "../../util";
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { getClusterColor } from "../../colors";
-import { NameInput } from "../../layout/NameInput";
+import { NameInput, Button, Select, Swatch, Checkbox, toggleMember } from "../../layout/controls";
 import type { LibraryCluster } from "../../messages";
-import { ChoiceDialog } from "./ChoiceDialog";
 import { Figure } from "./Figure";
 import { sortClusters, formatSeconds, type Order } from "./hits";
 import type { LibraryPage } from "./libraryPage";
-import { Button, Select, Swatch } from "../../layout/controls";
+import type { JSX } from "preact";
+import { Dialog } from "../dialogs/Dialog";
 
 const PAGE_SIZE = 120;
 const ORDERS = [
@@ -19,7 +18,7 @@ const ORDERS = [
   ["unsure", "by how unsure"],
 ] as const;
 
-export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
+export function ClusterCards({ page }: { page: LibraryPage }) {
   const order = useSignal<Order>("seconds");
   const shown = useSignal(PAGE_SIZE);
   const clusters = sortClusters(page.state.value?.clusters ?? [], order.value);
@@ -51,7 +50,7 @@ export function ClusterCards({ page }: { page: LibraryPage }): JSX.Element {
 }
 
 /** Undo edits and write cluster numbers and names to corrected tables. */
-function TableTools({ page }: { page: LibraryPage }): JSX.Element {
+function TableTools({ page }: { page: LibraryPage }) {
   const { undo = "", recordings = [] } = page.state.value ?? {};
   const { text, others } = page.tablesNews.value;
   const saved = recordings.filter(({ status }) => status === "corrected" || status === "checked");
@@ -82,7 +81,7 @@ function TableTools({ page }: { page: LibraryPage }): JSX.Element {
   );
 }
 
-function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
+function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }) {
   const { page, cluster: it } = props;
   const dialog = useSignal<"merge" | "split" | null>(null);
   const called = it.label || `cluster ${it.cluster}`;
@@ -98,7 +97,7 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
         <span class="number">{it.cluster}</span>
         <NameInput
           value={it.label}
-          label={`Name of cluster ${it.cluster}`}
+          aria-label={`Name of cluster ${it.cluster}`}
           onName={(name) => void page.edit({ kind: "name", cluster: it.cluster, name })}
         />
       </div>
@@ -169,8 +168,53 @@ function ClusterCard(props: { page: LibraryPage; cluster: LibraryCluster }): JSX
 }
 
 /** Draw the most typical segment of a cluster. */
-function ClusterFigure(props: { page: LibraryPage; cluster: LibraryCluster }): JSX.Element {
+function ClusterFigure(props: { page: LibraryPage; cluster: LibraryCluster }) {
   const { cluster, example, start_s, stop_s } = props.cluster;
   const span = { recording: example, start_s, stop_s };
   return <Figure sketches={props.page.sketches} span={span} cluster={cluster} />;
+}
+
+interface Props<Value> {
+  title: string;
+  say: string;
+  action: string;
+  choices: { value: Value; text: string; picture?: JSX.Element }[];
+  /** Maximum number of choices; all by default. */
+  most?: number;
+  /** Performs the action; returns whether it succeeded. */
+  choose: (chosen: Value[]) => Promise<boolean>;
+  close: () => void;
+}
+
+/** Choose some entries of a list for one action. */
+function ChoiceDialog<Value>(props: Props<Value>) {
+  const { title, say, action, choices, most = choices.length, choose, close } = props;
+  const chosen = useSignal<ReadonlySet<Value>>(new Set());
+  const n = chosen.value.size;
+
+  return (
+    <Dialog title={title} close={close}>
+      <p>{say}</p>
+      <ul class="choice-list">
+        {choices.map(({ value, text, picture }) => (
+          <li key={value}>
+            <Checkbox
+              checked={chosen.value.has(value)}
+              onCheck={() => (chosen.value = toggleMember(chosen.value, value))}
+            >
+              {text}
+              {picture}
+            </Checkbox>
+          </li>
+        ))}
+      </ul>
+      <Button
+        class="primary"
+        disabled={!n || n > most}
+        onClick={() => void choose([...chosen.value]).then(close)}
+      >
+        {action} {n || ""}
+      </Button>
+    </Dialog>
+  );
 }

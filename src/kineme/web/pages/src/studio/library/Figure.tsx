@@ -1,15 +1,13 @@
 /** Draw a small strip of poses or an animation of a span once it is visible. */
 import { useSignal, useSignalEffect } from "@preact/signals";
-import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { getClusterColor, adaptColor } from "../../colors";
 import type { Span } from "../../messages";
 import { unpackMotion } from "../../motion";
+import { decodeBase64 } from "../../recordingData";
 import { theme } from "../../theme";
-import { drawCurves, drawPoses, prepareCanvas, type Sketch } from "./drawing";
-import { flattenMotion } from "./flattenMotion";
-import { explainError } from "../server/answers";
-import type { LibraryApi } from "./libraryApi";
+import { drawCurves, drawPoses, prepareCanvas, type Sketch, flattenMotion } from "./drawing";
+import { type Api, explainError } from "../server/api";
 
 const POSES = [0, 1 / 6, 2 / 6, 3 / 6, 4 / 6, 5 / 6, 1];
 const MAX_SKETCHES = 600;
@@ -18,7 +16,7 @@ const MAX_SKETCHES = 600;
 export class Sketches {
   private readonly cache = new Map<string, Promise<Sketch>>();
 
-  constructor(private readonly api: LibraryApi) {}
+  constructor(private readonly api: Api) {}
 
   load(span: Span): Promise<Sketch> {
     const key = JSON.stringify([span.recording, span.start_s, span.stop_s]);
@@ -36,8 +34,8 @@ export class Sketches {
   private async request(span: Span): Promise<Sketch> {
     const { motion, numbers, curves } = await this.api.loadFigure(span);
     if (!motion) return { flat: null, curves };
-    const packed = Uint8Array.from(atob(numbers), (letter) => letter.charCodeAt(0));
-    return { flat: flattenMotion(await unpackMotion(motion, packed.buffer)), curves };
+    const packed = decodeBase64(numbers).buffer;
+    return { flat: flattenMotion(await unpackMotion(motion, packed)), curves };
   }
 }
 
@@ -49,7 +47,7 @@ interface Props {
   playing?: boolean | undefined;
 }
 
-export function Figure({ sketches, span, cluster, playing }: Props): JSX.Element {
+export function Figure({ sketches, span, cluster, playing }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const sketch = useSignal<Sketch | null>(null);
   const failure = useSignal("");

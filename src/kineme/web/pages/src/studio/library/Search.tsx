@@ -1,16 +1,17 @@
 /** Search by example and judge the hits. */
-import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { NameInput } from "../../layout/NameInput";
-import { saveFile } from "../server/saveFile";
-import { HitCard } from "./HitCard";
-import { listenToHitKeys } from "./hitKeys";
-import { toCsv, toJson, getHitKey } from "./hits";
+import { NameInput, Button, NumberInput, Checkbox, Toggle } from "../../layout/controls";
+import { saveFile } from "../server/api";
+import { toCsv, toJson, getHitKey, formatSeconds } from "./hits";
 import type { LibraryPage } from "./libraryPage";
-import { SpanForm } from "./SpanForm";
-import { Button } from "../../layout/controls";
+import type { Span, LibraryHit } from "../../messages";
+import { useSignal } from "@preact/signals";
+import { buildPageAddress } from "../server/address";
+import { Figure } from "./Figure";
+import { listen } from "../../util";
+import { isPlayerKey } from "../../keys";
 
-export function Search({ page }: { page: LibraryPage }): JSX.Element {
+export function Search({ page }: { page: LibraryPage }) {
   const { value: question } = page.question;
   const { value: hits } = page.hits;
   const cards = useRef<HTMLUListElement>(null);
@@ -28,12 +29,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
       )}
       {hits.length > 0 && (
         <div class="tools">
-          <Button
-            aria-pressed={page.playing.value}
-            onClick={() => (page.playing.value = !page.playing.value)}
-          >
-            {page.playing.value ? "Stop all" : "Play all"}
-          </Button>
+          <Toggle on={page.playing}>{page.playing.value ? "Stop all" : "Play all"}</Toggle>
           <Downloads page={page} />
           <span class="quiet">
             Is the framed one right? <kbd>Y</kbd> yes, <kbd>N</kbd> no, arrow keys for the next.
@@ -54,7 +50,7 @@ export function Search({ page }: { page: LibraryPage }): JSX.Element {
 }
 
 /** Show how many hits were judged, and refine the search or name them. */
-function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
+function Verdicts({ page }: { page: LibraryPage }) {
   const [yes, no] = [page.confirmed.value.length, page.refused.value.length];
   return (
     <section class="said" aria-label="What you said">
@@ -72,7 +68,7 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
           <NameInput
             value=""
             placeholder="a name of its own"
-            label="Name of the confirmed alone"
+            aria-label="Name of the confirmed alone"
             onName={(name) => void page.nameHits(name)}
           />
           {page.naming.value && <span class="busy" role="status" aria-label="Naming" />}
@@ -89,7 +85,7 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
             {n} of the confirmed {n === 1 ? "is" : "are"} in cluster {cluster}. Name all of it:{" "}
             <NameInput
               value={page.getClusterName(cluster)}
-              label={`Name of cluster ${cluster}, which has ${n} of the confirmed`}
+              aria-label={`Name of cluster ${cluster}, which has ${n} of the confirmed`}
               onName={(name) => void page.edit({ kind: "name", cluster, name })}
             />
           </label>
@@ -99,7 +95,7 @@ function Verdicts({ page }: { page: LibraryPage }): JSX.Element {
   );
 }
 
-function Downloads({ page }: { page: LibraryPage }): JSX.Element {
+function Downloads({ page }: { page: LibraryPage }) {
   const write = (name: string, text: typeof toCsv): void => {
     const verdicts = page.verdicts.peek();
     const content = text(page.hits.peek(), (hit) => verdicts.get(getHitKey(hit))?.right);
@@ -116,4 +112,180 @@ function Downloads({ page }: { page: LibraryPage }): JSX.Element {
       </Button>
     </span>
   );
+}
+
+/** Edit the searched span and the largest distance. */
+function SpanForm({ page }: { page: LibraryPage }) {
+  const recordings = (page.state.value?.recordings ?? []).filter((each) => each.vocabulary);
+  const first = recordings[0];
+  const span: Span = page.span.value ?? {
+    recording: first?.recording ?? "",
+    start_s: 0,
+    stop_s: Math.min(3, first?.duration_s ?? 3),
+  };
+  const change = (some: Partial<Span>): void => void (page.span.value = { ...span, ...some });
+  const exists = recordings.some((each) => each.recording === span.recording);
+  const { start_s, stop_s, recording } = span;
+  const valid = exists && start_s >= 0 && stop_s > start_s;
+  return (
+    <form
+      class="tools"
+      onSubmit={(event) => {
+        event.preventDefault();
+        const given = page.span.value ?? span; // Enter also commits the focused field
+        const title = `${given.recording} ${given.start_s} to ${given.stop_s} s`;
+        if (valid) void page.startSearch({ title, like: [given], unlike: [] });
+      }}
+    >
+      <label>
+        Recording{" "}
+        <input
+          type="text"
+          list="library-recordings"
+          value={recording}
+          onInput={(event) => change({ recording: event.currentTarget.value })}
+        />
+      </label>
+      <datalist id="library-recordings">
+        {recordings.slice(0, 500).map((each) => (
+          <option key={each.recording} value={each.recording}>
+            {formatSeconds(each.duration_s)}
+          </option>
+        ))}
+      </datalist>
+      <Field label="from, s" value={start_s} change={(start_s) => change({ start_s })} />
+      <Field label="to, s" value={stop_s} change={(stop_s) => change({ stop_s })} />
+      <Field
+        label="largest distance"
+        value={page.threshold.value}
+        change={(threshold) => {
+          if (threshold > 0) page.threshold.value = threshold;
+        }}
+      />
+      <Checkbox checked={page.mirror.value} onCheck={(checked) => (page.mirror.value = checked)}>
+        mirrored, too
+      </Checkbox>
+      <button type="submit" class="primary" disabled={!valid}>
+        Find more like this
+      </button>
+      {page.question.value && (
+        <Button onClick={() => void page.searchAgain()}>The last search again</Button>
+      )}
+    </form>
+  );
+}
+
+function Field(props: { label: string; value: number; change: (value: number) => void }) {
+  return (
+    <label>
+      {props.label} <NumberInput step="any" min={0} value={props.value} onNumber={props.change} />
+    </label>
+  );
+}
+
+const prefersReducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
+
+/** Show a search hit with an animated figure, its place and distance, and buttons to judge it. */
+function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }) {
+  const looked = useSignal(false);
+  const right = page.verdicts.value.get(getHitKey(hit))?.right;
+  const front = page.hits.value[page.frontIndex.value] === hit;
+  const { recording, start_s, stop_s, cluster, label, name } = hit;
+  const id = page.state.value?.recordings.find((each) => each.recording === recording)?.id;
+  const time = `${start_s.toFixed(2)} to ${stop_s.toFixed(2)} s`;
+  const look = (at: boolean) => (): void =>
+    void (looked.value = at && !prefersReducedMotion.matches);
+  return (
+    <li
+      class={`card hit ${front ? "front" : ""} ${right === undefined ? "" : right ? "yes" : "no"}`}
+      tabIndex={0}
+      aria-label={`${recording}, ${time}`}
+      onPointerEnter={look(true)}
+      onPointerLeave={look(false)}
+      onFocus={() => {
+        page.frontKey.value = getHitKey(hit);
+        look(true)();
+      }}
+      onBlur={look(false)}
+    >
+      <Figure
+        sketches={page.sketches}
+        span={hit}
+        cluster={cluster}
+        playing={page.playing.value || looked.value}
+      />
+      <p class="name">
+        {id ? <a href={buildPageAddress(page.api.token, id, start_s)}>{recording}</a> : recording}
+      </p>
+      <p class="quiet number">
+        {time}
+        <br />
+        distance {hit.distance.toFixed(2)}, {cluster < 0 ? "in no cluster" : `cluster ${cluster}`}{" "}
+        {label}
+      </p>
+      {name && <p class="hit-name">{name}</p>}
+      <div class="card-tools">
+        <Button
+          aria-pressed={right === true}
+          aria-label={`Yes: ${recording}, ${time}`}
+          onClick={() => page.judge(hit, true)}
+        >
+          ✓ Yes
+        </Button>
+        <Button
+          aria-pressed={right === false}
+          aria-label={`No: ${recording}, ${time}`}
+          onClick={() => page.judge(hit, false)}
+        >
+          ✗ No
+        </Button>
+        <Button
+          title="Find more like this one"
+          aria-label={`Find more like ${recording}, ${time}`}
+          onClick={() => {
+            page.span.value = { recording, start_s, stop_s };
+            void page.startSearch({
+              title: `${recording} ${time}`,
+              like: [{ recording, start_s, stop_s }],
+              unlike: [],
+            });
+          }}
+        >
+          More…
+        </Button>
+      </div>
+    </li>
+  );
+}
+
+/** Listen to the keyboard and return a function that stops; `cards` contains the hits. */
+function listenToHitKeys(page: LibraryPage, cards: () => HTMLElement | null): () => void {
+  const onKey = (event: KeyboardEvent): void => {
+    if (event.ctrlKey || event.altKey || event.metaKey || !isPlayerKey(event)) return;
+    const at = page.frontIndex.peek();
+    const hit = page.hits.peek()[at];
+    const key = event.key.toLowerCase();
+    if (!hit) return;
+    if (key === "y" || key === "n") {
+      page.judge(hit, key === "y");
+      bringToFront(at + 1);
+    } else {
+      const by = getStep(key, cards()?.contains(event.target as Node) ?? false);
+      if (!by) return;
+      bringToFront(at + by);
+    }
+    event.preventDefault();
+  };
+  const bringToFront = (at: number): void => {
+    const next = cards()?.children[at];
+    if (next instanceof HTMLElement) next.focus(); // the focus handler makes it the current hit
+  };
+  return listen(window, { keydown: onKey });
+}
+
+/** Return the step of a key; up and down scroll the page unless a card has the focus. */
+function getStep(key: string, onCard: boolean): number {
+  const sideways: Record<string, number> = { arrowright: 1, arrowleft: -1 };
+  const across: Record<string, number> = { arrowdown: 1, arrowup: -1 };
+  return sideways[key] ?? (onCard ? across[key] : undefined) ?? 0;
 }

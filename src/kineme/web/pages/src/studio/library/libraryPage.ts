@@ -1,11 +1,10 @@
 /** Hold the state of a library's page and change it. */
-import { formatCount } from "../../formatCount";
+import { formatCount } from "../../util";
 import { computed, signal } from "@preact/signals";
 import type { LibraryEdit, LibraryHit, LibraryState, Span } from "../../messages";
-import { explainError, Refused } from "../server/answers";
+import { type Api, explainError, Refused } from "../server/api";
 import { getHitKey, countByCluster } from "./hits";
 import { Sketches } from "./Figure";
-import type { LibraryApi } from "./libraryApi";
 
 /** Examples and counterexamples of a search. */
 export interface Question {
@@ -47,7 +46,7 @@ export class LibraryPage {
   readonly sketches: Sketches;
   private searchCount = 0;
 
-  constructor(readonly api: LibraryApi) {
+  constructor(readonly api: Api) {
     this.sketches = new Sketches(api);
   }
 

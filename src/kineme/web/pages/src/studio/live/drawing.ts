@@ -1,11 +1,10 @@
 /** Draw the timeline, curves and body of a live recording. */
 import { getClusterColor, getTextColor, adaptColor } from "../../colors";
 import { readColor, theme } from "../../theme";
-import { drawRuler, FONT, createHatch, shortenText } from "../../timeline/decoration";
+import { drawRuler, FONT, createHatch, shortenText } from "../../timeline/drawing";
 import { GUTTER_WIDTH, RULER_HEIGHT } from "../../timeline/lanes";
 import { toPixel } from "../../view";
-import { drawPoses } from "../library/drawing";
-import type { Flat } from "../library/flattenMotion";
+import { drawPoses, type Flat } from "../library/drawing";
 import { CURVES_S, getPartName, listPartsToDraw, TIMELINE_S, type Live } from "./live";
 
 type Pen = CanvasRenderingContext2D;

@@ -1,17 +1,16 @@
 /** List the recordings of the folder, to search, open and compare. */
-import type { JSX } from "preact";
-
-import { AddFiles } from "./AddFiles";
-import { TruncatedName } from "./TruncatedName";
 import { useStudio } from "../context";
 import { countChecked } from "../../segments";
 import type { Listing } from "../../messages";
 import { ORDERS, STATUSES, type Status } from "../recordingList";
 import { Button, CloseButton, Select, TextInput } from "../../layout/controls";
+import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { listen } from "../../util";
 
 const SIGNS: Record<Status, string> = { new: "", corrected: "✎", labelled: "◐", checked: "✓" };
 
-export function FolderPanel(): JSX.Element {
+export function FolderPanel() {
   const { session, view } = useStudio();
   const { search, status, order } = session.list;
   const all = session.state.value?.recordings ?? [];
@@ -69,11 +68,11 @@ export function FolderPanel(): JSX.Element {
   );
 }
 
-function RecordingRow({ listing }: { listing: Listing }): JSX.Element {
+function RecordingRow({ listing }: { listing: Listing }) {
   const { session, view } = useStudio();
   const { id, name } = listing;
   const { store } = session;
-  const open = store.opened.value.find((each) => each.recording.value.id === id)?.recording.value;
+  const open = store.opened.value[store.findIndex(id)]?.recording.value;
   const shown = open !== undefined;
   const status = session.list.getStatus(listing);
   const checked = open ? countChecked(open.segmentation) : listing.checked;
@@ -121,11 +120,7 @@ function RecordingRow({ listing }: { listing: Listing }): JSX.Element {
   );
 }
 
-function EmptyHint(props: {
-  all: number;
-  found: number;
-  suffixes: string[] | undefined;
-}): JSX.Element | null {
+function EmptyHint(props: { all: number; found: number; suffixes: string[] | undefined }) {
   const { all, found, suffixes } = props;
   if (!suffixes) return <p class="hint quiet">The list of recordings is loading.</p>;
   if (all === 0)
@@ -139,6 +134,101 @@ function EmptyHint(props: {
   return null;
 }
 
-export function formatFileSize(bytes: number): string {
+function formatFileSize(bytes: number): string {
   return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
+}
+
+/** Choose files to upload and show their progress. */
+export function AddFiles() {
+  const { uploads } = useStudio();
+  return (
+    <>
+      <label
+        class="button"
+        title="Add files to the folder; dropping them on the page does the same"
+      >
+        Add…
+        <input
+          class="unseen"
+          type="file"
+          multiple
+          onChange={(event) => {
+            const input = event.currentTarget;
+            void uploads.add([...(input.files ?? [])]);
+            input.value = "";
+          }}
+        />
+      </label>
+      {uploads.running.value.map(({ name, share }) => (
+        <span class="upload" key={name}>
+          <span>{name}</span>
+          <progress value={share} aria-label={`Sending ${name}`} />
+        </span>
+      ))}
+    </>
+  );
+}
+
+const TAIL = 12; // letters at the end that always stay visible
+
+/** Show a name whose middle is shortened first, since recordings often differ at the end. */
+export function TruncatedName({ name }: { name: string }) {
+  const cut = Math.max(name.length - TAIL, 0);
+  return (
+    <span class="name halves">
+      <span>{name.slice(0, cut)}</span>
+      <span>{name.slice(cut)}</span>
+    </span>
+  );
+}
+
+/** Show which recording is loading, with a button to cancel. */
+export function OpeningProgress() {
+  const { session } = useStudio();
+  const id = session.opening.value;
+  const listing = session.state.value?.recordings.find((each) => each.id === id);
+  const seconds = useSignal(0);
+  useEffect(() => {
+    seconds.value = 0;
+    const timer = window.setInterval(() => (seconds.value += 1), 1000);
+    return () => window.clearInterval(timer);
+  }, [id, seconds]);
+  if (!listing || seconds.value === 0) return null; // most recordings open within a second
+  return (
+    <p class="opening">
+      Reading {listing.name}, {formatFileSize(listing.bytes)}: {seconds.value} s{" "}
+      <Button onClick={() => session.stopOpening()}>Cancel</Button>
+    </p>
+  );
+}
+
+/** Upload files dropped anywhere on the page. */
+export function DropZone() {
+  const { session, uploads } = useStudio();
+  const over = useSignal(false);
+  useEffect(() => {
+    const holdsFiles = (event: DragEvent): boolean =>
+      event.dataTransfer?.types.includes("Files") ?? false;
+    const onOver = (event: DragEvent): void => {
+      if (!holdsFiles(event)) return;
+      event.preventDefault();
+      over.value = true;
+    };
+    const onLeave = (event: DragEvent): void => {
+      if (event.relatedTarget === null) over.value = false;
+    };
+    const onDrop = (event: DragEvent): void => {
+      if (!holdsFiles(event)) return;
+      event.preventDefault();
+      over.value = false;
+      void uploads.add([...(event.dataTransfer?.files ?? [])]);
+    };
+    return listen(window, { dragover: onOver, dragleave: onLeave, drop: onDrop });
+  }, [uploads, over]);
+  if (!over.value) return null;
+  return (
+    <div class="drop-zone" aria-hidden="true">
+      <p>Drop to add to {session.state.value?.folder}</p>
+    </div>
+  );
 }

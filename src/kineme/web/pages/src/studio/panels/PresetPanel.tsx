@@ -1,16 +1,12 @@
 /** Choose a preset and its parameters; a change shows a preview, a button applies it. */
 import { signal, useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
-import type { Parameter, PresetChoice, Segments } from "../../messages";
+import type { Parameter, PresetChoice, Segments, Progress } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
-import { DetailSlider } from "../../layout/DetailSlider";
-import type { SegmentationChoice } from "../editing/comparisons";
-import { ParameterSlider } from "./ParameterSlider";
-import { ProposalPanel } from "./ProposalPanel";
-import { RunProgress } from "./RunProgress";
-import { Button, Select } from "../../layout/controls";
+import { DetailSlider, Button, Select, Checkbox, NumberInput } from "../../layout/controls";
+import type { SegmentationChoice, Proposal } from "../editing/comparisons";
+import { formatCount } from "../../util";
 
 /** Whether the parameters are shown, for all recordings. */
 const showsAdvanced = signal(false);
@@ -19,7 +15,7 @@ const PAUSE = 120; // milliseconds without a change before a preview is requeste
 
 type Values = Record<string, number>;
 
-export function PresetPanel(): JSX.Element | null {
+export function PresetPanel() {
   const { session } = useStudio();
   const state = session.state.value;
   const edited = session.edited.value;
@@ -43,7 +39,7 @@ interface Props {
   details: number[];
 }
 
-function Presets({ edited, presets, fallback, details }: Props): JSX.Element {
+function Presets({ edited, presets, fallback, details }: Props) {
   const { session } = useStudio();
   const { draft } = session.comparisons;
   const keep = useSignal(true);
@@ -181,4 +177,119 @@ function getDefaults(choice: PresetChoice): Values {
 
 function isDefault({ name, value, step }: Parameter, values: Values): boolean {
   return Math.abs((values[name] ?? value) - value) < step / 2;
+}
+
+/** Show the consequences of a previewed segmentation, and apply or discard it. */
+function ProposalPanel(props: {
+  proposal: Proposal;
+  keep: boolean;
+  setKeep: (keep: boolean) => void;
+}) {
+  const { session } = useStudio();
+  const { proposal, keep, setKeep } = props;
+  const { preview } = proposal;
+  const counts = `${formatCount(preview.corrections, "correction")}, ${formatCount(preview.names, "name")}`;
+  const some = preview.corrections + preview.names > 0;
+  return (
+    <div class="proposed" role="group" aria-label="Preview">
+      <div class="proposed-said">
+        {some && (
+          <Checkbox checked={keep} onCheck={setKeep}>
+            Take over {counts}
+          </Checkbox>
+        )}
+        {some && keep && preview.lost.length > 0 && (
+          <details open>
+            <summary>{formatCount(preview.lost.length, "name")} would be lost</summary>
+            <ul>
+              {preview.lost.map((what) => (
+                <li key={what}>{what}</li>
+              ))}
+            </ul>
+          </details>
+        )}
+        <p class="quiet">
+          Shown below what is there; borders that differ are marked. Nothing has been changed.
+        </p>
+      </div>
+      <p class="actions">
+        <Button onClick={() => session.comparisons.discard()}>Discard</Button>
+        <Button
+          class="primary"
+          disabled={keep !== proposal.keep}
+          onClick={() => session.comparisons.apply()}
+        >
+          {some ? (keep ? "Apply" : `Apply: replaces ${counts}`) : "Apply"}
+        </Button>
+      </p>
+    </div>
+  );
+}
+
+/** Edit a preset's parameter with a number field and a slider. */
+function ParameterSlider(props: {
+  parameter: Parameter;
+  value: number;
+  change: (value: number) => void;
+}) {
+  const { parameter, value, change } = props;
+  const { name, help, minimum, maximum, step, unit } = parameter;
+  const title = name.replaceAll("_", " ");
+  return (
+    <div class="parameter" title={help}>
+      <label for={`parameter-${name}`}>
+        {title} <span class="quiet">{unit}</span>
+      </label>
+      <NumberInput
+        aria-label={unit ? `${title} in ${unit}` : title}
+        min={minimum}
+        max={maximum}
+        step={roundToThreeDigits(step)}
+        value={roundToThreeDigits(value)}
+        onNumber={change}
+      />
+      <input
+        id={`parameter-${name}`}
+        type="range"
+        min={minimum}
+        max={maximum}
+        step={step}
+        value={value}
+        onInput={(event) => change(event.currentTarget.valueAsNumber)}
+      />
+    </div>
+  );
+}
+
+function roundToThreeDigits(value: number): number {
+  return Number(value.toFixed(3));
+}
+
+const POLL_INTERVAL = 400; // milliseconds between requests, and before the first
+
+/** Show a segmentation's progress, with a button to cancel. */
+function RunProgress({ id }: { id: string }) {
+  const { session } = useStudio();
+  const progress = useSignal<Progress | null>(null);
+  useEffect(() => {
+    const timer = window.setInterval(() => {
+      void session.api.loadProgress(id).then(
+        (now) => (progress.value = now),
+        () => undefined, // the page reports this already
+      );
+    }, POLL_INTERVAL);
+    return () => window.clearInterval(timer);
+  }, [session, id, progress]);
+  if (!progress.value?.stage) return null;
+  const { stage, share } = progress.value;
+  const text = share === null ? stage : `${stage}, ${Math.round(100 * share)} %`;
+  return (
+    <div class="run-progress">
+      <progress aria-label="Segmentation" value={share ?? undefined} />
+      <Button title="What is there stays (Escape)" onClick={() => session.cancel()}>
+        Cancel
+      </Button>
+      <span class="quiet">{text}</span>
+    </div>
+  );
 }

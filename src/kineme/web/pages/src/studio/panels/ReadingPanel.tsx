@@ -1,15 +1,15 @@
 /** Set how a recording is read where its file does not say or is wrong. */
 import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import type { JSX, TargetedEvent } from "preact";
-import { formatPerson } from "../../openRecording";
+import type { TargetedEvent } from "preact";
+import { formatPerson } from "../../recordingData";
 import { useStudio } from "../context";
-import { Button } from "../../layout/controls";
+import { Button, Field } from "../../layout/controls";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
 
-export function ReadingPanel(): JSX.Element | null {
+export function ReadingPanel() {
   const { session } = useStudio();
   const { value: recording } = session.store.recording;
   const { value: unread } = session.unread;
@@ -26,6 +26,8 @@ export function ReadingPanel(): JSX.Element | null {
   };
   const person = unread ? "" : (recording?.person ?? getOption("person"));
   if (!id) return null;
+  const isOpen =
+    unread !== null || Object.keys(known).length > 0 || takes.length > 1 || people.length > 0;
   const read = async (chosen = person, everybody = false): Promise<void> => {
     const fields = new FormData(form.current!);
     const text = (name: string): string => {
@@ -45,13 +47,7 @@ export function ReadingPanel(): JSX.Element | null {
     busy.value = false;
   };
   return (
-    <details
-      class="reading-panel"
-      key={`${id} ${unread !== null}`}
-      open={
-        unread !== null || Object.keys(known).length > 0 || takes.length > 1 || people.length > 0
-      }
-    >
+    <details class="reading-panel" key={`${id} ${unread !== null}`} open={isOpen}>
       <summary>How {unread ? unread.name : "this file"} is read</summary>
       <form
         ref={form}
@@ -68,10 +64,9 @@ export function ReadingPanel(): JSX.Element | null {
             read={read}
           />
         ) : (
-          <label class="field" title="Which of several people, by name or number">
-            <span>Person</span>
+          <Field title="Person" tooltip="Which of several people, by name or number">
             <input type="text" name="person" placeholder="the only one" defaultValue={person} />
-          </label>
+          </Field>
         )}
         {takes.length > 1 && (
           <OptionSelect
@@ -83,8 +78,7 @@ export function ReadingPanel(): JSX.Element | null {
             onChange={(event) => event.currentTarget.form?.requestSubmit()}
           />
         )}
-        <label class="field">
-          <span>Frames per second</span>
+        <Field title="Frames per second">
           <input
             type="number"
             name="fps"
@@ -93,7 +87,7 @@ export function ReadingPanel(): JSX.Element | null {
             placeholder="as the file says"
             defaultValue={getOption("fps")}
           />
-        </label>
+        </Field>
         <div class="pair">
           <OptionSelect name="unit" title="Unit" values={UNITS} value={getOption("unit")} />
           <OptionSelect name="up" title="Up" values={AXES} value={getOption("up")} />
@@ -121,7 +115,7 @@ function PersonButtons(props: {
   /** Whether no person is chosen yet. */
   question: boolean;
   read: (person?: string, everybody?: boolean) => Promise<void>;
-}): JSX.Element {
+}) {
   const { names, shown, question, read } = props;
   const { session } = useStudio();
   const all = shown.length === names.length;
@@ -160,11 +154,10 @@ function OptionSelect(props: {
   /** Text for no choice; null if one is required. */
   none?: string | null;
   onChange?: (event: TargetedEvent<HTMLSelectElement, Event>) => void;
-}): JSX.Element {
+}) {
   const { name, title, values, value, none = "as found" } = props;
   return (
-    <label class="field">
-      <span>{title}</span>
+    <Field title={title}>
       <select name={name} defaultValue={value} onChange={props.onChange}>
         {none !== null && <option value="">{none}</option>}
         {values.map((each) => (
@@ -173,6 +166,6 @@ function OptionSelect(props: {
           </option>
         ))}
       </select>
-    </label>
+    </Field>
   );
 }

@@ -1,20 +1,27 @@
 /** Edit the segment at the playhead: name, cluster, kind and comment. */
-import type { JSX } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
 import { getTarget } from "../editing/commands";
 import { getClusterColor, NO_COLOR } from "../../colors";
-import type { Kind, Segment } from "../../messages";
-import { NameInput } from "../../layout/NameInput";
+import type { Kind, Segment, Segments } from "../../messages";
+import {
+  Field,
+  NameInput,
+  Checkbox,
+  Select,
+  Swatch,
+  useDraft,
+  Button,
+  CloseButton,
+  TextInput,
+} from "../../layout/controls";
 import { getDuration, getSegmentName } from "../../segments";
-import { getConfidences } from "../../confidence";
-import { formatCount } from "../../formatCount";
+import { getConfidence } from "../../confidence";
+import { formatCount } from "../../util";
 import type { Session } from "../session";
-import { Comment } from "./Comment";
-import { SharedLabels } from "./SharedLabels";
-import { Checkbox, Select, Swatch } from "../../layout/controls";
+import { useSignal } from "@preact/signals";
 
-export function SegmentPanel(): JSX.Element {
+export function SegmentPanel() {
   const { session, editor, review } = useStudio();
   const segment = editor.segment.value;
   if (!segment) {
@@ -28,7 +35,7 @@ export function SegmentPanel(): JSX.Element {
   const called = table?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
-  const confidence = table && getConfidences(table).get(segment);
+  const confidence = table && getConfidence(table, segment);
   return (
     <div class="segment-panel">
       <p class="times number">
@@ -49,7 +56,6 @@ export function SegmentPanel(): JSX.Element {
         title="Name of its own"
         placeholder={called ? `called “${called}” by its cluster` : "no name"}
         value={label}
-        names={listNames(session)}
         naming="segment"
         onName={(label) => editor.nameSegment(segment, label, table)}
       />
@@ -60,8 +66,7 @@ export function SegmentPanel(): JSX.Element {
         Checked: no new segmentation changes it
       </Checkbox>
       <div class="pair">
-        <label class="field">
-          <span>Kind</span>
+        <Field title="Kind">
           <Select<Kind>
             value={segment.kind}
             options={[
@@ -70,19 +75,17 @@ export function SegmentPanel(): JSX.Element {
             ]}
             onSelect={(to) => editor.edit({ kind: "set_kind", ...getTarget(segment), to })}
           />
-        </label>
-        <label class="field">
-          <span>Cluster</span>
+        </Field>
+        <Field title="Cluster">
           <Swatch color={getClusterColor(segment.cluster)} />
           <ClusterSelect segment={segment} />
-        </label>
+        </Field>
       </div>
       {segment.cluster >= 0 && (
         <NameField
           title={`Name of cluster ${segment.cluster}, of ${describeMembers(session, segment.cluster)}`}
           placeholder="no name"
           value={called}
-          names={listNames(session)}
           naming="cluster"
           onName={(label) => editor.edit({ kind: "name_cluster", cluster: segment.cluster, label })}
         />
@@ -93,7 +96,7 @@ export function SegmentPanel(): JSX.Element {
   );
 }
 
-function ClusterSelect({ segment }: { segment: Segment }): JSX.Element {
+function ClusterSelect({ segment }: { segment: Segment }) {
   const { session, editor } = useStudio();
   const rows = session.store.table.value?.segments ?? [];
   const next = rows.reduce((most, row) => Math.max(most, row.cluster), -1) + 1;
@@ -128,15 +131,13 @@ interface NameProps {
   title: string;
   placeholder: string;
   value: string;
-  /** Suggestions. */
-  names: string[];
   /** Which name this field edits; the editor can focus it. */
   naming: "segment" | "cluster";
   onName: (label: string) => void;
 }
 
-function NameField({ title, placeholder, value, names, naming, onName }: NameProps): JSX.Element {
-  const { editor } = useStudio();
+function NameField({ title, placeholder, value, naming, onName }: NameProps) {
+  const { session, editor } = useStudio();
   const field = useRef<HTMLInputElement>(null);
   const focus = editor.naming.value === naming;
   useLayoutEffect(() => {
@@ -147,19 +148,84 @@ function NameField({ title, placeholder, value, names, naming, onName }: NamePro
   }, [focus, editor]);
   const list = `names-${naming}`;
   return (
-    <label class="field">
-      <span>{title}</span>
+    <Field title={title}>
       <NameInput {...{ field, value, placeholder, list, onName }} />
       <datalist id={list}>
-        {names.map((name) => (
+        {listNames(session).map((name) => (
           <option key={name} value={name} />
         ))}
       </datalist>
-    </label>
+    </Field>
   );
 }
 
 function listNames(session: Session): string[] {
   const rows = session.store.table.value?.segments ?? [];
   return [...new Set(rows.map((row) => row.label))].filter(Boolean).sort();
+}
+
+/** Edit the comment on a segment of a table. */
+function Comment({ segment, table }: { segment: Segment; table: Segments | undefined }) {
+  const { editor } = useStudio();
+  const draft = useDraft(segment.comment ?? "", (now) =>
+    editor.edit({ kind: "comment", ...getTarget(segment), text: now.trim() }, table),
+  );
+  return (
+    <Field title="Comment">
+      <textarea rows={2} placeholder="what others should know of it" {...draft} />
+    </Field>
+  );
+}
+
+const KEYS = 9;
+
+/** Edit the labels that all recordings share; the first nine have the keys 1 to 9. */
+function SharedLabels() {
+  const { session, editor } = useStudio();
+  const labels = session.state.value?.labels ?? [];
+  const name = useSignal("");
+  const saveLabels = (next: string[]): Promise<boolean> =>
+    session.notifications.attempt("labels", async () => {
+      await session.api.shareLabels({ labels: next });
+      await session.refresh();
+    });
+  return (
+    <section class="vocabulary" aria-label="Shared labels">
+      <h2>Labels of the folder</h2>
+      <div class="choices">
+        {labels.map((label, i) => (
+          <span class="group" key={label}>
+            <Button
+              title={
+                i < KEYS ? `Name the segment “${label}” (${i + 1})` : `Name the segment “${label}”`
+              }
+              onClick={() => editor.nameTarget(label)}
+            >
+              {i < KEYS && <kbd>{i + 1}</kbd>} {label}
+            </Button>
+            <CloseButton
+              label={`Take “${label}” off the list`}
+              onClick={() => void saveLabels(labels.filter((each) => each !== label))}
+            />
+          </span>
+        ))}
+      </div>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          const label = name.value.trim();
+          name.value = "";
+          if (label) void saveLabels([...labels, label]);
+        }}
+      >
+        <TextInput
+          aria-label="A label for all recordings of the folder"
+          placeholder={labels.length ? "one more label" : "a label for the key 1"}
+          value={name}
+          onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
+        />
+        <button type="submit">Add</button>
+      </form>
+    </section>
+  );
 }

@@ -1,12 +1,11 @@
 /** Offer to estimate the poses of videos, then show the progress. */
-import type { JSX } from "preact";
-import { formatCount } from "../../formatCount";
+import { formatCount } from "../../util";
 import { Button } from "../../layout/controls";
 import type { PosesProgress } from "../../messages";
 import { useStudio } from "../context";
 
 /** @param all whether to offer all videos of the folder, or only the one to be opened */
-export function PosesOffer({ all = false }: { all?: boolean }): JSX.Element | null {
+export function PosesOffer({ all = false }: { all?: boolean }) {
   const { poses, session } = useStudio();
   const { value: progress } = poses.progress;
   const { value: videos } = poses.videos;
@@ -54,7 +53,7 @@ export function PosesOffer({ all = false }: { all?: boolean }): JSX.Element | nu
   );
 }
 
-function EstimationProgress({ name, share, pace, done, all }: PosesProgress): JSX.Element {
+function EstimationProgress({ name, share, pace, done, all }: PosesProgress) {
   const percent = share === null ? "" : `${Math.round(100 * share)} %, `;
   return (
     <p role="status">

@@ -1,7 +1,7 @@
 /** Let the server estimate poses of videos, one after the other. */
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { PosesProgress } from "../../messages";
-import { delay } from "../delay";
+import { delay } from "../../util";
 import { explainError } from "../server/api";
 import type { Session } from "../session";
 

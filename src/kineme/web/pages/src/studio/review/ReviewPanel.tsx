@@ -1,17 +1,17 @@
 /** Show what to review next and the progress. */
-import type { ComponentChildren, JSX } from "preact";
-import { ReviewButtons } from "./ReviewButtons";
+import type { ComponentChildren } from "preact";
 import { useStudio } from "../context";
 import { getClusterColor, NO_COLOR } from "../../colors";
 import type { Level } from "../../messages";
 import { getSegmentKey, getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
-import { countProgress, type Doubt } from "./doubts";
-import { Button, Select, Swatch } from "../../layout/controls";
+import { countProgress, type Doubt } from "../../confidence";
+import { Button, Select, Swatch, CloseButton } from "../../layout/controls";
+import type { Tally } from "../folder/briefTables";
 
 const MAX_ROWS = 100; // rows; the rest follows when these are checked
 
-export function ReviewPanel(): JSX.Element {
+export function ReviewPanel() {
   const { session, review } = useStudio();
   const { store } = session;
   const table = store.table.value;
@@ -65,7 +65,7 @@ export function ReviewPanel(): JSX.Element {
 }
 
 /** List what to review in all recordings; the bar below the figure has the details. */
-function FolderReview({ scope }: { scope: ComponentChildren }): JSX.Element {
+function FolderReview({ scope }: { scope: ComponentChildren }) {
   const { review } = useStudio();
   const { folder, queue } = review;
   const { value: places } = queue.places;
@@ -101,7 +101,7 @@ interface ItemProps {
 }
 
 /** Show a segment to review; a click goes there. */
-function DoubtItem({ doubt, color, current, go, children }: ItemProps): JSX.Element {
+function DoubtItem({ doubt, color, current, go, children }: ItemProps) {
   const { segment, confidence } = doubt;
   return (
     <li>
@@ -123,11 +123,7 @@ function DoubtItem({ doubt, color, current, go, children }: ItemProps): JSX.Elem
   );
 }
 
-function Progress(props: {
-  level: Level;
-  title: string;
-  of: [number, number];
-}): JSX.Element | null {
+function Progress(props: { level: Level; title: string; of: [number, number] }) {
   const { title, of } = props;
   const [checked, all] = of;
   if (!all) return null;
@@ -140,4 +136,79 @@ function Progress(props: {
       </span>
     </p>
   );
+}
+
+/** Go to the next segment to review, optionally marking the current one. */
+function ReviewButtons() {
+  const { review } = useStudio();
+  return (
+    <>
+      <Button title="Next to look at (J)" onClick={() => void review.goToNext()}>
+        Next
+      </Button>
+      <Button
+        class="primary"
+        title="The segment is right: mark it and go on (K)"
+        onClick={() => review.checkAndGoOn()}
+      >
+        Checked, next
+      </Button>
+    </>
+  );
+}
+
+/** Show the current place of the folder's review queue below the figure. */
+export function QueueBar() {
+  const { session, review } = useStudio();
+  const { current } = review.queue;
+  if (!review.everywhere.value) return null;
+  const place = current.value;
+  const here = place?.id === session.store.recording.value?.id;
+  return (
+    <section class="queue-bar" aria-label="Review of all recordings">
+      <p class="queue-why" role="status">
+        {place ? (
+          <>
+            <strong>
+              {place.recording}, {formatTime(place.doubt.segment.start_s, 2)}:{" "}
+              {getSegmentName(place.doubt.segment)}.
+            </strong>{" "}
+            {here ? place.doubt.confidence.why : "Opening…"}
+          </>
+        ) : (
+          "Every segment of every recording is checked."
+        )}
+      </p>
+      <FolderProgress tally={review.folder.tally.value} />
+      <span class="group">
+        <ReviewButtons />
+        <CloseButton
+          label="Leave the queue of the folder"
+          onClick={() => void review.setEverywhere(false)}
+        />
+      </span>
+    </section>
+  );
+}
+
+/** Show progress such as "312 of 1,396 checked; 40 of the others below 50 %". */
+export function FolderProgress({ tally }: { tally: Tally }) {
+  const { all, checked, doubtful } = tally;
+  if (!all) return null;
+  return (
+    <p class="folder-progress">
+      <progress max={all} value={checked} aria-label="Segments of the folder checked" />
+      <span
+        class="number"
+        title="Segments that nobody checked and that are more probably wrong than right"
+      >
+        {formatInteger(checked)} of {formatInteger(all)} checked; {formatInteger(doubtful)} of the
+        others below 50 %
+      </span>
+    </p>
+  );
+}
+
+function formatInteger(n: number): string {
+  return n.toLocaleString("en");
 }

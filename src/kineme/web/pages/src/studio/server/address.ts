@@ -1,5 +1,5 @@
 /** Build addresses of the server; read and write the page's address. */
-import type { OpenRecording } from "../../openRecording";
+import type { OpenRecording } from "../../recordingData";
 import type { GetPath, PostPath } from "./paths";
 
 /** Names in braces of a path. */

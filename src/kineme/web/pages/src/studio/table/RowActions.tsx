@@ -1,15 +1,14 @@
 /** Edit or export all selected rows as one step. */
 import { useSignal } from "@preact/signals";
-import type { JSX } from "preact";
 import { useStudio } from "../context";
 import type { ByHand } from "../../messages";
 import { getTarget } from "../editing/commands";
 import { findRow } from "../../segments";
-import { saveFile } from "../server/saveFile";
+import { saveFile } from "../server/api";
 import { type Row, findSpansToMerge } from "./rows";
 import { Button, TextInput } from "../../layout/controls";
 
-export function RowActions({ rows }: { rows: Row[] }): JSX.Element {
+export function RowActions({ rows }: { rows: Row[] }) {
   const { session, editor } = useStudio();
   const busy = useSignal(false);
   const exportClips = async (loops: boolean): Promise<void> => {
@@ -100,7 +99,7 @@ export function RowActions({ rows }: { rows: Row[] }): JSX.Element {
 }
 
 /** Open the list of loops. */
-export function LoopsButton(): JSX.Element {
+export function LoopsButton() {
   const { session, view } = useStudio();
   return (
     <Button

@@ -1,19 +1,17 @@
 /** List all segments; only visible rows are rendered, so long lists scroll fast. */
-import { formatCount } from "../../formatCount";
-import { computed, useSignal, useSignalEffect } from "@preact/signals";
-import type { JSX } from "preact";
+import { formatCount } from "../../util";
+import { computed, useSignal, useSignalEffect, signal, type Signal } from "@preact/signals";
 import { useMemo, useRef } from "preact/hooks";
-import { useStore } from "../../context";
+import { useStore } from "../../store";
 import { NO_COLOR } from "../../colors";
 import { getDuration, getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
 import { sliceRows, NO_FILTER, type Filter, type Order, type Row, listRows } from "./rows";
+import { type ColumnOrder, OrderButton, useVisibleRows } from "../longTable";
 import { RowActions, LoopsButton } from "./RowActions";
-import { TableFilter } from "./TableFilter";
-import { Button, Swatch } from "../../layout/controls";
+import { Button, Swatch, Select, toggleMember } from "../../layout/controls";
 
 const ROW_HEIGHT = 26; // pixels of a row
-const OVERSCAN = 6; // rows rendered above and below the visible ones
 const COLUMNS: readonly (readonly [Order, string])[] = [
   ["start", "Start"],
   ["duration", "Length"],
@@ -21,15 +19,13 @@ const COLUMNS: readonly (readonly [Order, string])[] = [
   ["confidence", "Confidence"],
 ];
 
-export function SegmentTable(): JSX.Element {
+export function SegmentTable() {
   const store = useStore();
   const filter = useSignal<Filter>(NO_FILTER);
-  const order = useSignal<[Order, boolean]>(["start", false]);
+  const order = useSignal<ColumnOrder<Order>>(["start", false]);
   const chosen = useSignal<ReadonlySet<number>>(new Set());
   const anchor = useRef(0);
-  const top = useSignal(0);
-  const height = useSignal(400);
-  const place = useRef<HTMLDivElement>(null);
+  const { ref, onScroll, from, to } = useVisibleRows(ROW_HEIGHT);
   const rows = useMemo(
     () =>
       computed(() => {
@@ -45,27 +41,22 @@ export function SegmentTable(): JSX.Element {
     if (at < 0 || chosen.peek().has(rows.peek()[at]!.number)) return;
     chosen.value = new Set([rows.peek()[at]!.number]);
     anchor.current = at;
-    scrollToRow(place.current, at);
+    scrollToRow(ref.current, at);
   });
   const chooseRow = (at: number, many: "one" | "range" | "more"): void => {
     const row = rows.value[Math.min(Math.max(at, 0), rows.value.length - 1)];
     if (!row) return;
     const index = rows.value.indexOf(row);
-    if (many === "range")
-      chosen.value = new Set(
-        sliceRows(rows.value, anchor.current, index).map((each) => each.number),
-      );
-    else {
-      const before = many === "more" ? [...chosen.value] : [];
-      const numbers = before.includes(row.number)
-        ? before.filter((each) => each !== row.number)
-        : [...before, row.number];
-      chosen.value = new Set(numbers);
+    if (many === "range") {
+      const range = sliceRows(rows.value, anchor.current, index);
+      chosen.value = new Set(range.map((each) => each.number));
+    } else {
+      chosen.value = toggleMember(many === "more" ? chosen.value : new Set(), row.number);
       anchor.current = index;
     }
     last.current = index;
     if (many !== "more") store.select(row.segment);
-    scrollToRow(place.current, index);
+    scrollToRow(ref.current, index);
   };
   const last = useRef(0);
   const onKeyDown = (event: KeyboardEvent): void => {
@@ -79,33 +70,23 @@ export function SegmentTable(): JSX.Element {
     event.stopPropagation();
   };
   const many = rows.value.filter(({ number }) => chosen.value.has(number));
-  const from = Math.max(Math.floor(top.value / ROW_HEIGHT) - OVERSCAN, 0);
-  const to = Math.min(
-    Math.ceil((top.value + height.value) / ROW_HEIGHT) + OVERSCAN,
-    rows.value.length,
-  );
   return (
     <div class="segment-table">
       <TableFilter filter={filter} />
       {many.length > 0 && <RowActions rows={many} />}
       <div class="table-head" role="presentation">
         {COLUMNS.map(([id, title]) => (
-          <Button
+          <OrderButton
             key={id}
-            class="plain"
-            title={`Order by ${title.toLowerCase()}`}
-            onClick={() => (order.value = [id, order.value[0] === id && !order.value[1]])}
-          >
-            {title}
-            {order.value[0] === id && (order.value[1] ? " ▾" : " ▴")}
-          </Button>
+            order={order}
+            column={id}
+            title={title}
+            tooltip={`Order by ${title.toLowerCase()}`}
+          />
         ))}
       </div>
       <div
-        ref={(element) => {
-          place.current = element;
-          if (element) height.value = element.clientHeight || height.value;
-        }}
+        ref={ref}
         class="table-rows"
         role="grid"
         aria-label="Segments"
@@ -113,10 +94,7 @@ export function SegmentTable(): JSX.Element {
         aria-rowcount={rows.value.length}
         tabIndex={0}
         onKeyDown={onKeyDown}
-        onScroll={(event) => {
-          top.value = event.currentTarget.scrollTop;
-          height.value = event.currentTarget.clientHeight;
-        }}
+        onScroll={onScroll}
       >
         <div role="presentation" style={{ height: `${rows.value.length * ROW_HEIGHT}px` }}>
           {rows.value.slice(from, to).map((row, i) => (
@@ -152,7 +130,7 @@ function TableRow(props: {
   color: string;
   chosen: boolean;
   go: (at: number, many: "one" | "range" | "more") => void;
-}): JSX.Element {
+}) {
   const { row, at, color, chosen, go } = props;
   const { segment, confidence } = row;
   return (
@@ -193,4 +171,100 @@ function scrollToRow(place: HTMLElement | null, at: number): void {
   if (at * ROW_HEIGHT < scrollTop) place.scrollTop = at * ROW_HEIGHT;
   else if ((at + 1) * ROW_HEIGHT > scrollTop + clientHeight)
     place.scrollTop = (at + 1) * ROW_HEIGHT - clientHeight;
+}
+
+const LEVELS = [
+  ["", "both levels"],
+  ["activity", "activities"],
+  ["primitive", "primitives"],
+] as const;
+const KINDS = [
+  ["", "every kind"],
+  ["movement", "no transitions"],
+  ["transition", "transitions"],
+] as const;
+const CHECKED = [
+  ["", "checked or not"],
+  ["no", "not checked"],
+  ["yes", "checked"],
+] as const;
+const NUMBERS = [
+  ["shortest", "from s", "Shortest, seconds", "0.1"],
+  ["longest", "to s", "Longest, seconds", "0.1"],
+  ["confidenceBelow", "confidence <", "Confidence below", "0.05"],
+] as const;
+/** Whether all filters are shown. */
+const open = signal(false);
+
+/** Filter the table of segments. */
+function TableFilter({ filter }: { filter: Signal<Filter> }) {
+  const change = (part: Partial<Filter>): void =>
+    void (filter.value = { ...filter.value, ...part });
+  const { text, level, ...rest } = filter.value;
+  const narrowed = Object.entries(rest).some(
+    ([what, value]) => value !== NO_FILTER[what as keyof typeof rest],
+  );
+  return (
+    <div class="table-filter">
+      <input
+        type="search"
+        placeholder="Name or cluster"
+        aria-label="Only segments with this in their name"
+        value={text}
+        onInput={(event) => change({ text: event.currentTarget.value })}
+      />
+      <Select
+        label="Level"
+        value={level}
+        options={LEVELS}
+        onSelect={(chosen) => change({ level: chosen })}
+      />
+      <Button
+        aria-expanded={open.value}
+        aria-pressed={narrowed}
+        title="Kind, checked or not, length, confidence"
+        onClick={() => (open.value = !open.value)}
+      >
+        More
+      </Button>
+      {open.value && <MoreFilters filter={filter.value} change={change} />}
+    </div>
+  );
+}
+
+function MoreFilters(props: { filter: Filter; change: (part: Partial<Filter>) => void }) {
+  const { filter, change } = props;
+  return (
+    <div class="more-filters">
+      <Select
+        label="Kind of segment"
+        value={filter.kind}
+        options={KINDS}
+        onSelect={(kind) => change({ kind })}
+      />
+      <Select
+        label="Checked or not"
+        value={filter.checked}
+        options={CHECKED}
+        onSelect={(checked) => change({ checked })}
+      />
+      <span class="group">
+        {NUMBERS.map(([key, placeholder, label, step]) => (
+          <input
+            key={key}
+            type="number"
+            min="0"
+            step={step}
+            max={key === "confidenceBelow" ? 1 : ""}
+            placeholder={placeholder}
+            aria-label={label}
+            defaultValue={filter[key] === NO_FILTER[key] ? "" : filter[key]}
+            onInput={({ currentTarget: { valueAsNumber: value } }) =>
+              change({ [key]: Number.isFinite(value) ? value : NO_FILTER[key] })
+            }
+          />
+        ))}
+      </span>
+    </div>
+  );
 }

@@ -1,7 +1,7 @@
 /** Filter and sort the rows of the segment table. Pure functions. */
 import type { Level, Segment, Segments } from "../../messages";
-import { getDuration, getSegmentName } from "../../segments";
-import { getConfidences, type Confidence } from "../../confidence";
+import { compareLevel, compareTime, getDuration, getSegmentName } from "../../segments";
+import { getConfidence, type Confidence } from "../../confidence";
 
 /** Sortable columns. */
 export type Order = "start" | "duration" | "name" | "cluster" | "confidence";
@@ -37,13 +37,8 @@ export interface Row {
 }
 
 export function listRows(table: Segments, filter: Filter, order: Order, down: boolean): Row[] {
-  const confidences = getConfidences(table);
   const rows = table.segments
-    .map((segment, number) => ({
-      segment,
-      number,
-      confidence: confidences.get(segment),
-    }))
+    .map((segment, number) => ({ segment, number, confidence: getConfidence(table, segment) }))
     .filter((row) => matchesFilter(row, filter));
   const sign = down ? -1 : 1;
   const compare = COMPARE[order];
@@ -94,11 +89,6 @@ function matchesText(segment: Segment, text: string): boolean {
     .toLowerCase()
     .includes(text);
 }
-
-const compareTime = (a: Segment, b: Segment): number =>
-  a.start_frame - b.start_frame || compareLevel(a, b);
-const compareLevel = (a: Segment, b: Segment): number =>
-  a.level.localeCompare(b.level) || a.start_frame - b.start_frame;
 
 const COMPARE: Record<Order, (a: Row, b: Row) => number> = {
   start: (a, b) => compareTime(a.segment, b.segment),

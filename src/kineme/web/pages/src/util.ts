@@ -1,0 +1,64 @@
+/** Small helpers: texts, numbers, caching and the browser. */
+
+/** Return a count with its noun, such as "1 member" or "2 members". */
+export function formatCount(n: number, one: string, many = `${one}s`): string {
+  return `${n} ${n === 1 ? one : many}`;
+}
+
+/** Mean and sample standard deviation; null if there are too few values. */
+export interface Mean {
+  mean: number | null;
+  deviation: number | null;
+}
+
+export function computeMean(values: readonly number[]): Mean {
+  if (!values.length) return { mean: null, deviation: null };
+  const mean = values.reduce((sum, each) => sum + each, 0) / values.length;
+  const squares = values.reduce((sum, each) => sum + (each - mean) ** 2, 0);
+  return { mean, deviation: values.length > 1 ? Math.sqrt(squares / (values.length - 1)) : null };
+}
+
+/** Return a function that computes its result once for each object. */
+export function memoize<Key extends object, Value>(
+  compute: (key: Key) => Value,
+): (key: Key) => Value {
+  const cache = new WeakMap<Key, Value>();
+  return (key) => {
+    const value = cache.get(key) ?? compute(key);
+    cache.set(key, value);
+    return value;
+  };
+}
+
+/** Add event listeners and return a function that removes them. */
+export function listen(
+  target: EventTarget,
+  listeners: Record<string, (event: never) => void>,
+  options: AddEventListenerOptions = {},
+): () => void {
+  const entries = Object.entries(listeners) as [string, EventListener][];
+  for (const [name, listener] of entries) target.addEventListener(name, listener, options);
+  return () => {
+    for (const [name, listener] of entries) target.removeEventListener(name, listener, options);
+  };
+}
+
+/** Return a setting from the browser's storage; null if it is missing or unreadable. */
+export function readStored(key: string): unknown {
+  try {
+    return JSON.parse(localStorage.getItem(key) ?? "null");
+  } catch {
+    return null;
+  }
+}
+
+/** Enter or leave full screen. */
+export function toggleFullScreen(): void {
+  if (document.fullscreenElement) void document.exitFullscreen();
+  else void document.querySelector(".layout")?.requestFullscreen();
+}
+
+/** Resolve after some milliseconds. */
+export function delay(milliseconds: number): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, milliseconds));
+}
