@@ -235,15 +235,15 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
 
 
 def _drop_early_visits(visits: Frames) -> Frames:
-    """Drop visits that follow the one before much sooner than usual, as after a shock."""
-    lengths = np.diff(visits)
-    if not len(lengths) or lengths.min() >= (least := MIN_PART * np.median(lengths)):
-        return visits
-    kept = [int(visits[0])]
-    for visit in visits[1:].tolist():
-        if visit - kept[-1] >= least:
-            kept.append(visit)
-    return np.array(kept, np.int64)
+    """Drop visits between two others that are about one repetition apart, as after a shock."""
+    kept = visits
+    while len(kept) > 2:
+        # Length of the repetition that would remain without each inner visit.
+        joined = kept[2:] - kept[:-2]
+        if joined.min() > (1 + MIN_PART) * np.median(np.diff(kept)):
+            break
+        kept = np.delete(kept, 1 + joined.argmin())
+    return kept
 
 
 def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
