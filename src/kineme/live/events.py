@@ -1,11 +1,11 @@
-"""Final segments of a stream, and how new ones are added.
+"""Events of a stream, its final segments, and how new ones are added.
+
+A final event never changes; a provisional one is the best guess so far.
 
 Each segmentation of the recent past (a look) gives rows. Those before the horizon become final:
 activities up to the frontier, and repetitions of the open activity as they end. A row that
 contradicts final ones begins at the frontier. A border becomes final when two looks in a row find
 it. The primitives of an activity become final once they are found, as it may not repeat at first.
-
-@@events: Events of a stream. A final event never changes; a provisional one is the best guess so far.
 """
 
 from __future__ import annotations

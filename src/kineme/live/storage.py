@@ -1,10 +1,9 @@
-"""State of a stream, in memory and as a file: NPZ with its arrays, and the rest as JSON inside.
+"""Save the state of a stream, and write its rows to disk as they arrive.
 
-@@journal: Write rows to disk as they arrive: an append-only CSV that becomes a Parquet file at the end.
-
-While ``take.parquet`` is recorded it is ``take.journal.csv``. Each row is flushed to the operating
-system, so a killed program loses only the rows of its last moment. An incomplete last line is
-dropped when the journal is recovered.
+The state is an NPZ file with arrays, and JSON inside for the rest. Rows are appended to a journal,
+``take.journal.csv``, which becomes ``take.parquet`` at the end. Each row is flushed to the
+operating system, so a killed program loses only the rows of its last moment. An incomplete last
+line is dropped when the journal is recovered.
 """
 
 from __future__ import annotations

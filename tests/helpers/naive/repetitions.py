@@ -46,6 +46,17 @@ def find_dips(row, least):
     return sorted(found, reverse=True)
 
 
+def drop_extra_visits(visits, longest):
+    """Drop visits, one by one, whose neighbours are at most ``longest`` median lengths apart."""
+    visits = list(visits)
+    while len(visits) > 2:
+        around = [later - earlier for earlier, later in zip(visits, visits[2:], strict=False)]
+        if min(around) > longest * np.median(np.diff(visits)):
+            break
+        del visits[1 + around.index(min(around))]
+    return visits
+
+
 def score_durations(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):
     """Return evenness times the share that is not explained by chance, by period or number."""
     durations = np.diff(visits) / fps

@@ -50,6 +50,13 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
         assert sorted(pairs) == sorted(expected)
 
 
+@given(st.lists(st.integers(0, 40), unique=True).map(sorted), st.sampled_from([1.2, 1.35, 1.6]))
+@seconds
+def test_extra_visits_are_those_of_the_naive_version(visits, longest) -> None:
+    kept = kernels.drop_extra_visits(np.array(visits, np.int64), longest)
+    assert kept.tolist() == naive.drop_extra_visits(visits, longest)
+
+
 def count(rows: np.ndarray) -> np.ndarray:
     frames = len(rows)
     return find_repetitions(rows.astype(np.float32), 0, frames, KINEME)
@@ -64,6 +71,16 @@ def test_every_repetition_is_counted(movement, period: float) -> None:
     for times in range(2, 13):
         found = count(movement(times, period=period))
         assert len(found) + 1 == times
+
+
+@movements
+@pytest.mark.parametrize("place", [0.42, 0.5, 0.63])
+@pytest.mark.parametrize("size", [1, 2, 4])
+def test_a_shock_is_no_repetition(movement, place: float, size: int) -> None:
+    rows = movement(8, period=4.0)
+    shock = size * rows.std(axis=0).max() * np.sin(np.linspace(0, 2 * np.pi, 18))
+    rows[int(place * len(rows)) :][:18] += shock[:, None]
+    assert len(count(rows)) + 1 == 8
 
 
 @movements

@@ -25,42 +25,50 @@ ROUGH = 0.02
 @njit("float32[:, ::1](float32[:, ::1], int64[::1])", **SUMS)
 def measure_distances(features, references):
     """Return the distance of each reference frame to each frame."""
-    distances = np.empty((len(references), len(features)), np.float32)
+    n, dims = features.shape
+    # One contiguous row per dimension, so that the loop over frames is vectorised.
+    columns = np.ascontiguousarray(features.T)
+    distances = np.zeros((len(references), n), np.float32)
     for r in range(len(references)):
-        row = features[references[r]]
-        for f in range(len(features)):
-            square = np.float32(0)
-            for d in range(features.shape[1]):
-                difference = row[d] - features[f, d]
-                square += difference * difference
-            distances[r, f] = np.sqrt(square)
+        row = distances[r]
+        for d in range(dims):
+            own, others = columns[d, references[r]], columns[d]
+            for f in range(n):
+                row[f] += (own - others[f]) * (own - others[f])
+        for f in range(n):
+            row[f] = np.sqrt(row[f])
     return distances
 
 
-@njit("int64[::1](float32[::1], float32)", **OPTIONS)
-def find_turning_points(row, least):
-    """Return alternating local minima and maxima that differ by ``least``; both ends are minima."""
-    turns = np.empty(len(row) + 1, np.int64)
+@njit("int64(float32[::1], float32, int64[::1])", **OPTIONS)
+def find_turning_points(row, least, turns):
+    """Write alternating local minima and maxima that differ by ``least``; return their number.
+
+    Both ends are minima. ``turns`` has space for one more than the row.
+    """
     count = low = high = 0  # columns of the lowest and highest value since the last turn
-    rising = falling = False
+    lowest = highest = row[0]
+    direction = 0  # 1 after a minimum, -1 after a maximum
     for c in range(len(row)):
-        # Update the lowest and the highest column since the last turn.
-        low = c if row[c] < row[low] else low
-        high = c if row[c] > row[high] else high
-        if not rising and row[c] - row[low] >= least:
+        value = row[c]
+        if value < lowest:
+            low, lowest = c, value
+        if value > highest:
+            high, highest = c, value
+        if direction != 1 and value - lowest >= least:
             turns[count] = low
             count += 1
-            rising, falling, high = True, False, c
-        elif not falling and row[high] - row[c] >= least:
+            direction, high, highest = 1, c, value
+        elif direction != -1 and highest - value >= least:
             if count > 0:  # the first turn is a minimum
                 turns[count] = high
                 count += 1
-            rising, falling, low = False, True, c
+            direction, low, lowest = -1, c, value
     # The last turn is a minimum.
-    if falling or count == 0:
+    if direction == -1 or count == 0:
         turns[count] = low
         count += 1
-    return turns[:count]
+    return count
 
 
 @njit("Tuple((float32[:, ::1], int64[:, ::1]))(float32[:, ::1], float32[::1])", **OPTIONS)
@@ -75,16 +83,17 @@ def find_dips(distances, least):
     # Two dips are separated by a higher column, so about half of the columns at most are dips.
     depths = np.zeros((rows, columns // 2 + 1), np.float32)
     lowest = np.zeros((rows, columns // 2 + 1), np.int64)
+    turns = np.empty(columns + 1, np.int64)
+    depths_found = np.empty(columns // 2 + 2, np.float32)
+    columns_found = np.empty(columns // 2 + 2, np.int64)
     for r in range(rows):
         row = distances[r]
         # Minima are at even turns, maxima at odd ones.
-        turns = find_turning_points(row, least[r])
-        depths_found = np.zeros(len(turns) // 2 + 1, np.float32)
-        columns_found = np.zeros(len(turns) // 2 + 1, np.int64)
+        n_turns = find_turning_points(row, least[r], turns)
         count = n = 0
         # A climb smaller than both of its neighbours is the depth of a dip. One pass removes most
         # dips in this way, so the quadratic loop below has little left to do.
-        for t in range(len(turns)):
+        for t in range(n_turns):
             turns[n] = turns[t]
             n += 1
             while n > 3:
@@ -116,11 +125,32 @@ def find_dips(distances, least):
         depths_found[count], columns_found[count] = top - row[turns[0]], turns[0]
         # Sort by depth, and leave out dips at the ends of the row.
         rank = 0
-        for i in np.argsort(-depths_found, kind="mergesort"):
+        for i in np.argsort(-depths_found[: count + 1], kind="mergesort"):
             if depths_found[i] >= least[r] and 0 < columns_found[i] < columns - 1:
                 depths[r, rank], lowest[r, rank] = depths_found[i], columns_found[i]
                 rank += 1
     return depths, lowest
+
+
+@njit("int64[::1](int64[::1], float64)", **OPTIONS)
+def drop_extra_visits(visits, longest):
+    """Drop visits whose neighbours are at most ``longest`` median repetitions apart.
+
+    So a shock, or a short return to the pose, does not divide a repetition. The visit between the
+    nearest neighbours is dropped first.
+    """
+    kept = visits.copy()
+    n = len(kept)
+    while n > 2:
+        extra = 1
+        for v in range(2, n - 1):
+            if kept[v + 1] - kept[v - 1] < kept[extra + 1] - kept[extra - 1]:
+                extra = v
+        if kept[extra + 1] - kept[extra - 1] > longest * np.median(np.diff(kept[:n])):
+            break
+        kept[extra : n - 1] = kept[extra + 1 : n].copy()
+        n -= 1
+    return kept[:n]
 
 
 @njit("Tuple((float64[:, ::1], float64[::1]))(float32[:, ::1], int64)", **OPTIONS)

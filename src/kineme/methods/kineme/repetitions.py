@@ -231,19 +231,7 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
         best = np.argsort(-falls[:, column], kind="stable")[:N_POSES]
         if votes[column] > 0:
             for visits in np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1):
-                yield _drop_early_visits(visits)
-
-
-def _drop_early_visits(visits: Frames) -> Frames:
-    """Drop visits between two others that are about one repetition apart, as after a shock."""
-    kept = visits
-    while len(kept) > 2:
-        # Length of the repetition that would remain without each inner visit.
-        joined = kept[2:] - kept[:-2]
-        if joined.min() > (1 + MIN_PART) * np.median(np.diff(kept)):
-            break
-        kept = np.delete(kept, 1 + joined.argmin())
-    return kept
+                yield kernels.drop_extra_visits(visits, 1 + MIN_PART)
 
 
 def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
