@@ -11,7 +11,7 @@ import os
 import threading
 from base64 import b64encode
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from itertools import count
@@ -27,7 +27,6 @@ from threadpoolctl import threadpool_limits
 from kineme._util.checks import format_count
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
-from kineme.features import Names
 from kineme.formats import ReadOptions
 from kineme.labels import read_segments
 from kineme.library import Example, Library
@@ -487,7 +486,9 @@ def _read_recording(library: Library, name: str, _: Stamp) -> Motion | Signals:
     return library.read(name)
 
 
-def _make_figure(span: Motion | Signals, effectors: Names | None) -> LibraryFigure:
+def _make_figure(
+    span: Motion | Signals, effectors: Mapping[str, str] | Sequence[str] | None
+) -> LibraryFigure:
     if isinstance(span, Signals):
         return LibraryFigure(motion=None, numbers="", curves=_sample_curves(span))
     try:

@@ -46,15 +46,15 @@ def find_dips(row, least):
     return sorted(found, reverse=True)
 
 
-def drop_extra_visits(visits, longest):
+def drop_extra_visits(visits, longest, most):
     """Drop visits, one by one, whose neighbours are at most ``longest`` median lengths apart."""
-    visits = list(visits)
-    while len(visits) > 2:
-        around = [later - earlier for earlier, later in zip(visits, visits[2:], strict=False)]
-        if min(around) > longest * np.median(np.diff(visits)):
+    kept = list(visits)
+    while len(kept) > 2:
+        around = [later - earlier for earlier, later in zip(kept, kept[2:], strict=False)]
+        if min(around) > longest * np.median(np.diff(kept)):
             break
-        del visits[1 + around.index(min(around))]
-    return visits
+        del kept[1 + around.index(min(around))]
+    return kept if len(visits) - len(kept) <= most * len(visits) else list(visits)
 
 
 def score_durations(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):

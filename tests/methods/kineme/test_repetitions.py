@@ -50,11 +50,15 @@ def test_dips_are_those_of_the_naive_version(row, least) -> None:
         assert sorted(pairs) == sorted(expected)
 
 
-@given(st.lists(st.integers(0, 40), unique=True).map(sorted), st.sampled_from([1.2, 1.35, 1.6]))
+@given(
+    st.lists(st.integers(0, 40), unique=True).map(sorted),
+    st.sampled_from([1.2, 1.35, 1.6]),
+    st.sampled_from([0.15, 0.35, 1.0]),
+)
 @seconds
-def test_extra_visits_are_those_of_the_naive_version(visits, longest) -> None:
-    kept = kernels.drop_extra_visits(np.array(visits, np.int64), longest)
-    assert kept.tolist() == naive.drop_extra_visits(visits, longest)
+def test_extra_visits_are_those_of_the_naive_version(visits, longest, most) -> None:
+    kept = kernels.drop_extra_visits(np.array(visits, np.int64), longest, most)
+    assert kept.tolist() == naive.drop_extra_visits(visits, longest, most)
 
 
 def count(rows: np.ndarray) -> np.ndarray:

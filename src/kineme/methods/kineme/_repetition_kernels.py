@@ -132,12 +132,12 @@ def find_dips(distances, least):
     return depths, lowest
 
 
-@njit("int64[::1](int64[::1], float64)", **OPTIONS)
-def drop_extra_visits(visits, longest):
+@njit("int64[::1](int64[::1], float64, float64)", **OPTIONS)
+def drop_extra_visits(visits, longest, most):
     """Drop visits whose neighbours are at most ``longest`` median repetitions apart.
 
     So a shock, or a short return to the pose, does not divide a repetition. The visit between the
-    nearest neighbours is dropped first.
+    nearest neighbours is dropped first. None is dropped if more than a share ``most`` would be.
     """
     kept = visits.copy()
     n = len(kept)
@@ -148,6 +148,8 @@ def drop_extra_visits(visits, longest):
                 extra = v
         if kept[extra + 1] - kept[extra - 1] > longest * np.median(np.diff(kept[:n])):
             break
+        if len(visits) - n + 1 > most * len(visits):
+            return visits
         kept[extra : n - 1] = kept[extra + 1 : n].copy()
         n -= 1
     return kept[:n]

@@ -63,6 +63,8 @@ MAX_END = 1.5
 """Longest end, in repetitions."""
 MIN_PART = 0.35
 """Part of a repetition from which it counts as one."""
+MOST_EXTRA = 0.2
+"""Largest share of visits that are dropped as extra ones."""
 SAME_COUNT = 0.75
 """Largest difference of the numbers of repetitions of candidates that are averaged."""
 SPEED_WINDOW = 0.1
@@ -222,7 +224,7 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
     shares = np.minimum(depths[:, :most] / large[:, None], 1)
     depths, centers = np.maximum(shares - noise, 0), centers[:, :most]
     # The largest fall of depth is after the last true visit.
-    falls = depths - np.pad(depths[:, 1:], ((0, 0), (0, 1)))
+    falls = -np.diff(depths, axis=1, append=np.float32(0))
     # Weight votes by speed: poses at rest are visited without a repetition.
     votes = np.diff(movement.path)[references] @ falls
     votes[0] = 0  # every pose visits itself
@@ -231,7 +233,7 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
         best = np.argsort(-falls[:, column], kind="stable")[:N_POSES]
         if votes[column] > 0:
             for visits in np.sort(centers[best[falls[best, column] > 0], : column + 1], axis=1):
-                yield kernels.drop_extra_visits(visits, 1 + MIN_PART)
+                yield kernels.drop_extra_visits(visits, 1 + MIN_PART, MOST_EXTRA)
 
 
 def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
