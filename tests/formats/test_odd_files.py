@@ -27,6 +27,7 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path, suffix: str) -> None:
 def test_a_leap_second(tmp_path: Path) -> None:
     assert parse_date("2016-12-31T23:59:60.5Z") == parse_date("2017-01-01T00:00:00.5Z")
     assert parse_date("23:59:60") == 86400
+    assert parse_date("T09:30:00") == parse_date("09:30:00") == 34200
     with pytest.raises(ValueError, match="is not an ISO date"):
         parse_date("23:59:61")
     seconds = [58.0, 58.5, 59.0, 59.5, 60.0, 60.5]

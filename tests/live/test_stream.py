@@ -84,6 +84,14 @@ def test_a_stream_goes_on_after_it_was_saved(rows, told, tmp_path):
     assert again.segmentation == told[0].segmentation
 
 
+def test_new_clusters_are_saved_with_the_seconds_at_their_last_comparison(rows, tmp_path):
+    stream = make_stream()
+    stream.push(rows)
+    stream._state.past.compared = {4: 6.1}
+    stream.save(tmp_path / "stream.npz")
+    assert Stream.load(tmp_path / "stream.npz")._state.past.compared == {4: 6.1}
+
+
 def test_a_file_that_is_no_stream_is_refused(tmp_path):
     (tmp_path / "other.npz").write_bytes(b"nothing")
     with pytest.raises(ReadError, match="not a stream"):

@@ -95,6 +95,7 @@ def save_state(state: StreamState, settings: Mapping[str, Any], path: str | Path
         "intake": {name: value for name, value in intake.items() if name not in arrays},
         "finals": asdict(state.finals),
         "start": past.start,
+        "compared": list(past.compared.items()),
         "before": state.before,
         "announced": asdict(state.announced),
         "numbers": {name: getattr(state, name) for name in NUMBERS},
@@ -126,6 +127,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
         state.finals = Finals(**finals)
         past = state.past
         past.start, past.known = content["start"], arrays["known"]
+        past.compared = dict(content["compared"])
         past.values, past.missing = arrays["values"], arrays["missing"]
         past.examples = {
             int(name.removeprefix(EXAMPLE)): rows

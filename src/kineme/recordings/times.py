@@ -189,7 +189,7 @@ def parse_date(text: str, *, day_first: bool | None = None) -> float:
         when = datetime.fromisoformat(text)
     except ValueError:
         written = _WRITTEN.fullmatch(text)
-        iso = _format_iso(written, day_first) if written else f"1970-01-01T{text}"
+        iso = _format_iso(written, day_first) if written else f"1970-01-01T{text.removeprefix('T')}"
         try:
             when = datetime.fromisoformat(iso)
         except ValueError:

@@ -205,16 +205,15 @@ class FBXScene:
 
     def find_moved(self, take: Take) -> set[int]:
         """Return the numbers of the models that a take drives."""
-        curved = {
-            number
-            for number, parts in self._driving.items()
-            if any(self._is(curve, "AnimationCurve") for curve, _ in parts)
-        }
         return {
             model
             for (model, property_name), tracks in self.find_tracks(take).items()
             if property_name in (TRANSLATION, ROTATION, SCALING)
-            and any(part in curved for _, part in tracks)
+            and any(
+                self._is(curve, "AnimationCurve")
+                for _, part in tracks
+                for curve, _ in self._driving.get(part, ())
+            )
         }
 
     def find_tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from threadpoolctl import ThreadpoolController
 
+from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
 from kineme._util.parallel import map_threads
 from kineme.features.channels import choose_frames
@@ -202,8 +203,6 @@ class Part(NamedTuple):
     level: Level
 
 
-# Parts run in parallel, and sums must not depend on the number of threads.
-@ThreadpoolController().wrap(limits=1)  # type: ignore[untyped-decorator]
 def analyze(
     features: ArrayLike,
     preset: KinemeConstants,
@@ -232,7 +231,20 @@ def analyze(
     ParameterError
         The features have another shape, are empty, or not finite.
     """
-    rows = as_features(features)
+    # Parts run in parallel, and sums must not depend on the number of threads.
+    with _get_thread_limiter().limit(limits=1):
+        return _analyze(as_features(features), preset, progress, joints=joints)
+
+
+@cache
+def _get_thread_limiter() -> ThreadpoolController:
+    """Return a limiter for the threads of matrix products; cached, as it takes 7 ms to create."""
+    return ThreadpoolController()
+
+
+def _analyze(
+    rows: Floats, preset: KinemeConstants, progress: Progress | None, *, joints: bool
+) -> KinemeFound:
     timings: dict[str, float] = {}
     stage = time_stages(timings, progress)
     n = len(rows)
@@ -247,17 +259,17 @@ def analyze(
         parts = map_threads(
             lambda i: _segment_part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
         )
-        features = parts[0].view
+        view = parts[0].view
         if len(parts) > 1:
             # All parts are compared in the view that most of them chose.
             scale = int(np.bincount([part.scale for part in parts]).argmax())
-            features = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
-        unit = compute_median_distance(features, preset.comparison_width)
+            view = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
+        unit = compute_median_distance(view, preset.comparison_width)
         sample_frames = choose_frames(n, preset.working_fps, preset.rate)
         # Price of a cluster in one part, as parts were segmented on their own.
         price = preset.cluster_price(len(parts[0].view))
         level = link_parts(
-            features, sample_frames, [part.level for part in parts], unit=unit, price=price
+            view, sample_frames, [part.level for part in parts], unit=unit, price=price
         )
     with stage("borders"):
         starts, stops = refine_borders(rows, level.borders, preset)
@@ -272,8 +284,8 @@ def analyze(
         with stage("events"):
             segments = find_events(poses, segments, preset)
     with stage("confidence"):
-        statistics = collect_evidence(poses, features, segments, preset)
-    return KinemeFound(features, preset, unit, segments, statistics, fine, timings)
+        statistics = collect_evidence(poses, view, segments, preset)
+    return KinemeFound(view, preset, unit, segments, statistics, fine, timings)
 
 
 def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:

@@ -64,8 +64,7 @@ class KinemePreset(KinemeConstants):
         # Imported here: it loads compiled code.
         from kineme.methods.kineme.pipeline import analyze
 
-        found: KinemeFound = analyze(features, self, joints=joints, progress=progress)
-        return found
+        return analyze(features, self, joints=joints, progress=progress)
 
 
 KINEME = KinemePreset(
