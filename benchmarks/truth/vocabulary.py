@@ -11,38 +11,22 @@ runs of a game studio.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 
 import kineme
+import kineme.library.gathering
 from _figures import add_option, record
+from _libraries import build_library
 from _options import DATA, choose_size, make_parser
 from _recordings import Case, join_hdm05, read_subject_86
 from _sources import list_body_recordings
 from kineme import Library
-from kineme._version import __version__
 from kineme.evaluation import TRANSITION, Comparison, Labelling, Truth, one_to_one_accuracy
-from kineme.library.descriptions import make_analysis
-from kineme.library.gathering import compile_tables
-from kineme.library.storage.layout import ANALYSES, HEAD, SCHEMA, write_json
-from kineme.library.storage.tables import (
-    has_analysis,
-    write_analysis,
-    write_index,
-    write_tables,
-)
-from kineme.methods.segmenter import SegmentOptions
-from kineme.recordings import Motion, Signals
-from kineme.transfer.clusters import CONSTANTS
 
 SEQUENCES, MORE = 6, choose_size(5, 1)
-
-Score = tuple[float, float, int, int]
-"""Share of right frames, that without borders, and numbers of clusters and actions."""
 
 
 def list_true_actions(case: Case) -> np.ndarray:
@@ -75,35 +59,6 @@ def read_gaits() -> list[Case]:
     return cases
 
 
-def build_library(folder: Path, recordings: Iterable[tuple[str, Motion | Signals]]) -> Library:
-    """Build a library of recordings, given by name."""
-    (folder / ANALYSES).mkdir(parents=True, exist_ok=True)
-    keys = {}
-    for name, recording in recordings:
-        keys[name] = f"{len(keys):032x}"
-        if not has_analysis(folder / ANALYSES, keys[name]):
-            write_analysis(
-                folder / ANALYSES, keys[name], *make_analysis(recording, SegmentOptions())
-            )
-    entries = [(name, folder / name, key) for name, key in sorted(keys.items())]
-    tables, following = compile_tables(folder, entries, {}, 0, lambda _: None)
-    head = {
-        "schema": SCHEMA,
-        "kineme": __version__,
-        "read_options": {},
-        "segment_options": {},
-        "sources": [],
-        "recursive": False,
-        "clustering": asdict(CONSTANTS),
-        "failed": {},
-        "following": following,
-        "tables": write_tables(folder, tables),
-    }
-    write_index(folder, head["tables"], tables["recordings"].to_pydict())
-    write_json(folder / HEAD, head)
-    return Library(folder)
-
-
 def list_found_clusters(library: Library, case: Case) -> np.ndarray:
     """Return the library's cluster of each frame of a recording's truth, as text."""
     columns = library.table("segments").to_pydict()
@@ -122,7 +77,7 @@ def list_found_clusters(library: Library, case: Case) -> np.ndarray:
     return found.at(frames=case.truth.frames, fps=case.truth.fps).per_frame()
 
 
-def score(name: str, folder: Path, cases: list[Case]) -> Score:
+def score(name: str, folder: Path, cases: list[Case]) -> tuple[float, float, int, int]:
     """Return the share of right frames, that without borders, and clusters and actions."""
     library = build_library(folder / name, [(case.name, case.motion) for case in cases])
     wanted = np.concatenate([list_true_actions(case) for case in cases])
@@ -134,18 +89,36 @@ def score(name: str, folder: Path, cases: list[Case]) -> Score:
     return right, agreed, len({*given} - {TRANSITION}), len({*wanted} - {TRANSITION})
 
 
-def show(name: str, scores: Sequence[Score]) -> None:
-    """Print and record the mean scores of one or several libraries."""
-    right, agreed, clusters, actions = np.mean(scores, axis=0).tolist()
+def show(name: str, folder: Path, cases: list[Case]) -> None:
+    """Score a library of cases and print a line."""
+    right, agreed, clusters, actions = score(name, folder, cases)
     print(
-        f"{name}: one-to-one {right:.3f}, without borders {agreed:.3f}; {clusters:g} clusters, "
-        f"{actions:g} actions",
+        f"{name}: one-to-one {right:.3f}, without borders {agreed:.3f}; {clusters} clusters, "
+        f"{actions} actions",
         flush=True,
     )
     record(f"vocabulary.{name}.one_to_one", round(right, 2))
     record(f"vocabulary.{name}.agreed", round(agreed, 2))
-    record(f"vocabulary.{name}.clusters", round(clusters, 1))
-    record(f"vocabulary.{name}.actions", round(actions, 1))
+    record(f"vocabulary.{name}.clusters", clusters)
+    record(f"vocabulary.{name}.actions", actions)
+
+
+def show_others(folder: Path) -> None:
+    """Score libraries of other sequences and print a line."""
+    scores = [
+        score(f"others_{i}", folder, list(join_hdm05(SEQUENCES, first=i * SEQUENCES)))
+        for i in range(1, MORE + 1)
+    ]
+    right, agreed, clusters, actions = np.mean(scores, axis=0)
+    shown = " ".join(f"{each[0]:.3f}" for each in scores)
+    print(
+        f"others: one-to-one {right:.3f}, without borders {agreed:.3f} ({shown}); "
+        f"{clusters:.1f} clusters, {actions:.1f} actions"
+    )
+    record("vocabulary.others.one_to_one", round(float(right), 2))
+    record("vocabulary.others.agreed", round(float(agreed), 2))
+    record("vocabulary.others.clusters", round(float(clusters), 1))
+    record("vocabulary.others.actions", round(float(actions), 1))
 
 
 def main() -> None:
@@ -155,18 +128,13 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         home = Path(folder)
         trials, sequences = read_subject_86(), list(join_hdm05(SEQUENCES))
-        libraries = {
-            "subject_86": trials,
-            "hdm05": sequences,
-            "both": [*trials, *sequences],
-            "uiprmd": read_takes("uiprmd"),
-            "uiprmd_incorrect": read_takes("uiprmd_incorrect"),
-            "gaits": read_gaits(),
-        }
-        for name, cases in libraries.items():
-            show(name, [score(name, home, cases)])
-        others = (list(join_hdm05(SEQUENCES, first=i * SEQUENCES)) for i in range(1, MORE + 1))
-        show("others", [score(f"others_{i}", home, cases) for i, cases in enumerate(others)])
+        show("subject_86", home, trials)
+        show("hdm05", home, sequences)
+        show("both", home, [*trials, *sequences])
+        show_others(home)
+        show("uiprmd", home, read_takes("uiprmd"))
+        show("uiprmd_incorrect", home, read_takes("uiprmd_incorrect"))
+        show("gaits", home, read_gaits())
 
 
 if __name__ == "__main__":

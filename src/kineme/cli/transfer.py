@@ -147,8 +147,10 @@ def transfer(
 
     bases = []
     for path in knowledge:
-        with exit_on_error(path):
+        with batch.catch_result_errors(path):
             bases.append(KnowledgeBase.load(path))
+    if len(bases) < len(knowledge):
+        batch.exit()
     base = KnowledgeBase.merged(*bases)
     options: dict[str, Any] = {"spread": spread}
     if threshold is not None:

@@ -97,7 +97,8 @@ class Labelling:
         cls, labels: Sequence[object] | NDArray[np.generic], *, fps: float
     ) -> Labelling:
         """Create a labelling from one label per frame: one interval per run of equal labels."""
-        names = np.asarray(labels)
+        # Compared as texts: nan differs from itself, and numpy would convert mixed types.
+        names = np.array([str(label) for label in labels], dtype=object)
         if not names.size:
             raise ParameterError("no labels: give one label per frame")
         # + 1: the first frame of each new label.

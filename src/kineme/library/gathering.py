@@ -1,9 +1,7 @@
 """Collect the analyses of a build's recordings, and compile them into tables.
 
-Existing analyses are reused, the others are made.
-
-Analyses run on any executor; an error affects one recording only. Importing the analysis code takes
-a second, so only the processes of the executor do it.
+Existing analyses are reused, the others are made, on any executor. An error affects one recording
+only.
 
 Recordings with equal content are analysed once. Files are compared by size, then by a sample, and
 read as a whole only if both are equal.
@@ -19,10 +17,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from hashlib import sha256
-from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
-from threading import Thread
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,7 +31,7 @@ from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, ReadError, WriteError
 from kineme.formats import ReadOptions, read_quietly
-from kineme.library.executors import Executor, InProcess, Progress, track_progress
+from kineme.library.executors import Executor, Progress, track_progress
 from kineme.library.planning import (
     Entry,
     Plan,
@@ -177,8 +173,6 @@ def _make_analyses(
     tasks = make_tasks(waiting, plan)
     skeleton = plan.read_options.skeleton
     groups = {group.tasks[0]: group for group in group_by_content(tasks, skeleton)}
-    if not isinstance(executor, InProcess):  # import the next step while other processes work
-        Thread(target=import_module, args=("kineme.library.gathering",), daemon=True).start()
     done = track_progress(progress, len(tasks), sum(task.size for task in tasks))
     remaining: list[Task] = []
     for task, outcome in run_tasks(list(groups), executor):

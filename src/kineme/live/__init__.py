@@ -1,11 +1,11 @@
 """Streams: segment recordings while they are made.
 
 `sources` yields rows, `intake` resamples them to frames, `stream` segments the recent past at
-regular intervals (by `looking`), and `finals` holds what is older than the delay. `journal` writes
+regular intervals (by `looking`), and `events` holds what is older than the delay. `storage` writes
 rows to disk, `outputs` sends events to other programs.
 """
 
-from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
-from kineme.live.stream import Stream
+import lazy_loader
 
-__all__ = ["ActivityEnded", "ActivityStarted", "Event", "Gap", "Notice", "Repetition", "Stream"]
+# ``__init__.pyi`` lists the names. They are loaded on use, as a stream imports the methods.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

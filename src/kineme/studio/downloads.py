@@ -24,6 +24,7 @@ from kineme.clips.split import split, write_clips
 from kineme.errors import ParameterError
 from kineme.formats.delimited import as_text
 from kineme.labels import label_formats, write_segments
+from kineme.recordings import Motion
 from kineme.report.page import write_report
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
@@ -186,9 +187,15 @@ def _write_download(
         return make_archive(files, f"{stem}.{what}")
 
 
+def _require_motion(opened: OpenRecording) -> Motion:
+    if not opened.loaded.is_motion:
+        raise ParameterError("signals have no pose to blend, so there are no loops")
+    return opened.loaded.motion
+
+
 def rank_loops(opened: OpenRecording) -> Loops:
     """Return the quality of each repetition as a loop."""
-    table, motion = opened.table, opened.loaded.motion
+    table, motion = opened.table, _require_motion(opened)
     numbers = [number for number, row in enumerate(table.table) if row.level == "primitive"]
     ranked = list_ranked_loops(motion, [table.table[number] for number in numbers])
     return Loops(
@@ -209,7 +216,7 @@ def rank_loops(opened: OpenRecording) -> Loops:
 
 def make_played_loop(opened: OpenRecording, number: int) -> PlayedLoop:
     """Return the loop that a row of the table would be exported as."""
-    table, motion = opened.table, opened.loaded.motion
+    table, motion = opened.table, _require_motion(opened)
     if not 0 <= number < len(table):
         raise ParameterError("choose the segment to play: this one is not in the table")
     closed, carry = make_preview_loop(motion, table.table[number])

@@ -32,6 +32,7 @@ from kineme.labels import read_segments
 from kineme.library import Example, Library
 from kineme.library.edits import read_edits
 from kineme.library.finding import Named
+from kineme.library.planning import read_recording
 from kineme.library.storage.layout import EDITS, HEAD, is_remote
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
@@ -140,7 +141,8 @@ class LibraryApi:
         if not 0 <= start_s < stop_s:
             raise ParameterError("the stop of a figure must be after its start")
         with self._reading:  # a page requests many figures of a recording at once
-            recording = _read_recording(library, name, read_stamp(library.path_of(name)))
+            path = library.path_of(name)
+            recording = _read_recording(path, library.read_options, read_stamp(path))
         span = recording.seconds(start_s, min(stop_s, start_s + MAX_FIGURE_S))
         return _make_figure(span, library.segment_options.effectors)
 
@@ -481,9 +483,9 @@ def _make_examples(spans: Sequence[Span], names: set[str]) -> list[Example]:
 
 
 @lru_cache(MAX_RECORDINGS)
-def _read_recording(library: Library, name: str, _: Stamp) -> Motion | Signals:
+def _read_recording(path: Path, options: ReadOptions, _: Stamp) -> Motion | Signals:
     """Return a recording of a library; the stamp of its file is part of the cache key."""
-    return library.read(name)
+    return read_recording(path, options)
 
 
 def _make_figure(
