@@ -303,5 +303,5 @@ def _measure_looks(motion: Motion, ends: EndEffectors) -> Floats:
     to_left /= max(float(np.linalg.norm(to_left)), 1e-12)
     axis = rot.rotate(rot.conjugate(turns[ends.head]), to_left)
     turned = rot.rotate(compute_world_rotations(skeleton, motion.rotations)[:, ends.head], axis)
-    cos, sin = find_facing(turned, _LEAST)
-    return np.arctan2(-sin, cos)[:, 0]
+    cosine, sine = find_facing(turned, _LEAST)
+    return np.arctan2(-sine, cosine)[:, 0]

@@ -7,13 +7,11 @@ are downloaded from their authors' repository.
 Source: mocap.cs.cmu.edu, "free for all uses", funded by NSF EIA-0196217;
 annotations by Zhou, De la Torre and Hodgins, github.com/zhfe99/aca.
 
-`read_actions` reads these annotations (of three people): the actions of each trial and their ends,
-as ``annotations.json`` or as the authors'
-text (``mocap.txt``: for each trial a line with its name, then ``label earliest mean latest`` for
-each action). Marks are frames at 120 Hz, counted from 1.
-
-Known errors are corrected: a mean outside its span widens the span, and trial 86_04 gets the
-authors' correction.
+`read_actions` reads these annotations of three people: the actions of each trial and their ends,
+from ``annotations.json`` or from the authors' text, ``mocap.txt``. The text has a line with the
+name of each trial, then ``label earliest mean latest`` for each action. Marks are frames at 120 Hz,
+counted from 1. Known errors are corrected: a mean outside its span widens the span, and trial 86_04
+gets the authors' correction.
 """
 
 from __future__ import annotations
@@ -49,9 +47,8 @@ FRAMES = {
         (4579, 10617, 8401, 10078, 8340, 9939, 8702, 9206, 4794, 7583, 5674, 8856, 6221, 6055), 1
     )
 }
-
-
 TRIAL_FPS = 120.0
+"""Frames per second of the annotated trials."""
 # In the first publication, trial 86_04, row 5 ends before it begins; the authors corrected it.
 CORRECTIONS = {("86_04", 5, (4060, 5050, 5090)): (5052, 5052, 5092)}
 Mark = Annotated[int, Meta(ge=0, lt=10**9)]

@@ -27,7 +27,9 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": INCH, "cmu": INCH / 0.45}
 """Metres in one unit; "cmu" is 1/0.45 inch, the unit of the CMU database."""
 
 CERTAIN_HEIGHTS = (1.2, 2.4)
-"""Heights of a body in metres that make its unit certain; any two units differ by more."""
+"""Heights of a body in metres for which its unit is certain: their ratio is 2, that of two units at
+least 2.2.
+"""
 
 PLAUSIBLE_HEIGHTS = (0.3, 4.0)
 """Body heights in metres outside of which a given unit is doubtful."""

@@ -1,4 +1,4 @@
-"""Draw a segment table as a timeline, in HTML for notebooks.
+"""Colours of clusters, and timelines of segment tables in HTML for notebooks.
 
 Each level is a row, each segment a bar in the colour of its cluster. Segments in no
 cluster are grey, transitions lighter grey.
