@@ -39,14 +39,9 @@ def test_every_sample(data_dir: Path, folder: str) -> None:
                 kineme.read(path)
 
 
-ACROBATICS = pytest.mark.xfail(
-    reason="cartwheels and handstands, once each: whether they repeat hangs on the last digits"
-)
-
-
 @pytest.mark.parametrize(
     ("take", "suffixes"),
-    [("02_01", ("amc", "bvh", "c3d")), pytest.param("49_02", ("amc", "bvh"), marks=ACROBATICS)],
+    [("02_01", ("amc", "bvh", "c3d")), ("49_02", ("amc", "bvh"))],
 )
 def test_one_take_has_the_same_borders_in_every_format(
     data_dir: Path, take: str, suffixes: tuple[str, ...]

@@ -8,7 +8,7 @@ from operator import attrgetter
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from kineme.datasets import random_recording
@@ -252,6 +252,27 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
     return {name: draw(choices[name]) for name in draw(st.sets(st.sampled_from(sorted(choices))))}
 
 
+# A merge of three neighbours brings two of one cluster together.
+@example(
+    {
+        "averaging": 1.0,
+        "compared_within": 0.01,
+        "part": 5.0,
+        "min_recurrence": 0.01,
+        "chance_period": 0.01,
+        "length_cost": 0.0,
+        "max_repetition": 0.01,
+        "max_unexplained": 1.0,
+        "min_action": 0.0,
+        "min_explained": 0.0,
+        "restless_over": (2.0,) * 5,
+        "segment_cost": 0.1,
+        "spread_share": 0.0,
+        "two_movements": 1.0,
+        "weights": (1.0,) * 5,
+    },
+    163,
+)
 @given(constants(), st.integers(1, 400))
 @settings(max_examples=60)
 def test_segments_tile_whatever_the_constants(overrides, frames) -> None:

@@ -317,6 +317,9 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         right = left + 1
         counts = len(cuts[left]) + 1, len(cuts[right]) + 1
         start, stop = starts[left], stops[right]
+        if labels[left] == labels[right] and stops[left] == starts[right]:
+            # A merge has brought together two of one cluster, without a pause: they are one, too.
+            return np.inf, find_repetitions(rows, start, stop, preset)
         # With fewer than three repetitions there is no inner one to compare. Two sides that are
         # both certain, such as walking and running, are not merged.
         is_certain = min(counts) >= CERTAIN_FACTOR * preset.chance_count
