@@ -212,9 +212,8 @@ def _write_studio(root: Path, motion: Motion, truth: Segmentation) -> None:
 
     for fps in (59.0, 60.0):
         table = Segmentation.from_columns(truth.table.columns(), n_frames=truth.n_frames, fps=fps)
-        journal.write(
-            journal.make_change(table, None, replaced=True), saved.write_bytes, revision=1
-        )
+        change = journal.make_change(table, None, replaced=True)
+        journal.write(change, saved.write_bytes, revision=1, name=f"at {fps:g} Hz")
 
 
 def _convert_labels(root: Path, path: Path) -> object:
