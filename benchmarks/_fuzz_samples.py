@@ -275,7 +275,7 @@ def _open_studio(root: Path) -> object:
         return notes
     journal = Journal(file.path, table)
     kept = [journal.table(number) for number in journal.versions()]
-    before = journal.make_undo() if journal.can_undo else None
+    before = journal.undo_or_redo(undo=True) if journal.can_undo else None
     return kept, before, journal.knows("x")
 
 
