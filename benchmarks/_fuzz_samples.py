@@ -269,7 +269,7 @@ def _export_library(root: Path) -> object:
 def _open_studio(root: Path) -> object:
     folder = root / "studio"
     file, table, notes = find_saved_table(
-        ListedRecording(folder / "walk.bvh"), lambda _: True, set()
+        ListedRecording(folder / "walk.bvh"), lambda _: True, set(), lambda _: False
     )
     if table is None:
         return notes
