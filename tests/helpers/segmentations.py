@@ -41,11 +41,11 @@ def from_rows(
 
 def one_activity(n_frames: int, fps: float = 30.0, cluster: int = -1) -> Segmentation:
     """Make a single activity."""
-    return from_rows([("activity", "activity", 0, n_frames, cluster, "")], fps=fps)
+    return make_activities(n_frames, fps=fps, cluster=[cluster])
 
 
 def make_activities(*stops: int, fps: float = 30.0, **columns: Any) -> Segmentation:
-    """Activities one after the other that stop at these frames; other columns by name."""
+    """Make activities that follow each other and stop at these frames; other columns by name."""
     n, provenance = len(stops), columns.pop("provenance", None)
     made = {"level": ["activity"] * n, "kind": ["activity"] * n, "start_frame": [0, *stops[:-1]]}
     columns = {**made, "stop_frame": list(stops), **columns}

@@ -27,7 +27,7 @@ class Studio:
 
     @property
     def one(self) -> str:
-        """The address of the recording."""
+        """Return the address of the recording."""
         return f"/api/recordings/{self.id}"
 
     def get(self, address: str, **options: Any) -> Answer:
@@ -41,7 +41,7 @@ class Studio:
         return state
 
     def ids(self) -> dict[str, str]:
-        """The recordings of the folder by name."""
+        """Return the recordings of the folder by name."""
         return {listed["name"]: listed["id"] for listed in self.state()["recordings"]}
 
     def recording(self) -> dict[str, Any]:

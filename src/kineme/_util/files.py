@@ -32,6 +32,10 @@ VIDEOS = (
     ".mp4", ".webm", ".m4v", ".mov", ".ogv", ".mkv", ".avi", ".3gp", ".mts", ".mpg", ".wmv",
 )  # fmt: skip
 """Suffixes of videos; those that browsers can play come first."""
+PICTURES = (".png", ".pdf", ".svg")
+"""Suffixes of pictures that are written."""
+PAGES = (".html", ".htm")
+"""Suffixes of pages that are written."""
 POSES = ".poses.parquet"
 """Suffix of the table of poses, appended to the name of the video."""
 if sys.platform != "win32":  # Windows does not delete open files anyway

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 import typer
 
 from kineme._util.checks import format_count
+from kineme._util.files import PAGES, PICTURES
 from kineme.cli.files import Batch, Files, Recursive, SegmentTable
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
@@ -205,9 +206,7 @@ def _check_targets(
     output: Path | None, plot: Path | None, compare: Path | None, sides: Path | None
 ) -> None:
     """Raise typer.BadParameter for files that cannot be written, before any work is done."""
-    from kineme.cli.files import PICTURES
     from kineme.cycles.export import SUFFIXES
-    from kineme.report.page import SUFFIXES as PAGES
 
     for name, path, suffixes in (
         ("--output", output, SUFFIXES),
@@ -240,7 +239,6 @@ def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:
 def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
     """Write the changes from the first recording to the second, and curves beside them."""
     from kineme.cycles import compare_curves, compare_sessions, write_table
-    from kineme.report.page import SUFFIXES as PAGES
     from kineme.report.sessions import write_sessions
 
     if len(sessions) < 2:

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kineme._util.files import CORRECTED, add_person, make_person_suffix
+from kineme._util.files import CORRECTED, PAGES, PICTURES, add_person, make_person_suffix
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.options import expand_read_options
 from kineme.cli.terminal import format_line, print_error, print_skipped, show_progress
@@ -56,8 +56,6 @@ SegmentTable = Annotated[
 SKELETON, MOTION = ".asf", ".amc"
 """Suffixes of motions in two files; ``*`` in a shell gives both."""
 NAME, PARENT = "{name}", "{parent}"
-PICTURES = (".png", ".pdf", ".svg")
-PAGES = (".html", ".htm")
 _FIELD = re.compile(r"\{(name|parent)\}")
 
 

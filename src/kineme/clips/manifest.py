@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from kineme._util.files import PICTURES
 from kineme._version import __version__
 from kineme.clips.loops import Carry, LoopQuality
 from kineme.clips.motion_matching import SUFFIXES, Database
@@ -37,7 +38,6 @@ CARRY = ("turn_deg", "x_m", "z_m")
 ANIMATION, TAGGED = "animation", "tags"
 DIGITS = 6
 """Decimal places in JSON."""
-PICTURES = (".png", ".pdf", ".svg")
 SHOWN = 24
 """Largest number of frames of a clip in its strip."""
 

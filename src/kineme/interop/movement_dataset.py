@@ -29,6 +29,7 @@ from kineme.formats.sniffing import find_timing, place_points
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.arrays import mark_spans
 from kineme.recordings.regular import Timing
+from kineme.segments.segmentation import check_same_length
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -203,11 +204,7 @@ def _read_timing(source: FileContent, dataset: xr.Dataset, fps: float | None) ->
 
 
 def _make_frame_variables(motion: Motion, segmentation: Segmentation) -> dict[str, NDArray[Any]]:
-    if segmentation.n_frames != motion.n_frames:
-        raise ParameterError(
-            f"the segments have {segmentation.n_frames} frames, but the motion has "
-            f"{motion.n_frames}"
-        )
+    check_same_length(segmentation, motion.n_frames)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     primitives = segmentation.level(level)
     lengths = primitives.stop_frame - primitives.start_frame

@@ -19,11 +19,11 @@ import numpy as np
 
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write
-from kineme.errors import ParameterError
 from kineme.labels.spans import format_text
 from kineme.recordings import Motion
 from kineme.recordings.arrays import mark_spans
 from kineme.segments.display import get_cluster_color
+from kineme.segments.segmentation import check_same_length
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
@@ -64,11 +64,8 @@ def write_rerun(
     """
     with require_extra("rerun-sdk", "rerun"):
         import rerun as rr
-    if segmentation is not None and segmentation.n_frames != motion.n_frames:
-        raise ParameterError(
-            f"the segments have {segmentation.n_frames} frames, but the motion has "
-            f"{motion.n_frames}"
-        )
+    if segmentation is not None:
+        check_same_length(segmentation, motion.n_frames)
     with atomic_write(path) as draft:
         recording = rr.RecordingStream("kineme", recording_id=Path(path).stem)
         recording.save(draft, default_blueprint=_make_blueprint(segmentation is not None))

@@ -23,7 +23,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from kineme._util.checks import check_path, check_type
-from kineme._util.files import as_display_name, atomic_write
+from kineme._util.files import PICTURES, as_display_name, atomic_write
 from kineme.errors import ParameterError, WriteError
 from kineme.features.effectors import Names
 from kineme.features.similarity import compare_frames
@@ -37,7 +37,6 @@ from kineme.segments.display import (
 )
 from kineme.segments.segmentation import Segmentation
 
-SUFFIXES = (".png", ".pdf", ".svg")
 MAX_PIXELS = 1600  # largest side of the matrix
 INK = "#1B1F2A"
 BORDER = "#C2571A"
@@ -159,8 +158,8 @@ def plot_segmentation(
     check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
     _check_recording(recording, segmentation)
     check_path(path, "plot_segmentation")
-    if Path(path).suffix.lower() not in SUFFIXES:
-        raise WriteError(path, f"pictures are written as {', '.join(SUFFIXES)}")
+    if Path(path).suffix.lower() not in PICTURES:
+        raise WriteError(path, f"pictures are written as {', '.join(PICTURES)}")
     figure = Figure(figsize=(9.4, 8.2))
     axes = figure.add_axes((0.085, 0.075, 0.74, 0.86))
     plot_matrix(segmentation, recording, effectors=effectors, ax=axes)

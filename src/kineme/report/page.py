@@ -20,7 +20,7 @@ from urllib.parse import quote
 from msgspec import structs
 
 from kineme._util.checks import check_path, check_type
-from kineme._util.files import atomic_write
+from kineme._util.files import PAGES, atomic_write
 from kineme.errors import WriteError
 from kineme.features import Names
 from kineme.recordings import Motion, Signals
@@ -32,8 +32,6 @@ from kineme.web.encoding import to_json
 from kineme.web.matrix import make_report_tiles
 from kineme.web.messages import Recording, ReportCurves
 from kineme.web.page_data import PageData, Shown, make_page_data, make_recording_message
-
-SUFFIXES = (".html", ".htm")
 
 
 def write_report(
@@ -79,8 +77,8 @@ def write_report(
     check_path(path, "write_report")
     if name is not None:
         check_type(name, str, "name", "give a text, or leave it out")
-    if Path(path).suffix.lower() not in SUFFIXES:
-        raise WriteError(path, f"the suffix of a report must be {', '.join(SUFFIXES)}")
+    if Path(path).suffix.lower() not in PAGES:
+        raise WriteError(path, f"the suffix of a report must be {', '.join(PAGES)}")
     data = make_page_data(recording, fps=segmentation.fps, effectors=effectors)
     tiles = make_report_tiles(data.matrix)
     message = make_recording_message(

@@ -20,13 +20,12 @@ from pathlib import Path
 import numpy as np
 
 from kineme._util.checks import check_path, format_count
-from kineme._util.files import atomic_write
+from kineme._util.files import PAGES, atomic_write
 from kineme._version import __version__
 from kineme.cycles import Cycles, compare_curves, compare_sessions, compare_sides
 from kineme.cycles.table import Columns
 from kineme.errors import WriteError
 from kineme.plot.curves import FIRST, SECOND, plot_sessions
-from kineme.report.page import SUFFIXES
 
 MAX_GROUPS = 4
 """Groups on a sheet."""
@@ -98,8 +97,8 @@ def write_sessions(
     and last cycle of an activity count as well. ParameterError if the sessions cannot be compared.
     """
     check_path(path, "write_sessions")
-    if Path(path).suffix.lower() not in SUFFIXES:
-        raise WriteError(path, f"a page is written as {', '.join(SUFFIXES)}")
+    if Path(path).suffix.lower() not in PAGES:
+        raise WriteError(path, f"a page is written as {', '.join(PAGES)}")
     sheet = Sheet(
         names or (_choose_name(first), _choose_name(second)),
         (first, second),

@@ -76,6 +76,14 @@ def check_recording(n_frames: int, fps: float) -> None:
         raise ParameterError(f"a recording cannot last {n_frames / fps:.3g} s")
 
 
+def check_same_length(segments: Segmentation, n_frames: int) -> None:
+    """Raise ParameterError unless segments have as many frames as a motion."""
+    if segments.n_frames != n_frames:
+        raise ParameterError(
+            f"the segments have {segments.n_frames} frames, but the motion has {n_frames}"
+        )
+
+
 def check_tiles(rows: SegmentTable, level: Level, n_frames: int) -> None:
     """Raise ParameterError unless the segments of a level tile the recording."""
     if not len(rows) and level == "primitive":

@@ -1,4 +1,4 @@
-"""The application: handlers of all routes, error responses, and the guard in front of them.
+"""Handlers of all routes, and the application with its error responses and access control.
 
 Handlers that read, compute or write run in threads, so that the server stays responsive. Rarely
 used modules are imported when needed.

@@ -49,7 +49,7 @@ from kineme.formats.arrays.numpy_files import read_arrays
 from kineme.formats.files import load
 from kineme.recordings import Motion
 from kineme.recordings.motion import check_motion
-from kineme.segments.segmentation import Segmentation
+from kineme.segments.segmentation import Segmentation, check_same_length
 from kineme.segments.table import SegmentTable
 from kineme.transfer.matching import Primitives
 
@@ -156,11 +156,7 @@ class KnowledgeBase:
         """
         check_motion(motion, "from_recording")
         check_type(segments, Segmentation, "from_recording", "kineme.segment(motion) gives one")
-        if segments.n_frames != motion.n_frames:
-            raise ParameterError(
-                f"the segments have {segments.n_frames} frames, but the motion has "
-                f"{motion.n_frames}"
-            )
+        check_same_length(segments, motion.n_frames)
         rows = _select_labelled(segments)
         features = matching_features(motion, effectors=effectors)
         source = motion.provenance

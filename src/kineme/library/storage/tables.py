@@ -393,7 +393,7 @@ def _read_column(table: Any, name: str) -> NDArray[Any]:
 
 
 class Windows(NamedTuple):
-    """The windows of one length: ``embedded`` (windows, 32) is memory-mapped."""
+    """Windows of one length: ``embedded`` (windows, 32) is memory-mapped."""
 
     length: int
     embedded: Bytes
