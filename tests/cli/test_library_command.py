@@ -101,8 +101,9 @@ def test_what_makes_no_sense_is_one_sentence(home: Path, kineme) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals to groups of processes")
 def test_control_c_ends_a_build_quietly(interrupted, tmp_path: Path) -> None:
-    for name in ("a.bvh", "b.bvh"):
-        shutil.copy(bundled_recording(), tmp_path / name)
+    text = bundled_recording().read_text(encoding="utf-8")
+    for number in range(40):  # recordings for many seconds, each with a content of its own
+        (tmp_path / f"{number}.bvh").write_text(text + "\n" * number, encoding="utf-8")
 
     def at_work(_: int) -> bool:
         begun = (tmp_path / "lib" / ".lock").exists()
