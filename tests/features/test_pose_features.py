@@ -18,7 +18,6 @@ from kineme.datasets import Action, synthesize
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import (
     compute_body_frame,
-    compute_heading,
     end_effectors,
     pose_features,
     round_offsets,
@@ -141,22 +140,6 @@ def test_lying_on_the_side_keeps_the_last_facing() -> None:
     np.testing.assert_array_equal(compute_body_frame(never), never.positions)
 
 
-def test_heading_is_what_the_body_frame_takes_away() -> None:
-    pelvis, angles = compute_heading(RECORDING)
-    relative = RECORDING.positions - RECORDING.positions[:, pelvis, None]
-    back = Rotation.from_euler("y", -angles[:, None])
-    for joint in (2, 7):
-        np.testing.assert_allclose(
-            compute_body_frame(RECORDING)[:, joint], back.apply(relative[:, joint]), atol=1e-9
-        )
-
-
-def test_some_joints_are_those_of_all() -> None:
-    np.testing.assert_array_equal(
-        compute_body_frame(RECORDING, (7, 2)), compute_body_frame(RECORDING)[:, [7, 2]]
-    )
-
-
 def test_legs_without_hips_are_refused() -> None:
     names = ("root", "LeftFoot", "RightFoot", "Head", "LeftHand", "RightHand")
     flat = Skeleton(names, (-1, 0, 0, 0, 0, 0), np.zeros((6, 3)))
@@ -179,13 +162,6 @@ def test_effectors_can_be_named() -> None:
 )
 def test_stacking_equals_the_naive_version(features: np.ndarray, offsets: list[int]) -> None:
     np.testing.assert_allclose(stack(features, offsets), naive.stack(features, offsets), atol=1e-9)
-
-
-@given(st.integers(1, 50), OFFSETS)
-def test_a_straight_line_stays_one_beyond_the_ends(frames: int, offsets: list[int]) -> None:
-    line = np.arange(frames, dtype=float)[:, None]
-    expected = line + sorted(offsets) if frames > 1 else np.zeros((1, len(offsets)))
-    np.testing.assert_allclose(stack(line, offsets), expected, atol=1e-9)
 
 
 def test_offsets_become_frames() -> None:

@@ -11,8 +11,6 @@ from kineme.errors import MotionError, ParameterError
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import (
     compute_local_translations,
-    compute_world_rotations,
-    forward_kinematics,
 )
 
 ARM = Skeleton(
@@ -36,12 +34,6 @@ def test_forward_kinematics_of_a_bent_arm() -> None:
     np.testing.assert_allclose(lifted.positions[0], [[0, 0, 0], [0, 1, 0], [0, 2, 0]], atol=1e-15)
 
 
-def test_a_sliding_joint() -> None:
-    moves = np.array([[[0, 0, 0], [1, 0, 0], [3, 0, 0]]])
-    positions = forward_kinematics(ARM, [[STILL, QUARTER, STILL]], translations=moves)
-    np.testing.assert_allclose(positions[0, 2], [1, 3, 0], atol=1e-15)
-
-
 @given(seeds)
 def test_translations_are_recovered(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -60,11 +52,6 @@ def test_translations_are_recovered(seed: int) -> None:
         offsets,
         atol=1e-12,
     )
-
-
-def test_world_rotations_need_rotations() -> None:
-    with pytest.raises(MotionError, match="positions only"):
-        compute_world_rotations(ARM, None)
 
 
 def test_joints_by_name() -> None:

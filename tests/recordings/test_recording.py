@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings import Motion, Note, Provenance, Recording, Signals, Skeleton
 from kineme.recordings.arrays import mark_spans
-from kineme.recordings.operations import cut, split_at_gaps
+from kineme.recordings.operations import cut
 
 ARM = Skeleton(("shoulder", "elbow", "hand"), (-1, 0, 1), np.zeros((3, 3)), {2})
 EVENTS = ((0.5, "on"), (4.0, "off"))
@@ -96,16 +96,6 @@ def test_what_is_no_slice_is_refused_in_our_words(make) -> None:
             make()[wrong]
     with pytest.raises(TypeError):
         iter(make())
-
-
-@both
-def test_splitting_at_gaps(make) -> None:
-    recording = make(gaps=((0, 5), (40, 50)))
-    assert recording.spans() == [(5, 40), (50, 100)]
-    assert [(start, part.n_frames) for start, part in split_at_gaps(recording)] == [
-        (5, 35),
-        (50, 50),
-    ]
 
 
 @both
