@@ -250,7 +250,5 @@ def test_the_command_writes_them(tmp_path: Path) -> None:
     found = parse_c3d(load(copy)).events
     np.testing.assert_allclose([at for at, _ in found], events.times, atol=1e-5)
     assert sorted(name.lower() for _, name in found) == sorted(events.names.tolist())
-    for wrong, code in ((str(source), 2), (str(tmp_path / "copy.csv"), 1)):
-        assert CliRunner().invoke(app, ["events", str(source), "--c3d", wrong]).exit_code == code
     timed = ["events", str(source), "--fps", "50", "--c3d", str(copy)]
     assert CliRunner().invoke(app, timed).exit_code == 2

@@ -103,27 +103,6 @@ def test_labels_that_meet_nothing_are_named(tmp_path) -> None:
         truth(tmp_path, "walk,900000,900001,b", path)
 
 
-def test_a_pause_costs_a_folder_no_label(tmp_path) -> None:
-    from kineme.evaluation.folder import evaluate_folder
-
-    (tmp_path / "r").mkdir()
-    even = recording(tmp_path / "r" / "even.csv", np.arange(2400) / FPS)
-    paused = recording(tmp_path / "r" / "paused.csv", times_with_a_pause())
-    rows = [
-        *(f"even,{a},{a + 10},{'xy'[a // 10 % 2]}" for a in range(0, 80, 10)),
-        *(
-            f"paused,{a + PAUSE_S * (a >= 40)},{a + 10 + PAUSE_S * (a >= 40)},{'xy'[a // 10 % 2]}"
-            for a in range(0, 80, 10)
-        ),
-    ]
-    (tmp_path / "labels.csv").write_text("\n".join(["recording,start_s,stop_s,label", *rows]))
-    sources = find_labels([even, paused], tmp_path / "labels.csv")
-    one, other = evaluate_folder(sources, ["uniform"], processes=1).methods["uniform"]
-    assert not one.error + other.error
-    assert other.notes == ()
-    assert one.results["mof"].total == other.results["mof"].total == 2400  # none is cut off
-
-
 def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
     from kineme.evaluation.inputs import read_truth
 
@@ -140,15 +119,6 @@ def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
     with pytest.warns(KinemeWarning, match="left out, since they contain no frame: 'rest'"):
         annotation = read_truth(tmp_path / "labels.csv", found)
     assert (annotation.labels, annotation.mean.tolist()) == (("a", "b"), [1201])
-
-
-def test_the_column_is_in_data_frames_where_there_is_a_clock(tmp_path) -> None:
-    pytest.importorskip("pandas")
-    late = kineme.read(recording(tmp_path / "late.csv", np.arange(900) / FPS + 12.5))
-    frame = kineme.segment(late).to_dataframe()
-    assert frame.start_time.astype(float).tolist() == pytest.approx((frame.start_s + 12.5).tolist())
-    even = kineme.read(recording(tmp_path / "even.csv", np.arange(900) / FPS))
-    assert "start_time" not in kineme.segment(even).to_dataframe().columns
 
 
 def test_a_slice_keeps_the_time_of_its_frames(tmp_path) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+import hypothesis
 import pandas as pd
 import pytest
 from hypothesis import assume, given
@@ -114,6 +115,7 @@ def example(labels: list[str], fps: float = 119.88) -> Segmentation:
 
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
+@hypothesis.example(result=example(NASTY), level="activity")
 @given(result=segmentations(), level=st.sampled_from(["activity", "primitive"]))
 def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> None:
     assume(len(result.level(level)))
@@ -156,23 +158,6 @@ def test_frames_and_seconds_are_right_at_any_rate(tmp_path, name, fps) -> None:
     assert back.table.start_frame.tolist() == cuts[:-1]
     assert back.table.stop_s.tolist() == pytest.approx([cut / fps for cut in cuts[1:]], rel=1e-13)
     assert (back.n_frames, back.fps) == (n, pytest.approx(fps, rel=1e-13))
-
-
-@pytest.mark.parametrize("name", LABEL_FORMATS)
-def test_blanks_umlauts_quotes_and_html_survive(tmp_path, name) -> None:
-    result = example(NASTY)
-    back = there_and_back(result, place(tmp_path, name), name)
-    assert back.activities.label.tolist() == [row[-1] for row in kept(result, "activity", name)]
-
-
-@pytest.mark.parametrize("name", LABEL_FORMATS)
-def test_what_has_no_label_goes_by_its_cluster(tmp_path, name) -> None:
-    kinds, labels = ["activity", "transition", "activity", "activity"], ["", "", "", "walk"]
-    result = make_activities(5, 10, 20, 30, kind=kinds, cluster=[12, -1, -1, 3], label=labels)
-    back = there_and_back(result, place(tmp_path, name), name)
-    assert back.activities.kind.tolist() == kinds
-    assert back.activities.cluster.tolist() == [12, -1, -1, 3 if name == "bids" else -1]
-    assert back.activities.label.tolist() == labels
 
 
 # Against the programs and packages these files are for.

@@ -56,26 +56,19 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
         read_segments(path, fps=10)
 
 
-def test_levels_and_kinds_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None:
+def test_levels_kinds_and_clusters_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None:
     path = tmp_path / "seconds.csv"
     path.write_text(
-        "level,kind,start_s,stop_s,label\nactivity,activity,0,2,walk\n"
-        "activity,transition,2,3,\nactivity,activity,3,6,run\nprimitive,activity,0,1,x\n"
+        "recording,level,kind,start_s,stop_s,label,cluster\n"
+        "a.bvh,activity,activity,0,2,,7\na.bvh,activity,transition,2,3,,-1\n"
+        "a.bvh,activity,activity,3,6,run,mine\na.bvh,primitive,activity,0,1,x,3\n"
     )
     found = read_segments(path, fps=10)
     assert found.activities.kind.tolist() == ["activity", "transition", "activity"]
+    assert found.activities.cluster.tolist() == [7, -1, -1]
+    assert found.activities.label.tolist() == ["", "", "run"]
     assert found.primitives.label.tolist() == ["x", "", "", ""]
-
-
-def test_clusters_of_a_table_of_seconds_are_kept_where_they_are_numbers(tmp_path: Path) -> None:
-    path = tmp_path / "exported.csv"
-    path.write_text(
-        "recording,kind,start_s,stop_s,label,cluster\na.bvh,activity,0,2,,7\n"
-        "a.bvh,activity,2,3,wave,3\na.bvh,transition,3,4,,-1\na.bvh,activity,4,6,run,mine\n"
-    )
-    found = read_segments(path, fps=10)
-    assert found.activities.cluster.tolist() == [7, 3, -1, -1]
-    assert found.activities.label.tolist() == ["", "wave", "", "run"]
+    assert found.primitives.cluster.tolist()[0] == 3
 
 
 def test_a_table_of_many_recordings_is_no_table_of_one(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from pyarrow import parquet
 import kineme
 from kineme.datasets import bundled_truth
 from kineme.errors import KinemeWarning, MissingDependencyError, ReadError, WriteError
-from kineme.labels import json_table, read_segments, write_segments
+from kineme.labels import read_segments, write_segments
 from kineme.labels.csv_table import name_provenance
 from kineme.labels.event_tables import name_sidecar
 from kineme.segments import editing
@@ -53,13 +53,6 @@ def test_what_was_written_is_read_again(folder: Path, suffix: str, result: Segme
 
 
 @given(segmentations())
-def test_each_row_is_a_line_of_json(result: Segmentation) -> None:
-    lines = json_table.dumps(result).split('"segments": [\n')[-1].splitlines()[:-2]
-    rows = json_table.as_object(result)["segments"]
-    assert [line.strip().removesuffix(",") for line in lines] == [json.dumps(row) for row in rows]
-
-
-@given(segmentations())
 def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -> None:
     path = folder / "alone.csv"
     write_segments(result, path)
@@ -70,15 +63,6 @@ def test_a_csv_alone_keeps_the_whole_table(folder: Path, result: Segmentation) -
     for name in set(COLUMNS) - {"confidence", "border_confidence", "start_s", "stop_s"}:
         assert alone.table.columns()[name].tolist() == result.table.columns()[name].tolist()
     assert "computed from frames and seconds" in alone.provenance["notes"][0]
-
-
-@pytest.mark.parametrize("fps", [25.0, 29.97, 30000 / 1001, 59.94, 119.88, 120.0])
-def test_a_csv_alone_gives_the_exact_frame_rate(tmp_path: Path, fps: float) -> None:
-    path = tmp_path / "cuts.csv"
-    write_segments(make_activities(77, fps=fps), path)
-    name_provenance(path).unlink()
-    assert read_segments(path).table.stop_s[0] == 77 / fps
-    assert read_segments(path).fps == pytest.approx(fps, rel=1e-15)
 
 
 def test_pandas_reads_csv_and_parquet_directly(tmp_path: Path, small: Segmentation) -> None:

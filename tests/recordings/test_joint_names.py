@@ -11,6 +11,7 @@ from kineme.recordings.joint_names import (
     mentions,
 )
 
+
 @pytest.mark.parametrize("usual", ["LeftFoot", "foot.L", "lfoot", "leftfoot", "FOOT_LEFT"])
 @pytest.mark.parametrize("name", ["{}", "rig:{}", "|a|b:{}", "{}_035", "Bip01 {}"])
 def test_namespaces_numbers_and_words_before_do_not_count(usual: str, name: str) -> None:
