@@ -64,12 +64,6 @@ def test_cycles_with_gaps_and_single_ones_stay(alignment: str) -> None:
     assert align_curves(curves[:0], alignment).shape == (0, 2, 101)
 
 
-def test_equal_cycles_stay_as_they_are() -> None:
-    curves = np.repeat(unsteady(1, 0.03), 4, axis=0)
-    for alignment in ALIGNMENTS:
-        np.testing.assert_allclose(align_curves(curves, alignment), curves, atol=0.5)
-
-
 def test_cycles_of_a_recording_come_in_step(walks: SyntheticRecording) -> None:
     spread = {}
     for alignment in ALIGNMENTS:

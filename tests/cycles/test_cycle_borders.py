@@ -32,15 +32,6 @@ def test_wherever_the_grid_had_them_borders_come_to_the_same_places(offsets: lis
     assert np.allclose(run.borders[1:-1], exact.borders[1:-1], atol=0.01)
 
 
-def test_durations_are_right_within_a_fraction_of_a_frame_of_the_grid() -> None:
-    features, true = swing([1.0, 1.1, 0.95, 1.0, 1.05, 0.9, 1.0, 1.0], noise=0.02)
-    cut = np.round(true[1:8] * 30 + 0.3) / 30
-    (run,) = shift_to_common_phase([make_run(0, cut)], [features], [RATE])
-    wrong = np.diff(run.borders)[1:-1] - np.diff(true[1:8])[1:-1]
-    assert np.abs(wrong).max() < 0.015
-    assert 0 < np.nanmedian(run.uncertainty) < 0.03
-
-
 def test_channels_that_only_shake_do_not_move_borders() -> None:
     features, true = swing(np.random.default_rng(5).uniform(0.9, 1.1, 30).tolist(), noise=0.02)
     shaking = 1.5 * np.random.default_rng(3).normal(size=(len(features), 20))
@@ -70,24 +61,6 @@ def test_runs_of_one_cluster_begin_at_one_phase(late: float) -> None:
     assert np.allclose(apart, np.round(apart), atol=0.02)
 
 
-def test_the_longest_of_two_phases_stays() -> None:
-    features, true = swing([1.0] * 12)
-    runs = [make_run(0, true[1:4] + 0.25), make_run(0, true[4:11])]
-    first, second = shift_to_common_phase(runs, [features], [RATE])
-    assert abs(first.turned) > 0.2
-    assert second.turned == 0
-
-
-def test_movements_that_are_not_similar_keep_their_borders() -> None:
-    features, true = swing([1.0] * 8)
-    other = np.random.default_rng(1).normal(size=features.shape)
-    runs = [make_run(0, true[1:7]), make_run(1, true[1:7] + 0.4)]
-    assert [run.turned for run in shift_to_common_phase(runs, [features, other], [RATE, RATE])] == [
-        0,
-        0,
-    ]
-
-
 def test_borders_lie_where_the_movement_turns_back_or_in_the_middle_of_its_rest() -> None:
     t = np.arange(0, 8, 1 / RATE)
     swings = np.cos(2 * np.pi * t)[:, None]  # turns at whole and half seconds
@@ -96,13 +69,6 @@ def test_borders_lie_where_the_movement_turns_back_or_in_the_middle_of_its_rest(
     rests = np.where(t % 1 < 0.4, 0, np.sin(np.pi * (t % 1 - 0.4) / 0.6) ** 2)[:, None]
     (run,) = shift_to_common_phase([make_run(0, np.arange(1.0, 7) + 0.05)], [rests], [RATE])
     assert np.allclose(run.borders, np.arange(1, 7) + 0.2, atol=0.04)
-
-
-def test_one_repetition_stays_as_it_is() -> None:
-    features, _ = swing([1.0] * 4)
-    (run,) = shift_to_common_phase([make_run(0, np.array([1.0, 2.0]))], [features], [RATE])
-    assert run.borders.tolist() == [1, 2]
-    assert np.isnan(run.uncertainty).all()
 
 
 def test_where_nothing_moves_nothing_is_certain() -> None:

@@ -57,13 +57,6 @@ def test_durations_are_those_of_the_maker(walks, cycles) -> None:
     assert abs(wrong[inner].mean()) < 0.01
 
 
-def test_borders_are_seconds_and_frames_of_the_file(cycles) -> None:
-    columns = cycles.columns
-    np.testing.assert_allclose(columns["start_frame"], 60 * columns["start_s"])
-    np.testing.assert_allclose(columns["stop_s"] - columns["start_s"], columns["duration_s"])
-    assert columns["start_s"].min() >= 0
-
-
 def test_walks_that_begin_with_another_foot_are_measured_from_the_same(walks) -> None:
     """Cut by half a stride later, the second walk is turned to the phase of the first."""
     truth = walks.truth
@@ -233,15 +226,6 @@ def test_recordings_are_measured_together_by_labels(walks) -> None:
     assert common.groups == ["cluster 0", "cluster 1"]
 
 
-def test_signals_are_measured_as_bodies_are(walks) -> None:
-    places = walks.motion.positions[:, [17, 22]].reshape(walks.motion.n_frames, -1)
-    signals = Signals(places, 60.0, list("abcdef"))
-    cycles = kineme.cycles(signals, walks.truth)
-    assert cycles.channels == tuple("abcdef")
-    assert cycles.units == ("",) * 6
-    assert len(cycles) == 16
-
-
 def test_channels_beside_are_measured_at_their_own_rate(walks) -> None:
     fast = Signals(np.arange(walks.motion.n_frames * 10) / 600, 600.0, ["clock"])
     cycles = kineme.cycles(walks.motion, walks.truth, channels=["clock"], beside=[fast])
@@ -308,17 +292,6 @@ def test_what_does_not_belong_together_is_refused(walks) -> None:
     signals = Signals(np.ones((walks.motion.n_frames, 1)), 60.0, ["knee_l"])
     with pytest.raises(ParameterError, match="do not have the same channels"):
         kineme.cycles([walks.motion, signals], [walks.truth] * 2)
-
-
-def test_a_turned_recording_has_the_same_cycles(walks) -> None:
-    from kineme.recordings.operations import turn
-
-    before = kineme.cycles(walks.motion, walks.truth)
-    after = kineme.cycles(turn(walks.motion, 2.0), walks.truth)
-    np.testing.assert_allclose(before.columns["start_s"], after.columns["start_s"], atol=1e-6)
-    np.testing.assert_allclose(
-        before.columns["knee_l.range"], after.columns["knee_l.range"], atol=1e-4
-    )
 
 
 def test_the_room_can_be_called_whatever_was_imported_first() -> None:

@@ -127,18 +127,6 @@ def test_legs_are_found_whatever_they_are_called(motion: Motion, names: str) -> 
     assert [*landmarks(other).values()] == [*landmarks(motion).values()]
 
 
-def test_markers_are_told_by_their_names() -> None:
-    """Points that all hang on one joint, as those of a C3D."""
-    names = ["pelvis", "left_hip", "right_hip", "LKNE", "RKNE", "left_ankle", "right_ankle",
-             "LHEE", "LTOE", "LSHO", "RSHO"]  # fmt: skip
-    skeleton = Skeleton(tuple(names), (-1, *[0] * 10), np.eye(11, 3))
-    found = landmarks(Motion(skeleton, np.random.default_rng(0).normal(size=(5, 11, 3)), 60.0))
-    assert found["left_knee"] == 3
-    assert found["left_heel"] == 7
-    assert found["right_shoulder"] == 10
-    assert "right_toe" not in found
-
-
 def test_channels_of_signals_are_its_channels_and_gaps_are_missing() -> None:
     signals = Signals(np.ones((10, 2)), 10.0, ["a", "b"], gaps=[(2, 4)])
     a, b = channels_of(signals)
