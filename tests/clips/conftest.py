@@ -16,3 +16,9 @@ def motion() -> Motion:
 @pytest.fixture(scope="session")
 def truth() -> kineme.Segmentation:
     return kineme.read_segments(kineme.bundled_recording().with_suffix(".json"))
+
+
+@pytest.fixture(scope="session")
+def repetitions(motion: Motion, truth: kineme.Segmentation) -> list[Motion]:
+    rows = truth.primitives
+    return [motion[row.start_frame : row.stop_frame] for row in rows if row.kind == "primitive"]

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import kineme
 from kineme.clips.loops import Carry, make_loop
-from kineme.clips.split import split, write_clips
+from kineme.clips.split import split
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.formats.channels.writing import write_signals
 from kineme.recordings import Motion
@@ -32,12 +32,8 @@ def step_at_the_seam(motion: Motion, carry: Carry) -> float:
     return float(np.linalg.norm(again - motion.positions[-1], axis=-1).max())
 
 
-def clips(motion: Motion, segmentation: kineme.Segmentation) -> list[Motion]:
-    rows = segmentation.primitives
-    return [cut(motion, row.start_frame, row.stop_frame) for row in rows if row.kind == "primitive"]
-
-
 def test_each_clip_is_its_stretch_of_the_recording(tmp_path: Path, motion, truth) -> None:
+    (tmp_path / "clips").mkdir()  # an empty folder is filled
     paths = split(motion, truth, tmp_path / "clips", level="primitive", cluster=1)
     manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
     rows = [row for row in truth.primitives if row.cluster == 1]
@@ -52,11 +48,6 @@ def test_each_clip_is_its_stretch_of_the_recording(tmp_path: Path, motion, truth
         assert clip.fps == motion.fps
         expected = motion.positions[row.start_frame : row.stop_frame]
         assert np.abs(clip.positions - expected).max() < 1e-6
-
-
-def test_clips_of_all_segments_put_together_are_the_recording(tmp_path, motion, truth) -> None:
-    paths = split(motion, truth, tmp_path / "clips")
-    assert sum(kineme.read(path).n_frames for path in paths) == motion.n_frames
 
 
 def test_a_motion_without_rotations_becomes_tables(tmp_path, motion, truth) -> None:
@@ -87,13 +78,6 @@ def test_a_glb_holds_all_clips_as_animations(tmp_path, motion, truth) -> None:
         assert np.abs(clip.positions - expected.positions).max() < 1e-5
 
 
-def test_glb_of_recordings_of_one_name_are_files_of_their_own(tmp_path, motion, truth) -> None:
-    rows = truth.primitives[:2]
-    paths = write_clips([(motion, rows), (motion, rows)], tmp_path / "clips", format="glb")
-    assert [path.name for path in paths] == ["exercises.glb"] * 2 + ["exercises_0002.glb"] * 2
-    assert kineme.read(paths[3], take="1").n_frames == rows[1].stop_frame - rows[1].start_frame
-
-
 def test_clips_in_any_format_that_motions_are_written_in(tmp_path, motion, truth) -> None:
     for suffix in ("amc", "trc"):
         paths = split(motion, truth, tmp_path / suffix, cluster=0, format=suffix)
@@ -110,26 +94,16 @@ def test_clips_in_any_format_that_motions_are_written_in(tmp_path, motion, truth
     assert sorted(path.name for path in tmp_path.iterdir()) == ["amc", "trc"]
 
 
-def test_loops_play_without_a_jump(motion, truth) -> None:
-    for clip in clips(motion, truth):
+def test_loops_play_without_a_jump(repetitions) -> None:
+    for clip in repetitions:
         bare = Motion(clip.skeleton, clip.positions, clip.fps)
         for looped, carry in (make_loop(clip), make_loop(bare)):
             assert looped.n_frames == clip.n_frames
             assert step_at_the_seam(looped, carry) <= largest_step(looped)
 
 
-def test_loops_of_real_primitives_play_without_a_jump(data_dir: Path) -> None:
-    walk = kineme.read(data_dir / "cmu86" / "86_01.amc")
-    jumps = []
-    for clip in clips(walk, kineme.segment(walk)):
-        looped, carry = make_loop(clip)
-        assert step_at_the_seam(looped, carry) <= largest_step(looped)
-        jumps.append(step_at_the_seam(clip, carry) / largest_step(clip))
-    assert max(jumps) > 5  # what the blending is for
-
-
-def test_a_loop_keeps_bones_and_says_what_was_done(motion, truth) -> None:
-    clip = clips(motion, truth)[0]
+def test_a_loop_keeps_bones_and_says_what_was_done(repetitions) -> None:
+    clip = repetitions[0]
     looped, _ = make_loop(clip)
     assert looped.provenance.notes[-1] == "ends blended into a loop"
 
@@ -138,17 +112,6 @@ def test_a_loop_keeps_bones_and_says_what_was_done(motion, truth) -> None:
         return np.linalg.norm(motion.positions[:, 1:] - motion.positions[:, parents], axis=-1)
 
     assert np.abs(lengths(looped) - lengths(clip)).max() < 1e-9
-
-
-def test_a_perfect_cycle_stays_as_it_is() -> None:
-    """A point on a circle, seen for one round: nothing is left to blend."""
-    angle = np.linspace(0, 2 * np.pi, 200, endpoint=False)
-    arm = np.stack([np.cos(angle), 1 + 0 * angle, np.sin(angle)], axis=-1)
-    body = np.stack([arm, 0 * arm, 0 * arm + [0.3, 0, 0.1]], axis=1)
-    skeleton = kineme.Skeleton(("a", "b", "c"), (-1, -1, -1), np.zeros((3, 3)))
-    looped, carry = make_loop(Motion(skeleton, body, 100))
-    assert np.abs(looped.positions - body).max() < 2e-3
-    assert abs(carry.turn) < 1e-3
 
 
 @given(st.floats(-3.1, 3.1), st.floats(-5, 5), st.floats(-5, 5))
@@ -209,11 +172,6 @@ def test_what_is_there_is_not_touched_and_nothing_is_left_half_written(
         split(motion, truth, tmp_path / "new", level="primitive", cluster=1)
     assert [path.name for path in tmp_path.iterdir()] == ["clips"]
     assert [path.name for path in (tmp_path / "clips").iterdir()] == ["mine.txt"]
-
-
-def test_an_empty_folder_is_filled(tmp_path, motion, truth) -> None:
-    (tmp_path / "clips").mkdir()
-    assert split(motion, truth, tmp_path / "clips", cluster=1)[0].is_file()
 
 
 def test_clips_of_arrays_hold_their_values_and_gaps(tmp_path) -> None:

@@ -18,7 +18,6 @@ from kineme.clips.loops import (
     Carry,
     find_carry,
     make_loop,
-    measure_distances,
     measure_loop,
     measure_usual_steps,
 )
@@ -30,11 +29,6 @@ from kineme.recordings.operations import cut
 from segmentations import make_activities
 
 SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
-
-
-def repetitions(motion: Motion, truth: kineme.Segmentation) -> list[Motion]:
-    rows = [row for row in truth.primitives if row.kind == "primitive"]
-    return [cut(motion, row.start_frame, row.stop_frame) for row in rows]
 
 
 def manifest(folder: Path) -> list[dict]:
@@ -51,8 +45,8 @@ def rounds(motion: Motion, carry: Carry, n: int) -> np.ndarray:
     return np.concatenate(played)
 
 
-def test_speed_and_acceleration_meet_at_the_seam(motion, truth) -> None:
-    for clip in repetitions(motion, truth):
+def test_speed_and_acceleration_meet_at_the_seam(repetitions) -> None:
+    for clip in repetitions:
         bare = Motion(clip.skeleton, clip.positions, clip.fps)
         for closed, carry in (make_loop(clip), make_loop(bare)):
             twice, n = rounds(closed, carry, 2), closed.n_frames
@@ -80,14 +74,6 @@ def test_a_cycle_that_is_one_costs_next_to_nothing_and_a_cut_in_the_wrong_place_
     assert cost(50) > 10 * cost(60)
 
 
-def test_the_one_that_is_unlike_the_others_is_told() -> None:
-    poses = np.zeros((30, 2, 3))
-    assert np.isnan(measure_distances([poses])).all()
-    found = measure_distances([poses, poses[:20], poses + 0.1, poses])
-    assert found[2] > 0.1
-    assert found[:2] == [0.0, 0.0]
-
-
 def test_planted_feet_that_are_dragged_slide(motion) -> None:
     still = np.repeat(motion.positions[:1], 60, axis=0)
     dragged = still + np.linspace(0, 0.6, 60)[:, None, None] * [1.0, 0.0, 0.0]
@@ -99,9 +85,9 @@ def test_planted_feet_that_are_dragged_slide(motion) -> None:
 
 
 def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_back(
-    motion, truth
+    repetitions,
 ) -> None:
-    for clip in repetitions(motion, truth):
+    for clip in repetitions:
         closed, carry = make_loop(clip)
         still, root = remove_root_motion(closed, carry)
         n, fps = closed.n_frames, closed.fps
@@ -219,13 +205,6 @@ def test_a_closed_loop_ends_where_it_begins(tmp_path: Path, motion, truth, root_
         assert np.abs(after.positions[-1] - expected).max() < 1e-4
     with pytest.raises(ParameterError, match="closed needs loops"):
         split(motion, truth, tmp_path / "none", close=True)
-
-
-def test_straight_loops_do_not_turn(tmp_path: Path, motion, truth) -> None:
-    split(motion, truth, tmp_path / "walk", level="primitive", cluster=0, loops=True, straight=True)
-    told = manifest(tmp_path / "walk")
-    assert max(abs(clip["quality"]["turn_deg"]) for clip in told) > 20
-    assert {clip["carry"]["turn_deg"] for clip in told} == {0}
 
 
 @pytest.mark.parametrize("best", [0, -1, 1.5, "2"])

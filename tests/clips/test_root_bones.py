@@ -42,12 +42,6 @@ def with_root_bones(motion: Motion, count: int) -> Motion:
     )
 
 
-def test_the_hips_carry_the_body(motion, rooted) -> None:
-    assert rooted.skeleton.names[rooted.skeleton.carrier] == "Hips"
-    assert len(rooted.skeleton.body) == motion.skeleton.n_joints
-    assert motion.skeleton.body == tuple(range(motion.skeleton.n_joints))
-
-
 def test_the_unit_is_that_of_the_body(rooted, tmp_path) -> None:
     far = replace(rooted, positions=rooted.positions + [0, 0, 30.0] * (rooted.positions != 0))
     kineme.write(far, tmp_path / "far.bvh")

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import kineme
 from kineme.clips.root_motion import measure_travel
-from kineme.clips.split import split
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut, turn
 from kineme.recordings.posing import add_root
@@ -53,11 +49,3 @@ def test_starts_and_stops_are_those_of_bodies_that_travel(motion: Motion) -> Non
     assert tags(begun) == ("forwards", "start")
     ended = Motion(walk.skeleton, begun.positions[::-1], walk.fps)
     assert "stop" in tags(ended)
-
-
-def test_the_manifest_has_them(tmp_path: Path, motion, truth) -> None:
-    split(motion, truth, tmp_path / "clips")
-    clips = json.loads((tmp_path / "clips" / "manifest.json").read_text())["clips"]
-    found = {clip["label"]: clip["tags"] for clip in clips if clip["label"]}
-    assert found["run"] == ["forwards"]
-    assert found["jump"] == ["in place"]
