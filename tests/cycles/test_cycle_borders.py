@@ -50,17 +50,6 @@ def test_an_end_in_another_movement_is_where_a_usual_repetition_has_it() -> None
     assert np.isfinite(alone.borders).all()
 
 
-@pytest.mark.parametrize("late", [0.25, 0.5, -0.3])
-def test_runs_of_one_cluster_begin_at_one_phase(late: float) -> None:
-    features, true = swing([1.0] * 8)
-    long, short = make_run(0, true[1:7]), make_run(1, true[1:5] + late)
-    first, second = shift_to_common_phase([long, short], [features, features], [RATE, RATE])
-    assert np.allclose(first.borders, long.borders, atol=0.01)
-    assert second.turned == pytest.approx(-late, abs=0.03) or abs(abs(late) - 0.5) < 0.01
-    apart = second.borders - first.borders[0]
-    assert np.allclose(apart, np.round(apart), atol=0.02)
-
-
 def test_borders_lie_where_the_movement_turns_back_or_in_the_middle_of_its_rest() -> None:
     t = np.arange(0, 8, 1 / RATE)
     swings = np.cos(2 * np.pi * t)[:, None]  # turns at whole and half seconds
