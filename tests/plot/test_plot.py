@@ -18,9 +18,9 @@ import kineme
 from kineme.errors import ParameterError, WriteError
 from kineme.plot import matrix, plot_matrix, plot_segmentation, plot_strip
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.segments.display import NO_CLUSTER, PALETTE, get_cluster_color
+from kineme.segments.display import NO_CLUSTER, PALETTE
 from kineme.segments.segmentation import Segmentation
-from segmentations import segmentations
+from segmentations import from_rows, segmentations
 
 
 @pytest.fixture(scope="session")
@@ -36,15 +36,9 @@ def turning(frames: int, fps: float = 30.0) -> Signals:
 
 def with_primitives(stops: list[int], clusters: list[int]) -> Segmentation:
     """One activity of primitives that stop at these frames."""
-    n = len(stops)
-    columns = {
-        "level": ["activity"] + ["primitive"] * n,
-        "kind": ["activity"] * (n + 1),
-        "start_frame": [0, 0, *stops[:-1]],
-        "stop_frame": [stops[-1], *stops],
-        "cluster": [-1, *clusters],
-    }
-    return Segmentation.from_columns(columns, n_frames=stops[-1], fps=30.0)
+    spans = zip([0, *stops], stops, clusters, strict=False)
+    rows = [("activity", "activity", 0, stops[-1], -1, "")]
+    return from_rows(rows + [("primitive", "activity", *span, "") for span in spans])
 
 
 def whole(n_frames: int) -> Segmentation:
@@ -110,14 +104,6 @@ def test_no_global_plotting_state() -> None:
     code = "import sys, kineme.plot; print('matplotlib.pyplot' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
-
-
-def test_colours_repeat_only_after_three_rounds() -> None:
-    first = [get_cluster_color(cluster) for cluster in range(3 * len(PALETTE))]
-    assert len(set(first)) == len(first)
-    assert first[: len(PALETTE)] == list(PALETTE)
-    assert get_cluster_color(3 * len(PALETTE)) == first[0]
-    assert get_cluster_color(-1) == NO_CLUSTER
 
 
 # Linear RGB as seen without red, green or blue cones: Machado, Oliveira and Fernandes 2009.

@@ -17,7 +17,6 @@ from kineme.transfer.clusters import (
     ClusterSet,
     Features,
     LocalCluster,
-    group_by_distance,
     link_clusters,
 )
 from kineme.transfer.sharing import share_clusters
@@ -74,12 +73,6 @@ def test_rounds_find_the_clusters_that_comparing_all_pairwise_finds() -> None:
     assert told[-1] == "clusters in common: 153 of 153"
 
 
-def test_a_sample_never_joins_what_differs() -> None:
-    clusters, _ = cluster_set()
-    apart = link(clusters, most=20, join=1e-3)
-    assert len(set(apart.cluster.tolist())) == len(apart.cluster)
-
-
 def test_neither_threads_nor_blocks_nor_order_change_clusters(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -101,15 +94,6 @@ def test_one_local_cluster_or_none_is_linked_to_nothing() -> None:
     assert (one.cluster.tolist(), one.next_cluster.tolist()) == ([0], [-1])
     assert np.isnan(one.confidence).all()
     assert link(clusters.select(np.empty(0, np.int64))).cluster.tolist() == []
-
-
-def test_groups_that_are_apart_are_not_joined_if_both_are_large_enough() -> None:
-    points = np.random.default_rng(0).normal([[0.0]] * 6 + [[0.7]] * 5, 0.05)
-    distances = np.abs(points - points.T)
-    assert group_by_distance(distances).tolist() == [0] * 6 + [1] * 5
-    assert group_by_distance(distances[:8, :8]).tolist() == [0] * 8  # two members may be chance
-    alike = np.random.default_rng(0).uniform(0.5, 0.6, (11, 11))
-    assert group_by_distance(np.triu(alike, 1) + np.triu(alike, 1).T).tolist() == [0] * 11
 
 
 def test_walking_and_running_of_many_takes_are_two_clusters(data_dir: Path) -> None:

@@ -136,13 +136,6 @@ def apart(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.linalg.norm(embedding(one) - embedding(other)))
 
 
-def test_unit_vectors_of_32_numbers() -> None:
-    found = embedding(poses("walk"))
-    assert found.shape == (32,)
-    assert found.dtype == np.float32
-    assert np.linalg.norm(found) == pytest.approx(1, abs=1e-5)
-
-
 def test_speed_and_side_change_little_and_another_movement_much() -> None:
     walk, kick = poses("walk"), poses("kick")
     assert apart(walk, poses("walk", speed=1.4)) < 0.3
@@ -153,16 +146,3 @@ def test_speed_and_side_change_little_and_another_movement_much() -> None:
 
 def test_a_single_pose_is_a_segment() -> None:
     assert np.isfinite(embedding(poses("walk")[:1])).all()
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        (np.zeros((5, 40)), "17 numbers each, not 40"),
-        (np.zeros((0, 17)), "at least one"),
-        (np.full((5, 17), np.nan), "finite"),
-    ],
-)
-def test_what_is_no_segment_is_refused(given: np.ndarray, said: str) -> None:
-    with pytest.raises(ParameterError, match=said):
-        embedding(given)
