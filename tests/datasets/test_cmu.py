@@ -14,7 +14,7 @@ import pytest
 
 from kineme.datasets.cmu import FRAMES, fetch_subject
 from kineme.datasets.download import fetch
-from kineme.errors import FileError, ParameterError, ReadError, WriteError
+from kineme.errors import ParameterError, ReadError, WriteError
 
 pytest.importorskip("pooch")
 
@@ -273,23 +273,7 @@ def test_what_the_database_does_not_have_is_named(site, tmp_path):
         get(site, tmp_path, trials=[0])
 
 
-def test_a_forbidden_file_is_not_asked_for_again(site, tmp_path):
-    site.status = [403]
-    with pytest.raises(ReadError, match="403"):
-        get(site, tmp_path)
-    assert len(site.asked) == 1
-
-
 def test_a_folder_that_cannot_be_written_to_is_an_error_of_its_own(site, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(WriteError):
         get(site, tmp_path / "file")
-
-
-def test_the_check_decides(site, tmp_path):
-    def check(path: Path) -> None:
-        raise FileError(path, "not today")
-
-    with pytest.raises(ReadError, match="not today"):
-        fetch(f"{site.url}/mocap.txt", tmp_path, check=check)
-    assert not (tmp_path / "mocap.txt").exists()

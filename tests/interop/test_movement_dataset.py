@@ -37,15 +37,6 @@ def test_the_layout_is_movements(motion) -> None:
     assert float(chosen) == motion.positions[frame, 5, 1]
 
 
-def test_motions_come_back(motion) -> None:
-    back = from_movement(to_movement(motion))
-    for j, name in enumerate(motion.skeleton.names):
-        assert np.array_equal(back.positions[:, back.joint(name)], motion.positions[:, j])
-    assert back.fps == motion.fps
-    assert back.provenance.format == "movement dataset (kineme)"
-    assert not [note for note in back.provenance.notes if "inferred" in note]
-
-
 def test_without_rotations_the_borders_are_the_same() -> None:
     motion = kineme.read(bundled_recording())
     ours = kineme.segment(motion).cuts()

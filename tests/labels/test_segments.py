@@ -24,24 +24,19 @@ from kineme.labels.event_tables import name_sidecar
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS
-from segmentations import make_activities, segmentations
+from segmentations import from_rows, make_activities, segmentations
 
 SUFFIXES = (".csv", ".json", ".parquet")
 
 
 @pytest.fixture
 def small() -> Segmentation:
-    columns = {
-        "level": ["activity", "primitive", "primitive"],
-        "kind": ["activity", "primitive", "primitive"],
-        "start_frame": [0, 0, 50],
-        "stop_frame": [120, 50, 120],
-        "cluster": [-1, 0, 0],
-        "label": ["walk", 'a "long", step', ""],
-    }
-    return Segmentation.from_columns(
-        columns, n_frames=120, fps=120.0, provenance={"preset": "voegele2014", "notes": ["é"]}
-    )
+    rows = [
+        ("activity", "activity", 0, 120, -1, "walk"),
+        ("primitive", "primitive", 0, 50, 0, 'a "long", step'),
+        ("primitive", "primitive", 50, 120, 0, ""),
+    ]
+    return from_rows(rows, fps=120.0, provenance={"preset": "voegele2014", "notes": ["é"]})
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)

@@ -23,7 +23,7 @@ from kineme.errors import (
     WriteError,
 )
 from kineme.formats.keypoints.poses import read_poses
-from kineme.pose import Pose, estimate_poses, estimator_names, register
+from kineme.pose import Pose, estimate_poses, register
 from kineme.pose.decoding import open_video
 from kineme.pose.estimators import ESTIMATORS
 from squats import drawn_estimator, squat, write_video
@@ -248,12 +248,6 @@ def test_without_an_estimator_the_install_line_is_said(
     monkeypatch.setattr("kineme.pose.estimators.find_spec", lambda name: None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'kineme\[video\]'"):
         kineme.read(video)
-
-
-def test_estimators_are_chosen_by_name(video: Path, pictures: list[float]) -> None:
-    assert estimator_names() == ("drawn",)
-    with pytest.raises(ParameterError, match="estimator must be one of drawn"):
-        estimate_poses(video, estimator="other")
 
 
 def test_the_command(video: Path, pictures: list[float], tmp_path: Path) -> None:

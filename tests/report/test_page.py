@@ -118,13 +118,6 @@ def test_a_name_like_a_place_for_data_is_not_filled() -> None:
     assert page.tags.count("script") == 3
 
 
-@pytest.mark.parametrize("preset", ["kineme", "voegele2014", "krueger2017"])
-def test_every_preset_can_be_shown(preset: str, tmp_path: Path) -> None:
-    motion = kineme.recordings.operations.cut(RECORDING, 0, 900)
-    write_report(motion, kineme.segment(motion, preset=preset), tmp_path / "out.html")
-    assert content(tmp_path / "out.html")["segmentation"]["provenance"]["preset"] == preset
-
-
 def test_signals_are_shown_without_a_figure(tmp_path: Path) -> None:
     times = np.arange(3000) / 100
     values = np.column_stack([np.sin(6 * times), np.cos(6 * times)])
@@ -166,16 +159,3 @@ def test_only_pages_are_written(tmp_path: Path) -> None:
         write_report(RECORDING, SEGMENTS, tmp_path / "out.pdf")
     with pytest.raises(WriteError, match="does not exist"):
         write_report(RECORDING, SEGMENTS, tmp_path / "missing" / "out.html")
-
-
-def test_arrays_need_a_frame_rate() -> None:
-    with pytest.raises(ParameterError, match="give fps"):
-        make_page_data(np.ones((5, 2)))
-
-
-def test_a_lowered_rate_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    shown = make_page_data(RECORDING)
-    assert make_recording_message(shown, SEGMENTS, name="x").warnings == []
-    slow = replace(shown, motion=msgspec.structs.replace(shown.motion, sample_fps=12.0))
-    (said,) = make_recording_message(slow, SEGMENTS, name="x").warnings
-    assert "12 times per second" in said

@@ -6,7 +6,6 @@ import json
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 from click.testing import Result
 from typer.testing import CliRunner
@@ -14,6 +13,7 @@ from typer.testing import CliRunner
 import kineme
 from kineme.cli.app import app
 from kineme.datasets import bundled_recording
+from segmentations import make_activities
 
 MOTION = kineme.recordings.operations.cut(kineme.read(bundled_recording()), 0, 900)
 
@@ -45,14 +45,8 @@ def test_a_page_per_recording_beside_the_prompt(folder: Path) -> None:
 
 
 def test_corrected_tables_are_shown(folder: Path) -> None:
-    columns = {
-        "level": ["activity", "activity"],
-        "kind": ["activity", "transition"],
-        "start_frame": [0, 500],
-        "stop_frame": [500, 900],
-        "label": ["<b>squat</b>", ""],
-    }
-    table = kineme.Segmentation.from_columns(columns, n_frames=900, fps=60)
+    columns = {"kind": ["activity", "transition"], "label": ["<b>squat</b>", ""]}
+    table = make_activities(500, 900, fps=60, **columns)
     for name in ("one", "two"):
         kineme.write_segments(table, folder / f"{name}.segments.json")
     assert run("report", "one.bvh", "--segments", "one.segments.json").exit_code == 0
@@ -63,16 +57,6 @@ def test_corrected_tables_are_shown(folder: Path) -> None:
     result = run("report", "one.bvh", "two.bvh", "--segments", "one.segments.json")
     assert result.exit_code == 2
     assert "one file for 2 recordings" in result.output
-
-
-def test_a_table_of_another_recording_is_one_clear_error(folder: Path) -> None:
-    whole = kineme.segment(kineme.read(bundled_recording()))
-    kineme.write_segments(whole, folder / "whole.json")
-    result = run("report", "one.bvh", "--segments", "whole.json")
-    assert result.exit_code == 1
-    assert "whole.json" in result.output
-    assert "2898 frames" in result.output
-    assert not (folder / "one.html").exists()
 
 
 def test_segmenting_writes_the_page_on_the_way(folder: Path) -> None:
@@ -94,10 +78,3 @@ def test_targets_are_checked_before_any_work(folder: Path) -> None:
         assert "suffix must be one of .html" in result.output
     assert run("segment", "one.bvh", "two.bvh", "--report", "page.html").exit_code == 2
     assert sorted(path.name for path in folder.iterdir()) == ["one.bvh", "two.bvh"]
-
-
-def test_signals_get_a_page_too(folder: Path) -> None:
-    values = np.sin(np.arange(2000) / 10)[:, None] * [1, 2] + [0, 1]
-    np.savetxt(folder / "wrist.txt", values)
-    assert run("report", "wrist.txt", "--fps", "50", "--quiet").exit_code == 0
-    assert shown(folder / "wrist.html")["motion"] is None

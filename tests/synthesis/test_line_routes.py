@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -33,18 +31,6 @@ def test_a_straight_line_is_walked(exercises: Motion, graph: MotionGraph) -> Non
     ends = np.linalg.norm(floor - line[-1], axis=1)
     assert ends.min() < 0.5
     assert distances(motion, line)[: ends.argmin()].max() < 0.5
-
-
-def test_a_real_take_turns_corners(data_dir: Path) -> None:
-    motion = kineme.read(data_dir / "cmu86" / "86_11.amc")
-    graph = motion_graph([motion])
-    points = parse_line("0,0;-2,2;-4,0;-6,2")
-    route, start = line_route(graph, [motion], points, tolerance=1.2)
-    new = synthesize(graph, [motion], route, start=start)
-    floor = new.positions[:, 0][:, [0, 2]]
-    arrived = int(np.linalg.norm(floor - points[-1], axis=1).argmin())
-    assert np.linalg.norm(floor[arrived] - points[-1]) < 0.7
-    assert distances(new, points)[:arrived].max() < 1.25
 
 
 def test_a_corner_to_the_side_to_which_somebody_turned(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +31,6 @@ from kineme.synthesis import (
     random_route,
     synthesize,
 )
-from kineme.synthesis.blending import find_jump_frames, place_spans
 
 
 def repetitions_in(found: Segmentation, activity: int) -> int:
@@ -80,26 +78,6 @@ def test_segmenting_finds_the_actions_and_counts_asked_for(
     assert len({row.cluster for row in runs}) == len(first)
 
 
-@pytest.mark.parametrize(
-    ("trial", "actions"),
-    [("86_11", "0*4,1*5,3*4"), ("86_11", "1*5,2*6,1*4"), ("86_14", "0*4,1*3,0*4")],
-)
-def test_and_so_it_does_in_motion_made_of_real_takes(
-    data_dir: Path, trial: str, actions: str
-) -> None:
-    take = kineme.read(data_dir / "cmu86" / f"{trial}.amc")
-    graph = motion_graph([take])
-    wanted = parse_actions(actions)
-    motion = synthesize(graph, [take], action_route(graph, wanted))
-    assert largest_step(motion) <= 1.5 * largest_step(take)
-    assert ankle_slides(motion).mean() < 0.01
-    found = kineme.segment(motion)
-    runs = [row.activity for row in found.activities if row.kind == "activity"]
-    inside = [repetitions_in(found, run) for run in runs]
-    assert len(inside) == len(wanted)
-    assert all(abs(n - count) <= 1 for n, (_, count) in zip(inside, wanted, strict=True))
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_a_random_walk_is_as_smooth_as_the_recording_and_stands(
     exercises: Motion, graph: MotionGraph, seed: int
@@ -118,20 +96,6 @@ def test_the_recording_itself_comes_out_as_it_went_in(exercises: Motion) -> None
     graph = motion_graph([exercises], prune=False)
     motion = synthesize(graph, [exercises], range(len(graph.nodes)), plant=False)
     assert np.abs(motion.positions - exercises.positions).max() < 1e-9
-
-
-def test_far_from_jumps_every_frame_is_one_of_the_recording(
-    exercises: Motion, graph: MotionGraph
-) -> None:
-    route = action_route(graph, [("run", 9)])
-    motion = synthesize(graph, [exercises], route, plant=False)
-    spans = place_spans(graph, route, Placement())
-    edges = [0, *find_jump_frames(spans), motion.n_frames]
-    half = round(graph.window * graph.fps / 2)
-    for piece, (start, stop) in zip(spans, pairwise(edges)):
-        middle = slice(start + half, stop - half)
-        source = exercises.positions[piece.start + half : piece.stop - half]
-        assert np.abs(motion.positions[middle, :, 1] - source[:, :, 1]).max() < 1e-9
 
 
 def test_where_it_starts_is_where_it_was_laid(exercises: Motion, graph: MotionGraph) -> None:
