@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from math import floor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kineme.errors import ParameterError
+from kineme.formats import read
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import compute_local_translations, forward_kinematics
 from kineme.recordings.operations import cut, move, resample, scale, turn
@@ -62,6 +64,16 @@ def test_steady_turns_are_interpolated_exactly() -> None:
         compute_local_translations(new.skeleton, new.positions, new.rotations)[:, 1:], axis=2
     )
     np.testing.assert_allclose(bones, np.broadcast_to([1, 2, 1], bones.shape), atol=1e-12)
+
+
+def test_there_and_back_on_a_real_recording(data_dir: Path) -> None:
+    walk = read(data_dir / "cmu_formats/02_01.amc")
+    again = resample(resample(walk, 360), 120)
+    np.testing.assert_allclose(again.positions, walk.positions, atol=1e-9)
+    assert resample(walk, walk.fps) is walk
+    odd = resample(resample(walk, 100), 120)
+    n = odd.n_frames
+    assert np.abs(odd.positions - walk.positions[:n]).max() < 0.01
 
 
 def test_cut() -> None:
