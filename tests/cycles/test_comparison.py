@@ -16,12 +16,9 @@ from kineme.cycles import (
     compare_curves,
     compare_sessions,
     compare_sides,
-    foot_events,
-    gait,
 )
 from kineme.cycles.channels import make_contact_channels
 from kineme.cycles.comparison import pair_sides
-from kineme.datasets import Action, synthesize
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.plot import plot_sides
@@ -46,19 +43,6 @@ def test_what_differs_by_a_tenth_has_that_index(cycles: Cycles) -> None:
     assert sides["symmetry_index"][of_range] == pytest.approx(100 * 0.1 / 0.95)
     assert np.isnan(sides["symmetry_index"][~of_range]).all()
     assert (sides["low"][of_range] > 0).all()
-
-
-def test_shares_of_stance_are_compared() -> None:
-    walk = synthesize([Action("walk", 8)], fps=120, seed=1)
-    cycles = kineme.cycles(walk.motion, walk.truth, channels=["stance_*", "knee_*"])
-    sides = compare_sides(cycles)
-    stance = sides["left_channel"] == "stance_l"
-    assert sides["measure"][stance].tolist() == ["mean"]
-    assert 50 < sides["left"][stance][0] < 65
-    assert abs(sides["symmetry_index"][stance][0]) < 10
-    spans = gait(foot_events(walk.motion))
-    shares = dict(zip(spans["measure"].tolist(), spans["right_mean"].tolist(), strict=True))
-    assert sides["right"][stance][0] == pytest.approx(shares["stance_percent"], abs=3)
 
 
 def test_sensors_at_feet_tell_the_share_of_stance() -> None:

@@ -144,25 +144,6 @@ def test_what_is_far_from_the_mean_is_left_out_by_rule(cycles) -> None:
     assert (cycles.exclude_far().columns["excluded"] != "").sum() <= 1
 
 
-def test_durations_are_far_by_standard_deviations(cycles) -> None:
-    rows = np.flatnonzero((cycles.columns["group"] == "walk") & cycles.used())
-    curves = np.array(cycles.curves)
-    curves[rows] = curves[rows[0]]
-
-    def find_far(durations: list[float]) -> list[int]:
-        given = np.array(cycles.columns["duration_s"])
-        given[rows] = np.resize(durations, len(rows))
-        given[rows[-1]] = durations[-1]
-        columns = {**cycles.columns, "duration_s": given}
-        less = replace(cycles, curves=curves, columns=columns).exclude_far()
-        return np.flatnonzero(less.columns["excluded"][rows] != "").tolist()
-
-    # A median deviation of .01 is a standard one of .015, so that .045 are three.
-    assert not find_far([0.98, 0.99, 1.0, 1.01, 1.045])
-    assert find_far([0.98, 0.99, 1.0, 1.01, 1.2])
-    assert not find_far([1.0, 1.0, 1.0, 1.0, 1.0 + 1 / 60])
-
-
 def test_borders_that_are_not_sure_are_left_out_by_rule(cycles) -> None:
     confidence = np.where(np.arange(len(cycles)) == 3, 0.2, np.nan)
     unsure = replace(cycles, columns={**cycles.columns, "border_confidence": confidence})
