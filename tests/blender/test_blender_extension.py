@@ -22,7 +22,7 @@ SOURCES = sorted(FOLDER.glob("*.py"))
 FIRST = 11
 
 
-def module(name: str) -> ModuleType:
+def import_part(name: str) -> ModuleType:
     """A module of the extension, under a package that does not import bpy."""
     package = ModuleType("blender_extension")
     package.__path__ = [str(FOLDER)]
@@ -30,7 +30,7 @@ def module(name: str) -> ModuleType:
     return import_module(f"blender_extension.{name}")
 
 
-table, process = module("table"), module("process")
+table, process = import_part("table"), import_part("process")
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def record() -> dict[str, Any]:
     return record | {"markers": table.markers_of(record, "activity")}
 
 
-def answer(task: dict[str, Any]) -> dict[str, Any]:
+def run_task(task: dict[str, Any]) -> dict[str, Any]:
     steps = process.work([sys.executable], task)
     while True:
         try:
@@ -123,7 +123,7 @@ def test_most_renamed_markers_name_their_cluster_and_the_others_themselves(
     markers[members[1]] = markers[members[1]]._replace(name="limp")
     names, own = table.names_given(record, "activity", markers)
     assert (names, own) == ({cluster: "stroll"}, {rows[members[1]]["start_frame"]: "limp"})
-    done = answer({"task": "name", "table": record["table"], "level": "activity",
+    done = run_task({"task": "name", "table": record["table"], "level": "activity",
                    "clusters": names, "segments": own})  # fmt: skip
     labels = [row["label"] for row in table.rows_of(done, "activity")]
     assert [labels[n] for n in members[:2]] == ["stroll", "limp"]
@@ -145,11 +145,11 @@ def test_a_table_is_saved_in_any_format_and_a_wrong_suffix_is_said(
     record: dict[str, Any], tmp_path: Path
 ) -> None:
     task = {"task": "save", "table": record["table"]}
-    assert answer(task | {"path": str(tmp_path / "take.csv")}) == {}
+    assert run_task(task | {"path": str(tmp_path / "take.csv")}) == {}
     saved = kineme.read_segments(tmp_path / "take.csv")
     assert len(saved) == len(record["table"]["segments"])
     with pytest.raises(process.FailureError, match="xyz"):
-        answer(task | {"path": str(tmp_path / "take.xyz")})
+        run_task(task | {"path": str(tmp_path / "take.xyz")})
 
 
 def test_work_that_nobody_waits_for_leaves_no_process(
@@ -184,7 +184,7 @@ def test_the_python_of_kineme_is_looked_for_and_missed_in_words(tmp_path: Path) 
 
 
 def test_joints_are_named_as_on_the_command_line() -> None:
-    worker = module("worker")
+    worker = import_part("worker")
     assert worker.joints(" ") is None
     assert worker.joints("a, b,c ,d,e") == ["a", "b", "c", "d", "e"]
     assert worker.joints("head=Top, left_wrist=L") == {"head": "Top", "left_wrist": "L"}

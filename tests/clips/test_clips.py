@@ -22,12 +22,12 @@ from kineme.recordings.operations import cut, move, turn
 from segmentations import make_activities
 
 
-def largest_step(motion: Motion) -> float:
+def measure_largest_step(motion: Motion) -> float:
     """How far a joint moves at most from one frame to the next."""
     return float(np.linalg.norm(np.diff(motion.positions, axis=0), axis=-1).max())
 
 
-def step_at_the_seam(motion: Motion, carry: Carry) -> float:
+def measure_seam(motion: Motion, carry: Carry) -> float:
     again = carry.apply(motion.positions[0])
     return float(np.linalg.norm(again - motion.positions[-1], axis=-1).max())
 
@@ -99,7 +99,7 @@ def test_loops_play_without_a_jump(repetitions) -> None:
         bare = Motion(clip.skeleton, clip.positions, clip.fps)
         for looped, carry in (make_loop(clip), make_loop(bare)):
             assert looped.n_frames == clip.n_frames
-            assert step_at_the_seam(looped, carry) <= largest_step(looped)
+            assert measure_seam(looped, carry) <= measure_largest_step(looped)
 
 
 def test_a_loop_keeps_bones_and_says_what_was_done(repetitions) -> None:
@@ -129,7 +129,7 @@ def test_the_manifest_tells_how_a_loop_goes_on(tmp_path, motion, truth) -> None:
     for path, row in zip(paths, manifest.itertuples(), strict=True):
         looped = kineme.read(path)
         carry = Carry(np.radians(row.turn_deg), row.x_m, row.z_m)
-        assert step_at_the_seam(looped, carry) <= largest_step(looped) + 1e-6
+        assert measure_seam(looped, carry) <= measure_largest_step(looped) + 1e-6
         again = move(turn(looped, carry.turn), [carry.x, 0, carry.z])
         assert np.abs(again.positions - carry.apply(looped.positions)).max() < 1e-12
 

@@ -22,18 +22,18 @@ pytestmark = pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
 CHARACTERS = [("Xbot.glb", "walk"), ("RobotExpressive.glb", "Walking")]
 
 
-def halves(motion: Motion) -> Segmentation:
+def cut_in_halves(motion: Motion) -> Segmentation:
     n = motion.n_frames
     return make_activities(n // 2, n, fps=motion.fps, cluster=[0, 1])
 
 
-def glb(path: Path) -> tuple[dict[str, Any], bytes]:
+def read_glb(path: Path) -> tuple[dict[str, Any], bytes]:
     data = path.read_bytes()
     (size,) = struct.unpack_from("<I", data, 12)
     return json.loads(data[20 : 20 + size]), data[28 + size :]
 
 
-def stored(tree: dict[str, Any], data: bytes, accessor: int) -> bytes:
+def get_stored(tree: dict[str, Any], data: bytes, accessor: int) -> bytes:
     view = tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
     start = view.get("byteOffset", 0)
     return data[start : start + view["byteLength"]]
@@ -44,8 +44,8 @@ def stored(tree: dict[str, Any], data: bytes, accessor: int) -> bytes:
 def test_a_character_keeps_its_mesh_and_skin(data_dir, tmp_path, name, take, mode) -> None:
     source, path = data_dir / "rigs" / name, tmp_path / "clips.glb"
     motion = kineme.read(source, take=take)
-    assert split(motion, halves(motion), path, root_motion=mode) == [path, path]
-    (tree, data), (before, old) = glb(path), glb(source)
+    assert split(motion, cut_in_halves(motion), path, root_motion=mode) == [path, path]
+    (tree, data), (before, old) = read_glb(path), read_glb(source)
     assert [each["name"].rpartition("_")[2] for each in tree["animations"]] == ["0", "1"]
     for part, other in zip(tree["meshes"], before["meshes"], strict=True):
         assert part == other
@@ -53,7 +53,7 @@ def test_a_character_keeps_its_mesh_and_skin(data_dir, tmp_path, name, take, mod
             tables = [piece["attributes"], *piece.get("targets", ())]
             numbers = [n for table in tables for n in table.values()] + [piece["indices"]]
             for number in numbers:
-                assert stored(tree, data, number) == stored(before, old, number)
+                assert get_stored(tree, data, number) == get_stored(before, old, number)
     assert tree["materials"] == before["materials"]
     if mode != "extract":
         assert (tree["nodes"], tree["skins"]) == (before["nodes"], before["skins"])
@@ -68,7 +68,7 @@ def test_a_character_keeps_its_mesh_and_skin(data_dir, tmp_path, name, take, mod
 def test_an_fbx_keeps_its_mesh_and_skin(data_dir: Path, tmp_path: Path, mode: str) -> None:
     source, path = data_dir / "rigs" / "samba.fbx", tmp_path / "clips.fbx"
     motion = kineme.read(source)
-    assert split(motion, halves(motion), path, root_motion=mode) == [path, path]  # type: ignore[arg-type]
+    assert split(motion, cut_in_halves(motion), path, root_motion=mode) == [path, path]  # type: ignore[arg-type]
     clip = kineme.read(path, take=0)
     assert clip.provenance.takes == ("samba_0000_cluster_0", "samba_0001_cluster_1")
     assert clip.skeleton.names[0] == ("root" if mode == "extract" else motion.skeleton.names[0])
@@ -79,7 +79,7 @@ def test_an_fbx_keeps_its_mesh_and_skin(data_dir: Path, tmp_path: Path, mode: st
 
 def test_a_root_bone_is_added_and_moves_as_the_body_does(data_dir: Path, tmp_path: Path) -> None:
     motion = kineme.read(data_dir / "rigs" / "Xbot.glb", take="walk")
-    split(motion, halves(motion), tmp_path / "clips.glb", root_motion="extract")
+    split(motion, cut_in_halves(motion), tmp_path / "clips.glb", root_motion="extract")
     clip = kineme.read(tmp_path / "clips.glb", take=0)
     assert clip.skeleton.names[:2] == ("root", "mixamorig:Hips")
     # The hips stay above it, and everything is where it was.
@@ -96,7 +96,7 @@ def test_any_recording_becomes_one_glb(tmp_path: Path) -> None:
     motion = kineme.read(bundled_recording())
     truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
     paths = split(motion, truth, tmp_path / "clips.glb", root_motion="extract", mirror=True)
-    tree, _ = glb(tmp_path / "clips.glb")
+    tree, _ = read_glb(tmp_path / "clips.glb")
     assert len(tree["animations"]) == len(paths) == len(truth.level("activity"))
     assert tree["animations"][0]["name"] == "exercises_0000_walk"
     assert "root" in {node["name"] for node in tree["nodes"]}
@@ -107,6 +107,6 @@ def test_a_copy_never_takes_the_place_of_its_source(data_dir: Path, tmp_path: Pa
     source.write_bytes((data_dir / "rigs" / "Xbot.glb").read_bytes())
     motion = kineme.read(source, take="walk")
     with pytest.raises(ParameterError, match="overwrite its recording"):
-        split(motion, halves(motion), source)
+        split(motion, cut_in_halves(motion), source)
     with pytest.raises(ParameterError, match="choose from keep, extract, in-place"):
-        split(motion, halves(motion), tmp_path / "c.glb", root_motion="stay")  # type: ignore[arg-type]
+        split(motion, cut_in_halves(motion), tmp_path / "c.glb", root_motion="stay")  # type: ignore[arg-type]

@@ -53,7 +53,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
-def clips_of(folder: Path) -> list[dict[str, Any]]:
+def read_clips(folder: Path) -> list[dict[str, Any]]:
     return json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["clips"]
 
 
@@ -70,7 +70,7 @@ def test_godot_has_every_clip_and_every_bone(folder: Path, tmp_path: Path) -> No
         )
     line = next(line for line in done.stdout.splitlines() if line.startswith("FOUND "))
     found = json.loads(line.removeprefix("FOUND "))["exercises.glb"]
-    clips = clips_of(folder)
+    clips = read_clips(folder)
     assert found["clips"].keys() == {clip["take"] for clip in clips}
     for clip in clips:
         there = found["clips"][clip["take"]]
@@ -88,7 +88,7 @@ def test_three_has_every_clip_and_every_bone(folder: Path) -> None:
     command = [str(NODE), "-e", PROGRAM, str(THREE.resolve()), str(folder / "exercises.glb")]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     found = json.loads(done.stdout)
-    clips = clips_of(folder)
+    clips = read_clips(folder)
     assert found["clips"].keys() == {clip["take"] for clip in clips}
     for clip in clips:
         assert found["clips"][clip["take"]] == pytest.approx(clip["round_s"], abs=1e-4)
@@ -101,7 +101,7 @@ def test_the_list_for_motion_matching_has_every_clip(folder: Path, tmp_path: Pat
     command = [sys.executable, str(script), str(folder / "manifest.json"), str(output)]
     subprocess.run(command, check=True)
     told = json.loads(output.read_text(encoding="utf-8"))
-    clips = clips_of(folder)
+    clips = read_clips(folder)
     assert [each["sequence"] for each in told["clips"]] == [clip["name"] for clip in clips]
     for each, clip in zip(told["clips"], clips, strict=True):
         assert each["range_s"] == [0, clip["round_s"]]
@@ -127,7 +127,7 @@ def test_the_script_for_unreal_says_what_the_manifest_says(
         def get_name(self) -> str:
             return self.name
 
-    sequences = {clip["take"]: AnimSequence(clip["take"]) for clip in clips_of(folder)}
+    sequences = {clip["take"]: AnimSequence(clip["take"]) for clip in read_clips(folder)}
     tools = SimpleNamespace(
         import_asset_tasks=lambda tasks: imported.extend(task.filename for task in tasks)
     )
@@ -152,7 +152,7 @@ def test_the_script_for_unreal_says_what_the_manifest_says(
     monkeypatch.setitem(sys.modules, "unreal", stand_in)
     script = runpy.run_path(str(ENGINES / "unreal" / "import_clips.py"))
     found = script["main"](str(folder), "/Game/Takes")
-    clips = clips_of(folder)
+    clips = read_clips(folder)
     assert list(found) == [clip["name"] for clip in clips]
     assert imported == [str(folder / "exercises.glb")]
     spans = sum(len(spans) for clip in clips for spans in clip["planted"].values())

@@ -31,13 +31,13 @@ from segmentations import make_activities
 SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
 
 
-def manifest(folder: Path) -> list[dict]:
+def read_manifest(folder: Path) -> list[dict]:
     told = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     jsonschema.validate(told, SCHEMA)
     return told["clips"]
 
 
-def rounds(motion: Motion, carry: Carry, n: int) -> np.ndarray:
+def play_rounds(motion: Motion, carry: Carry, n: int) -> np.ndarray:
     """Positions of a loop that is played so often."""
     played = [motion.positions]
     for _ in range(n - 1):
@@ -49,7 +49,7 @@ def test_speed_and_acceleration_meet_at_the_seam(repetitions) -> None:
     for clip in repetitions:
         bare = Motion(clip.skeleton, clip.positions, clip.fps)
         for closed, carry in (make_loop(clip), make_loop(bare)):
-            twice, n = rounds(closed, carry, 2), closed.n_frames
+            twice, n = play_rounds(closed, carry, 2), closed.n_frames
             changes = np.linalg.norm(np.diff(twice, 2, axis=0), axis=-1).mean(axis=1)
             assert changes[n - 2 : n].max() <= 1.05 * changes[: n - 2].max()
 
@@ -128,7 +128,7 @@ def test_a_straightened_loop_goes_on_as_it_begins(motion, turn, x, z) -> None:
 
 def test_the_best_loops_of_each_cluster_stand_first(tmp_path: Path, motion, truth) -> None:
     split(motion, truth, tmp_path / "all", level="primitive", loops=True)
-    told = manifest(tmp_path / "all")
+    told = read_manifest(tmp_path / "all")
     loops = [clip for clip in told if clip["loop"]]
     assert told[: len(loops)] == loops
     assert all((clip["kind"] == "transition") != clip["loop"] for clip in told)
@@ -138,7 +138,7 @@ def test_the_best_loops_of_each_cluster_stand_first(tmp_path: Path, motion, trut
         costs = [clip["quality"]["cost"] for clip in of_cluster]
         assert costs == sorted(costs)
     split(motion, truth, tmp_path / "best", level="primitive", loops=True, best=1)
-    best = manifest(tmp_path / "best")
+    best = read_manifest(tmp_path / "best")
     names = {clip["start_frame"]: (clip["name"], clip["file"]) for clip in told}
     assert all((clip["name"], clip["file"]) == names[clip["start_frame"]] for clip in best)
     assert [clip["start_frame"] for clip in best] == [
@@ -153,7 +153,7 @@ def test_the_best_loops_of_each_cluster_stand_first(tmp_path: Path, motion, trut
 def test_the_manifest_knows_feet_poses_and_root_motion(tmp_path: Path, motion, truth) -> None:
     options = {"level": "primitive", "cluster": 0, "loops": True, "root_motion": "in-place"}
     paths = split(motion, truth, tmp_path / "walk", format="glb", **options)
-    told = manifest(tmp_path / "walk")
+    told = read_manifest(tmp_path / "walk")
     assert len(told) == len(paths)
     for clip in told:
         assert clip["changes"] == ["in place"]
@@ -172,7 +172,7 @@ def test_a_mirrored_clip_plants_the_other_foot(tmp_path: Path, motion, truth) ->
     for mirror in (False, True):
         folder = tmp_path / str(mirror)
         split(motion, truth, folder, level="primitive", cluster=5, mirror=mirror)
-        told.append(manifest(folder)[0])
+        told.append(read_manifest(folder)[0])
     assert told[0]["planted"]["left"] == told[1]["planted"]["right"]
     assert told[1]["changes"] == ["mirror"]
 
@@ -194,7 +194,7 @@ def test_a_closed_loop_ends_where_it_begins(tmp_path: Path, motion, truth, root_
     options = {"level": "primitive", "cluster": 0, "loops": True, "root_motion": root_motion}
     opened = split(motion, truth, tmp_path / "open", **options)
     closed = split(motion, truth, tmp_path / "closed", close=True, **options)
-    told = {clip["file"]: clip for clip in manifest(tmp_path / "closed")}
+    told = {clip["file"]: clip for clip in read_manifest(tmp_path / "closed")}
     for path, other in zip(closed, opened, strict=True):
         clip, before, after = told[path.name], kineme.read(other), kineme.read(path)
         assert after.n_frames == clip["n_frames"] == before.n_frames + 1
@@ -221,4 +221,4 @@ def test_signals_have_no_place(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="signals have no pose: leave out root_motion"):
         split(signals, one, tmp_path / "clips", root_motion="in-place")
     split(signals, one, tmp_path / "clips")
-    assert manifest(tmp_path / "clips")[0]["root"] is None
+    assert read_manifest(tmp_path / "clips")[0]["root"] is None

@@ -19,10 +19,10 @@ from kineme.recordings.operations import cut
 
 @pytest.fixture(scope="module", params=[1, 2], ids=["one bone", "two bones"])
 def rooted(request, motion: Motion) -> Motion:
-    return with_root_bones(motion, request.param)
+    return add_root_bones(motion, request.param)
 
 
-def with_root_bones(motion: Motion, count: int) -> Motion:
+def add_root_bones(motion: Motion, count: int) -> Motion:
     """The motion below so many bones that stay at the origin."""
     skeleton, n = motion.skeleton, motion.n_frames
     names = (*(f"root_{k}" for k in range(count)), *skeleton.names)

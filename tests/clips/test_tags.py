@@ -14,7 +14,7 @@ from kineme.recordings.posing import add_root
 SIDES = {"left": "right", "right": "left", "turn left": "turn right", "turn right": "turn left"}
 
 
-def tags(motion: Motion) -> tuple[str, ...]:
+def find_tags(motion: Motion) -> tuple[str, ...]:
     travel = measure_travel(motion)
     return () if travel is None else travel.tags(0, motion.n_frames)
 
@@ -33,19 +33,19 @@ def tags(motion: Motion) -> tuple[str, ...]:
 )
 def test_walks_go_where_their_names_say_however_they_are_turned(data_dir, name, expected) -> None:
     motion = kineme.read(data_dir / "rigs" / "bandai_namco" / f"{name}.bvh")
-    found = tags(motion)
+    found = find_tags(motion)
     assert expected in found
-    assert tags(turn(motion, 2.0)) == tags(add_root(motion)) == found
+    assert find_tags(turn(motion, 2.0)) == find_tags(add_root(motion)) == found
     mirrored = {SIDES.get(tag, tag) for tag in found}
-    assert {*tags(kineme.mirror(motion))} == mirrored
+    assert {*find_tags(kineme.mirror(motion))} == mirrored
 
 
 def test_starts_and_stops_are_those_of_bodies_that_travel(motion: Motion) -> None:
     squats, walk = cut(motion, 330, 750), cut(motion, 0, 320)
-    assert tags(squats) == ("in place",)
+    assert find_tags(squats) == ("in place",)
     # The walk from a stand, and to one: frames before the first and after the last are still.
     still = np.repeat(walk.positions[:1], 60, axis=0)
     begun = Motion(walk.skeleton, np.concatenate([still, walk.positions]), walk.fps)
-    assert tags(begun) == ("forwards", "start")
+    assert find_tags(begun) == ("forwards", "start")
     ended = Motion(walk.skeleton, begun.positions[::-1], walk.fps)
-    assert "stop" in tags(ended)
+    assert "stop" in find_tags(ended)

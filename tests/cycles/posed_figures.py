@@ -9,7 +9,7 @@ from kineme.datasets.figure import ANGLES, compute_joint_rotations, make_figure
 from kineme.recordings import Motion
 
 
-def posed(fps: float = 60.0, **angles: NDArray[np.float64]) -> Motion:
+def pose_figure(fps: float = 60.0, **angles: NDArray[np.float64]) -> Motion:
     """The figure at angles in degrees, by names with ``_`` for a blank; the others are 0."""
     n = max(map(len, angles.values()))
     given = {name.replace("_", " "): values for name, values in angles.items()}

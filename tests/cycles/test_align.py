@@ -18,7 +18,7 @@ SHARES = np.linspace(0, 1, 101)
 HIGH = 60.0
 
 
-def movement(phase: np.ndarray) -> np.ndarray:
+def make_movement(phase: np.ndarray) -> np.ndarray:
     """Two channels: a peak of 60 at .3 with a lower one at .7, and one turn of a sine."""
     peaks = HIGH * np.exp(-(((phase - 0.3) / 0.08) ** 2)) + 20 * np.exp(
         -(((phase - 0.7) / 0.1) ** 2)
@@ -26,16 +26,16 @@ def movement(phase: np.ndarray) -> np.ndarray:
     return np.stack([peaks, 30 * np.sin(2 * np.pi * phase)])
 
 
-def unsteady(n: int, deviation: float, seed: int = 0) -> np.ndarray:
+def make_unsteady_cycles(n: int, deviation: float, seed: int = 0) -> np.ndarray:
     """Cycles whose parts last differently."""
     rng = np.random.default_rng(seed)
     marks = [[0, 0.3 + a, 0.7 + b, 1] for a, b in rng.normal(0, deviation, (n, 2))]
-    return np.array([movement(np.interp(SHARES, each, [0, 0.3, 0.7, 1])) for each in marks])
+    return np.array([make_movement(np.interp(SHARES, each, [0, 0.3, 0.7, 1])) for each in marks])
 
 
 @pytest.mark.parametrize("alignment", ["landmarks", "warp"])
 def test_the_mean_is_as_high_as_the_cycles_and_as_late(alignment: str) -> None:
-    curves = unsteady(30, 0.04)
+    curves = make_unsteady_cycles(30, 0.04)
     flat, found = curves.mean(axis=0)[0], align_curves(curves, alignment)
     mean = found.mean(axis=0)[0]
     assert flat.max() < 0.9 * HIGH
@@ -47,7 +47,7 @@ def test_the_mean_is_as_high_as_the_cycles_and_as_late(alignment: str) -> None:
 @given(st.integers(2, 6), st.floats(0, 0.05), st.integers(0, 99), st.sampled_from(ALIGNMENTS))
 @settings(max_examples=30)
 def test_ends_stay_and_nothing_is_made_up(n, deviation, seed, alignment) -> None:
-    curves = unsteady(n, deviation, seed)
+    curves = make_unsteady_cycles(n, deviation, seed)
     found = align_curves(curves, alignment)
     np.testing.assert_allclose(found[:, :, [0, -1]], curves[:, :, [0, -1]], atol=1e-9)
     assert (found.max(axis=2) <= curves.max(axis=2) + 1e-9).all()
@@ -57,7 +57,7 @@ def test_ends_stay_and_nothing_is_made_up(n, deviation, seed, alignment) -> None
 
 @pytest.mark.parametrize("alignment", ALIGNMENTS)
 def test_cycles_with_gaps_and_single_ones_stay(alignment: str) -> None:
-    curves = unsteady(5, 0.03)
+    curves = make_unsteady_cycles(5, 0.03)
     curves[2, 1, 40] = np.nan
     np.testing.assert_array_equal(align_curves(curves, alignment)[2], curves[2])
     np.testing.assert_array_equal(align_curves(curves[:1], alignment), curves[:1])

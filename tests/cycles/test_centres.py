@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from posed_figures import posed
+from posed_figures import pose_figure
 
 import kineme
 from kineme._util import rotations as rot
@@ -20,7 +20,7 @@ from kineme.recordings.kinematics import compute_world_rotations
 CLUSTER = np.array([[0.08, -0.1, 0.02], [0.06, -0.2, -0.05], [0.09, -0.3, 0.04]])
 
 
-def markers(motion: Motion, noise: float = 0.0) -> Motion:
+def place_markers(motion: Motion, noise: float = 0.0) -> Motion:
     """Hips, ankles, toes and shoulders of a figure, and three markers on each thigh and shank."""
     turned = compute_world_rotations(motion.skeleton, motion.rotations)
     places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
@@ -47,18 +47,18 @@ def test_angles_are_those_of_the_figure(name: str, noise: float, most: float) ->
     motion = synthesize([Action(name, 4)], fps=60, seed=2).motion
     for channel in ("knee_l", "knee_r", "ankle_l"):
         true = channels_of(motion, [channel])[0].values()
-        found = channels_of(markers(motion, noise), [channel])[0]
+        found = channels_of(place_markers(motion, noise), [channel])[0]
         assert "centre of" in found.source
         assert np.sqrt(np.mean((found.values() - true) ** 2)) < most
 
 
 def test_a_knee_that_is_not_bent_has_no_centre() -> None:
     motion = synthesize([Action("walk", 4)], fps=60, seed=2).motion
-    still = markers(motion)[:5]
+    still = place_markers(motion)[:5]
     assert not any(channel.name.startswith("knee") for channel in channels_of(still))
 
 
-def skin(motion: Motion) -> Motion:
+def place_skin_markers(motion: Motion) -> Motion:
     """Centres of hips of a figure, and markers beside thighs, knees and ankles, on its skin."""
     turned = compute_world_rotations(motion.skeleton, motion.rotations)
     places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
@@ -79,14 +79,16 @@ def skin(motion: Motion) -> Motion:
 @pytest.mark.parametrize("spread", [0.0, 25.0])
 def test_a_marker_beside_the_knee_does_not_bend_a_straight_leg(spread: float) -> None:
     true = 25 - 35 * np.cos(np.linspace(0, 4 * np.pi, 200))  # from -10, bent the other way, to 60
-    motion = posed(left_knee=true, right_knee=true, left_spread=np.array([spread]))
-    found = channels_of(skin(motion), ["knee_l"])[0].values()
+    motion = pose_figure(left_knee=true, right_knee=true, left_spread=np.array([spread]))
+    found = channels_of(place_skin_markers(motion), ["knee_l"])[0].values()
     assert np.sqrt(np.mean((found - true) ** 2)) < 2
     assert np.ptp(found) == pytest.approx(70, abs=2)
 
 
 def test_a_knee_that_hardly_moves_is_bent_about_the_line_of_the_hips() -> None:
-    found = channels_of(skin(posed(left_knee=np.full(50, -8.0))), ["knee_l"])[0].values()
+    found = channels_of(place_skin_markers(pose_figure(left_knee=np.full(50, -8.0))), ["knee_l"])[
+        0
+    ].values()
     np.testing.assert_allclose(found, -8, atol=1.5)
 
 

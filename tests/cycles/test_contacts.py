@@ -29,7 +29,7 @@ from kineme.recordings import Motion, Signals
 FPS = 100.0
 
 
-def steps(n: int = 6, period: float = 1.1) -> np.ndarray:
+def make_steps(n: int = 6, period: float = 1.1) -> np.ndarray:
     """How a foot turns over so many steps, about one axis."""
     t = np.arange(0, 1 + n * period, 1 / FPS)
     rate = np.zeros(len(t))
@@ -42,7 +42,7 @@ def steps(n: int = 6, period: float = 1.1) -> np.ndarray:
 
 @given(st.floats(0.01, 100), st.tuples(*[st.floats(-3, 3)] * 3))
 def test_neither_the_unit_nor_the_direction_of_a_sensor_matters(unit: float, turn) -> None:
-    rates = steps()
+    rates = make_steps()
     before = swings_from_gyroscope(rates, FPS)
     turned = unit * rot.rotate(rot.from_euler(np.array([turn]), "xyz"), rates)
     np.testing.assert_allclose(swings_from_gyroscope(turned, FPS), before, atol=1e-6)
@@ -50,14 +50,14 @@ def test_neither_the_unit_nor_the_direction_of_a_sensor_matters(unit: float, tur
 
 
 def test_a_swing_is_between_the_turns_of_the_foot() -> None:
-    offs, ons = swings_from_gyroscope(steps(), FPS).T
+    offs, ons = swings_from_gyroscope(make_steps(), FPS).T
     np.testing.assert_allclose(np.diff(offs), 1.1, atol=0.01)
     assert ((offs > 1 - 0.25 + np.arange(6) * 1.1) & (offs < 1 + np.arange(6) * 1.1)).all()
     assert ((ons > 1 + np.arange(6) * 1.1) & (ons < 1.2 + np.arange(6) * 1.1)).all()
 
 
 def test_a_foot_that_is_slow_between_heel_and_swing_takes_one_step() -> None:
-    rates = steps()
+    rates = make_steps()
     t = np.arange(0, 3, 1 / FPS)
     slow = np.zeros((len(t), 3))
     for when, high, wide in ((1.0, 3.0, 0.06), (1.5, -3.0, 0.09), (1.72, 3.0, 0.03)):
@@ -122,7 +122,7 @@ def test_a_walk_has_steps_of_both_feet_in_turn() -> None:
     assert abs(table["asymmetry_percent"][0]) < 5
 
 
-def on_a_belt(walk: Motion, speed: float) -> Motion:
+def put_on_a_belt(walk: Motion, speed: float) -> Motion:
     """The same walk seen from a room in which the ground moves back at the walker's speed."""
     seconds = np.arange(walk.n_frames)[:, None, None] / walk.fps
     forward = walk.positions[-1, 0] - walk.positions[0, 0]
@@ -133,7 +133,7 @@ def on_a_belt(walk: Motion, speed: float) -> Motion:
 def test_a_walk_on_a_treadmill_has_the_contacts_of_the_same_walk_overground() -> None:
     walk = synthesize([Action("walk", 8)], fps=100, seed=1).motion
     travel = (walk.positions[-1, 0] - walk.positions[0, 0]) * [1, 0, 1]
-    belt = on_a_belt(walk, float(np.linalg.norm(travel)) / walk.duration)
+    belt = put_on_a_belt(walk, float(np.linalg.norm(travel)) / walk.duration)
     overground, carried = foot_events(walk), foot_events(belt)
     for name in {*overground.names.tolist()}:
         np.testing.assert_allclose(carried.at(name), overground.at(name), atol=0.03)
@@ -206,7 +206,9 @@ NAMES = {
 @pytest.mark.parametrize("pattern", NAMES.values(), ids=NAMES)
 def test_sensors_at_feet_are_found_by_their_names(pattern: str) -> None:
     names = [pattern.format(a=a, A=a.upper()) for a in "xyz"]
-    signals = Signals(np.hstack([steps(), steps() * 0]), FPS, [*names, "acc_x", "acc_y", "acc_z"])
+    signals = Signals(
+        np.hstack([make_steps(), make_steps() * 0]), FPS, [*names, "acc_x", "acc_y", "acc_z"]
+    )
     events = foot_events(signals)
     assert len(events.at("left foot strike")) == 6
     assert [*events.sources] == ["left"]
@@ -215,7 +217,7 @@ def test_sensors_at_feet_are_found_by_their_names(pattern: str) -> None:
 
 
 def test_channels_of_a_foot_may_be_named() -> None:
-    signals = Signals(steps(), FPS, ["a1", "a2", "a3"])
+    signals = Signals(make_steps(), FPS, ["a1", "a2", "a3"])
     with pytest.raises(ParameterError, match="no foot found"):
         foot_events(signals)
     with pytest.raises(ParameterError, match="names 2 channels"):
@@ -226,7 +228,7 @@ def test_channels_of_a_foot_may_be_named() -> None:
 
 
 def test_gaps_hold_no_steps() -> None:
-    signals = Signals(steps(), FPS, ["lf_gyr_x", "lf_gyr_y", "lf_gyr_z"], gaps=[(300, 500)])
+    signals = Signals(make_steps(), FPS, ["lf_gyr_x", "lf_gyr_y", "lf_gyr_z"], gaps=[(300, 500)])
     times = foot_events(signals).at("left foot strike")
     assert 0 < len(times) < 6
     assert not ((times > 3) & (times < 5)).any()

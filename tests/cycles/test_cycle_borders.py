@@ -13,7 +13,7 @@ RATE = 100.0
 OFFSETS = st.lists(st.floats(-0.02, 0.02), min_size=6, max_size=6)
 
 
-def swing(periods: list[float], noise: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def make_swing(periods: list[float], noise: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Features of a movement with these periods, and its true borders."""
     borders = np.concatenate([[0.0], np.cumsum(periods)])
     t = np.arange(0, borders[-1], 1 / RATE)
@@ -24,7 +24,7 @@ def swing(periods: list[float], noise: float = 0.0) -> tuple[np.ndarray, np.ndar
 
 @given(OFFSETS)
 def test_wherever_the_grid_had_them_borders_come_to_the_same_places(offsets: list[float]) -> None:
-    features, true = swing([1.0, 1.1, 0.95, 1.0, 1.05, 0.9, 1.0, 1.0])
+    features, true = make_swing([1.0, 1.1, 0.95, 1.0, 1.05, 0.9, 1.0, 1.0])
     (run,) = shift_to_common_phase([make_run(0, true[1:7] + offsets)], [features], [RATE])
     apart = run.borders[1:-1] - true[2:6]
     assert np.ptp(apart) < 0.015  # at one phase, whichever that is
@@ -33,7 +33,7 @@ def test_wherever_the_grid_had_them_borders_come_to_the_same_places(offsets: lis
 
 
 def test_channels_that_only_shake_do_not_move_borders() -> None:
-    features, true = swing(np.random.default_rng(5).uniform(0.9, 1.1, 30).tolist(), noise=0.02)
+    features, true = make_swing(np.random.default_rng(5).uniform(0.9, 1.1, 30).tolist(), noise=0.02)
     shaking = 1.5 * np.random.default_rng(3).normal(size=(len(features), 20))
     cut = np.round(true[1:-1] * 30 + 0.3) / 30
     (run,) = shift_to_common_phase([make_run(0, cut)], [np.hstack([features, shaking])], [RATE])
@@ -41,7 +41,7 @@ def test_channels_that_only_shake_do_not_move_borders() -> None:
 
 
 def test_an_end_in_another_movement_is_where_a_usual_repetition_has_it() -> None:
-    features, true = swing([1.0, 1.01, 0.99, 1.0, 1.01, 0.99, 1.0, 1.0])
+    features, true = make_swing([1.0, 1.01, 0.99, 1.0, 1.01, 0.99, 1.0, 1.0])
     other = np.random.default_rng(1).normal(size=(60, 3))
     features[int(true[6] * RATE) + 40 : int(true[6] * RATE) + 100] = other
     (run,) = shift_to_common_phase([make_run(0, true[1:8])], [features], [RATE])

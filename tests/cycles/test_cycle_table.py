@@ -24,7 +24,7 @@ def cycles(walks: SyntheticRecording) -> Cycles:
     return kineme.cycles(walks.motion, walks.truth)
 
 
-def repeated(starts: list[float], end: float, fps: float, n_frames: int) -> Segmentation:
+def make_repetitions(starts: list[float], end: float, fps: float, n_frames: int) -> Segmentation:
     """One activity with these repetitions, in a recording that goes on."""
     frames = [round(at * fps) for at in [*starts, end]]
     rows = [("activity", "activity", frames[0], frames[-1], 0, "")]
@@ -36,15 +36,15 @@ def repeated(starts: list[float], end: float, fps: float, n_frames: int) -> Segm
     return from_rows(rows, fps=fps)
 
 
-def rows_of(cycles: Cycles, group: str) -> np.ndarray:
+def find_rows(cycles: Cycles, group: str) -> np.ndarray:
     return np.flatnonzero(cycles.columns["group"] == group)
 
 
 def test_there_are_as_many_as_the_segments_say(walks, cycles) -> None:
     assert len(cycles) == (walks.truth.primitives.kind == "primitive").sum()
     assert cycles.groups == ["walk", "squat"]
-    assert cycles.columns["number"][rows_of(cycles, "squat")].tolist() == [0, 1, 2, 3, 4]
-    places = cycles.columns["place"][rows_of(cycles, "squat")].tolist()
+    assert cycles.columns["number"][find_rows(cycles, "squat")].tolist() == [0, 1, 2, 3, 4]
+    places = cycles.columns["place"][find_rows(cycles, "squat")].tolist()
     assert places == ["first", *["inner"] * 3, "last"]
 
 
@@ -69,7 +69,7 @@ def test_walks_that_begin_with_another_foot_are_measured_from_the_same(walks) ->
     columns["stop_frame"][rows[:-1]] += half
     other = Segmentation.from_columns(columns, n_frames=truth.n_frames, fps=truth.fps)
     found = kineme.cycles(walks.motion, other, channels=["knee_l", "knee_r"])
-    curves = found.curves[rows_of(found, "walk")][1:-1, 0]
+    curves = found.curves[find_rows(found, "walk")][1:-1, 0]
     assert np.corrcoef(curves[1], curves[-2])[0, 1] > 0.95
     assert "begins" in " ".join(found.provenance["notes"])
     assert {each["group"] for each in found.provenance["turned"]} == {"walk"}
@@ -79,7 +79,7 @@ def test_walks_that_begin_with_another_foot_are_measured_from_the_same(walks) ->
 
 def test_statistics_are_those_of_the_curve(cycles) -> None:
     columns, knee = cycles.columns, cycles.channels.index("knee_l")
-    for row in rows_of(cycles, "squat"):
+    for row in find_rows(cycles, "squat"):
         curve = cycles.curves[row, knee]
         assert columns["knee_l.max"][row] == pytest.approx(curve.max(), abs=0.5)
         assert columns["knee_l.max_at"][row] == pytest.approx(curve.argmax(), abs=3)
@@ -92,7 +92,7 @@ def test_statistics_are_those_of_the_curve(cycles) -> None:
 def test_the_summary_is_over_inner_cycles(cycles) -> None:
     summary = cycles.summary()
     rows = (summary["group"] == "squat") & (summary["measure"] == "duration_s")
-    durations = cycles.columns["duration_s"][rows_of(cycles, "squat")]
+    durations = cycles.columns["duration_s"][find_rows(cycles, "squat")]
     assert summary["n"][rows] == [3]
     assert summary["mean"][rows][0] == pytest.approx(durations[1:-1].mean())
     assert summary["cv"][rows][0] == pytest.approx(
@@ -114,7 +114,7 @@ def test_mean_curves_have_a_band(cycles) -> None:
 
 
 def test_what_people_left_out_in_the_table_is_left_out(walks, cycles) -> None:
-    row = rows_of(cycles, "walk")[2]
+    row = find_rows(cycles, "walk")[2]
     frame = [each.start_frame for each in walks.truth.primitives if each.kind == "primitive"][row]
     table = exclude(walks.truth, [frame], excluded=True)
     found = kineme.cycles(walks.motion, table)
@@ -125,7 +125,7 @@ def test_what_people_left_out_in_the_table_is_left_out(walks, cycles) -> None:
 
 
 def test_an_excluded_cycle_stays_with_its_reason(cycles) -> None:
-    row = int(rows_of(cycles, "squat")[1])
+    row = int(find_rows(cycles, "squat")[1])
     less = cycles.exclude([row])
     assert len(less) == len(cycles)
     assert less.columns["excluded"][row] == "by hand"
@@ -137,7 +137,7 @@ def test_an_excluded_cycle_stays_with_its_reason(cycles) -> None:
 
 def test_what_is_far_from_the_mean_is_left_out_by_rule(cycles) -> None:
     curves = np.array(cycles.curves)
-    row = int(rows_of(cycles, "walk")[2])
+    row = int(find_rows(cycles, "walk")[2])
     curves[row] += 80
     less = replace(cycles, curves=curves).exclude_far()
     assert less.columns["excluded"][row] == "far from the mean"
@@ -157,7 +157,7 @@ def test_a_pause_is_part_of_no_repetition() -> None:
     values = np.tile(once, 6)
     signals = Signals(np.stack([values, values**2], axis=1), fps, ["a", "b"])
     starts = [3.5 * i for i in range(6)]
-    cycles = kineme.cycles(signals, repeated(starts, 21.0, fps, len(values)))
+    cycles = kineme.cycles(signals, make_repetitions(starts, 21.0, fps, len(values)))
     inner = cycles.columns["place"] == "inner"
     assert len(cycles) == 6
     np.testing.assert_allclose(cycles.columns["duration_s"][inner], swing, atol=0.35)
@@ -181,7 +181,7 @@ def test_a_gap_in_a_cycle_makes_its_values_missing(walks) -> None:
 
 def test_one_repetition_has_no_deviation_and_none_is_no_error(walks) -> None:
     motion = cut(walks.motion, 0, 200)
-    one = kineme.cycles(motion, repeated([0.5], 2.0, 60.0, 200), channels=["knee_l"])
+    one = kineme.cycles(motion, make_repetitions([0.5], 2.0, 60.0, 200), channels=["knee_l"])
     assert one.columns["place"].tolist() == ["only"]
     assert np.isnan(one.summary(ends=True)["sd"]).all()
     assert one.summary()["n"].tolist() == [0] * 10
@@ -219,7 +219,7 @@ def test_channels_beside_are_measured_at_their_own_rate(walks) -> None:
 @pytest.mark.parametrize("anchor", ["knee_r max", "knee_r > 40", "left foot strike"])
 def test_cycles_begin_at_their_anchor(walks, anchor: str) -> None:
     cycles = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], anchor=anchor)
-    walk = rows_of(cycles, "walk")
+    walk = find_rows(cycles, "walk")
     assert len(cycles) == 16
     measured = walk[cycles.columns["excluded"][walk] == ""]
     assert len(measured) >= 8
@@ -238,7 +238,7 @@ def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
     squats = truth.select((truth.label == "squat") & (truth.kind == "primitive"))
     middles = (squats.start_s + squats.stop_s) / 2
     by_time = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], anchor=middles)
-    rows = rows_of(by_time, "squat")
+    rows = find_rows(by_time, "squat")
     np.testing.assert_allclose(by_time.columns["start_s"][rows], middles)
     provenance = walks.motion.provenance.marked([(at, "Deepest") for at in middles.tolist()])
     marked = replace(walks.motion, provenance=provenance)
@@ -257,7 +257,7 @@ def test_an_event_of_the_file_corrects_the_contact_near_it_and_the_others_stay(w
         kineme.cycles(motion, walks.truth, channels=["knee_r"], anchor="left foot strike")
         for motion in (walks.motion, marked)
     )
-    starts = [each.columns["start_s"][rows_of(each, "walk")] for each in (before, after)]
+    starts = [each.columns["start_s"][find_rows(each, "walk")] for each in (before, after)]
     moved = np.isclose(starts[0], found[2])
     assert moved.sum() == 1
     np.testing.assert_allclose(starts[1], np.where(moved, marked_at, starts[0]))
@@ -288,7 +288,7 @@ def test_the_room_can_be_called_whatever_was_imported_first() -> None:
 @pytest.mark.parametrize("shift", [0.0, 30.0])
 def test_places_in_a_cycle_are_averaged_round_its_end(cycles, shift: float) -> None:
     """Least at the start in some and at the end in others is least there, not in the middle."""
-    walking = rows_of(cycles, "walk")
+    walking = find_rows(cycles, "walk")
     places = (np.resize([98.0, 2.0, 99.0, 1.0], len(cycles)) + shift) % 100
     moved = replace(cycles, columns={**cycles.columns, "knee_l.min_at": places})
     summary = moved.summary(ends=True)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from posed_figures import posed
+from posed_figures import pose_figure
 
 import kineme
 from kineme._util import rotations as rot
@@ -31,13 +31,13 @@ ANGLES = {
 }
 
 
-def value(motion: Motion | Signals, name: str) -> np.ndarray:
+def measure(motion: Motion | Signals, name: str) -> np.ndarray:
     return channels_of(motion, [name])[0].values()
 
 
 @pytest.fixture(scope="module")
 def motion() -> Motion:
-    return posed(**ANGLES)
+    return pose_figure(**ANGLES)
 
 
 @pytest.mark.parametrize(
@@ -56,14 +56,14 @@ def motion() -> Motion:
 )
 def test_angles_are_those_that_made_the_recording(motion: Motion, name: str, angle: str) -> None:
     if name == "Hips.rx":
-        motion = posed(tilt=ANGLES["tilt"])
-    np.testing.assert_allclose(value(motion, name), ANGLES[angle], atol=0.1)
+        motion = pose_figure(tilt=ANGLES["tilt"])
+    np.testing.assert_allclose(measure(motion, name), ANGLES[angle], atol=0.1)
 
 
 @pytest.mark.parametrize("name", ["knee_l", "knee_r", "elbow_l", "hip_l", "hip_r", "trunk_lean"])
 def test_positions_alone_tell_them_within_three_degrees(motion: Motion, name: str) -> None:
     bare = replace(motion, rotations=None)
-    assert np.abs(value(bare, name) - value(motion, name)).max() < 3
+    assert np.abs(measure(bare, name) - measure(motion, name)).max() < 3
     assert "against" not in channels_of(motion, ["knee_l"])[0].source
 
 
@@ -71,7 +71,7 @@ def test_where_a_body_stands_and_how_large_it_is_changes_no_angle(motion: Motion
     other = scale(move(turn(motion, 1.0), [3.0, 0.0, -2.0]), 0.8)
     for before, after in zip(channels_of(motion), channels_of(other), strict=True):
         np.testing.assert_allclose(before.values(), after.values(), atol=1e-6)
-    turned = value(other, "heading") - value(motion, "heading")
+    turned = measure(other, "heading") - measure(motion, "heading")
     np.testing.assert_allclose(turned, np.degrees(1.0), atol=1e-6)
 
 
@@ -79,17 +79,17 @@ def test_a_mirror_exchanges_left_and_right(motion: Motion) -> None:
     mirrored = kineme.mirror(motion)
     for name in ("knee", "hip", "elbow", "shoulder"):
         np.testing.assert_allclose(
-            value(motion, f"{name}_l"), value(mirrored, f"{name}_r"), atol=1e-6
+            measure(motion, f"{name}_l"), measure(mirrored, f"{name}_r"), atol=1e-6
         )
-    side = posed(list=10 * np.sin(T), lean=5 * np.sin(T))
+    side = pose_figure(list=10 * np.sin(T), lean=5 * np.sin(T))
     np.testing.assert_allclose(
-        value(side, "trunk_side"), -value(kineme.mirror(side), "trunk_side"), atol=1e-6
+        measure(side, "trunk_side"), -measure(kineme.mirror(side), "trunk_side"), atol=1e-6
     )
-    assert value(side, "trunk_side")[30] > 10  # to the right
+    assert measure(side, "trunk_side")[30] > 10  # to the right
 
 
 def test_heading_has_no_jumps(motion: Motion) -> None:
-    heading = value(motion, "heading")
+    heading = measure(motion, "heading")
     np.testing.assert_allclose(
         heading - heading[0], ANGLES["heading"] - ANGLES["heading"][0], atol=0.1
     )
@@ -99,11 +99,11 @@ def test_positions_and_speeds(motion: Motion) -> None:
     moving = replace(
         motion, positions=motion.positions + np.arange(121)[:, None, None] * [0.02, 0, 0]
     )
-    assert np.allclose(value(moving, "Hips.speed"), 0.02 * 60)
+    assert np.allclose(measure(moving, "Hips.speed"), 0.02 * 60)
     foot = motion.joint("LeftFoot")
-    assert np.array_equal(value(motion, "LeftFoot.y"), motion.positions[:, foot, 1])
-    assert (value(motion, "LeftFoot.left") > 0).all()
-    assert np.allclose(value(motion, "LeftFoot.up"), value(moving, "LeftFoot.up"))
+    assert np.array_equal(measure(motion, "LeftFoot.y"), motion.positions[:, foot, 1])
+    assert (measure(motion, "LeftFoot.left") > 0).all()
+    assert np.allclose(measure(motion, "LeftFoot.up"), measure(moving, "LeftFoot.up"))
 
 
 NAMES = {

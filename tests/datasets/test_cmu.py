@@ -46,7 +46,7 @@ ASF = """:version 1.10
 MOCAP = "86_01\nwalk 500 510 520\njump 4579 4579 4579\n"
 
 
-def amc(frames: int) -> str:
+def format_amc(frames: int) -> str:
     rows = (f"{i}\nroot 0 10 {i / 1000} 0 0 0\nspine {i % 90}\n" for i in range(1, frames + 1))
     return ":FULLY-SPECIFIED\n:DEGREES\n" + "".join(rows)
 
@@ -71,11 +71,11 @@ def site():
     state = Site(
         {
             "/subjects/07/07.asf": ASF.encode(),
-            "/subjects/07/07_01.amc": amc(2000).encode(),
-            "/subjects/07/07_02.amc": amc(30).encode(),
+            "/subjects/07/07_01.amc": format_amc(2000).encode(),
+            "/subjects/07/07_02.amc": format_amc(30).encode(),
             "/subjects/86/86.asf": ASF.encode(),
-            "/subjects/86/86_01.amc": amc(4579).encode(),
-            "/subjects/86/86_02.amc": amc(4579).encode(),
+            "/subjects/86/86_01.amc": format_amc(4579).encode(),
+            "/subjects/86/86_02.amc": format_amc(4579).encode(),
             "/mocap.txt": MOCAP.encode(),
         }
     )
@@ -133,7 +133,7 @@ def get(site: Site, folder: Path, subject: int = 7, trials=None, **options):
     return list(fetch_subject(subject, trials, folder=folder, site=site.url, **options))
 
 
-def names(folder: Path) -> set[str]:
+def list_names(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir() if path.is_file()}
 
 
@@ -165,7 +165,7 @@ def test_subject_86_comes_with_its_annotations_and_known_lengths(site, tmp_path)
     assert [f.path.name for f in found] == ["86.asf", "86_01.amc", "mocap.txt"]
     with pytest.raises(ReadError, match="4579 frames, while trial 86_02 has 10617"):
         get(site, tmp_path, 86, [2])
-    assert "86_02.amc" not in names(tmp_path)
+    assert "86_02.amc" not in list_names(tmp_path)
 
 
 def test_the_known_lengths_are_those_of_the_annotations(data_dir):
@@ -193,7 +193,7 @@ def test_a_later_call_goes_on_where_the_last_one_stopped(site, tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         get(site, tmp_path, trials=[1], progress=stop)
-    assert names(tmp_path) == {"07.asf"}
+    assert list_names(tmp_path) == {"07.asf"}
     (found,) = get(site, tmp_path, trials=[1])[1:]
     assert found.path.read_bytes() == site.files["/subjects/07/07_01.amc"]
     assert site.asked[-1][1] is not None
@@ -237,14 +237,14 @@ def test_a_server_that_always_breaks_off_leaves_no_file(site, tmp_path):
     site.ranges, site.break_after = False, 20_000
     with pytest.raises(ReadError, match=r"07_01\.amc: gave up after 5 failed attempts"):
         get(site, tmp_path, trials=[1], timeout_s=0.3)
-    assert names(tmp_path) == {"07.asf"}
+    assert list_names(tmp_path) == {"07.asf"}
 
 
 def test_a_server_that_stalls_is_given_up_in_time(site, tmp_path):
     site.stall = True
     with pytest.raises(ReadError, match=r"sent nothing for 0\.1 s"):
         get(site, tmp_path, timeout_s=0.1)
-    assert names(tmp_path) == set()
+    assert list_names(tmp_path) == set()
 
 
 def test_no_server_at_all_is_one_sentence(tmp_path):
@@ -254,13 +254,13 @@ def test_no_server_at_all_is_one_sentence(tmp_path):
 
 @pytest.mark.parametrize(
     "rubbish",
-    [b"<html>Not found, but politely</html>", b"", b"\x00\xff" * 500, amc(20).encode()[:-9]],
+    [b"<html>Not found, but politely</html>", b"", b"\x00\xff" * 500, format_amc(20).encode()[:-9]],
 )
 def test_rubbish_is_refused_and_not_kept(site, tmp_path, rubbish):
     site.files["/subjects/07/07_01.amc"] = rubbish
     with pytest.raises(ReadError, match=r"http.*07_01\.amc.*the server sent another file"):
         get(site, tmp_path, trials=[1])
-    assert names(tmp_path) == {"07.asf"}
+    assert list_names(tmp_path) == {"07.asf"}
     assert not any((tmp_path / ".partial").iterdir())
 
 

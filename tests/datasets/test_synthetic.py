@@ -28,39 +28,39 @@ FPS = 60.0
 EXERCISES = [name for name in ACTIONS if name != "stand"]
 
 
-def alone(name: str, repetitions: int = 5, **how: float | str) -> SyntheticRecording:
+def synthesize_alone(name: str, repetitions: int = 5, **how: float | str) -> SyntheticRecording:
     return synthesize([Action(name, repetitions, **how)], fps=FPS, seed=2)  # type: ignore[arg-type]
 
 
-def feet(motion: Motion) -> np.ndarray:
+def find_feet(motion: Motion) -> np.ndarray:
     """(frames, 4, 3): balls and tips of the feet."""
     names = ("LeftToeBase", "LeftToeBase_end", "RightToeBase", "RightToeBase_end")
     return motion.positions[:, [motion.joint(name) for name in names]]
 
 
-def wrist_height(motion: Motion) -> np.ndarray:
+def measure_wrist_height(motion: Motion) -> np.ndarray:
     return motion.positions[:, motion.joint("RightHand"), 1]
 
 
-def reach_ahead(motion: Motion, joint: str) -> np.ndarray:
+def measure_reach(motion: Motion, joint: str) -> np.ndarray:
     hips = motion.positions[:, 0, [0, 2]]
     return np.linalg.norm(motion.positions[:, motion.joint(joint)][:, [0, 2]] - hips, axis=1)
 
 
-def ankle_height(motion: Motion) -> np.ndarray:
+def measure_ankle_height(motion: Motion) -> np.ndarray:
     return motion.positions[:, motion.joint("LeftFoot"), 1]
 
 
 # What a person would look at to count each exercise, and how far it must move, in metres.
 COUNTED: dict[str, tuple[Callable[[Motion], np.ndarray], float]] = {
-    "walk": (ankle_height, 0.1),
-    "run": (ankle_height, 0.2),
+    "walk": (measure_ankle_height, 0.1),
+    "run": (measure_ankle_height, 0.2),
     "jump": (lambda motion: motion.positions[:, 0, 1], 0.3),
     "squat": (lambda motion: -motion.positions[:, 0, 1], 0.3),
-    "kick": (lambda motion: reach_ahead(motion, "RightFoot"), 0.4),
-    "arm circles": (wrist_height, 0.6),
-    "punch": (lambda motion: reach_ahead(motion, "RightHand"), 0.2),
-    "wave": (wrist_height, 0.3),
+    "kick": (lambda motion: measure_reach(motion, "RightFoot"), 0.4),
+    "arm circles": (measure_wrist_height, 0.6),
+    "punch": (lambda motion: measure_reach(motion, "RightHand"), 0.2),
+    "wave": (measure_wrist_height, 0.3),
 }
 
 
@@ -104,10 +104,10 @@ def test_a_left_kick_is_another_movement_but_a_left_walk_is_not() -> None:
 
 
 def test_speed_amplitude_and_size_do_what_they_say() -> None:
-    assert alone("jump", speed=2.0).motion.duration * 2 == pytest.approx(
-        alone("jump").motion.duration, rel=0.01
+    assert synthesize_alone("jump", speed=2.0).motion.duration * 2 == pytest.approx(
+        synthesize_alone("jump").motion.duration, rel=0.01
     )
-    deep, shallow = alone("squat"), alone("squat", amplitude=0.5)
+    deep, shallow = synthesize_alone("squat"), synthesize_alone("squat", amplitude=0.5)
     assert np.ptp(shallow.motion.positions[:, 0, 1]) < 0.7 * np.ptp(deep.motion.positions[:, 0, 1])
     child = synthesize([Action("stand", 1)], size=1.2, fps=FPS).motion
     assert child.positions[0, child.joint("Head_end"), 1] == pytest.approx(1.2, abs=0.04)

@@ -41,11 +41,11 @@ FORMATS = {
 }
 
 
-def performed(name: str = "walk", fps: float = 60) -> Motion:
+def perform(name: str = "walk", fps: float = 60) -> Motion:
     return synthesize([Action(name, repetitions=3)], fps=fps).motion
 
 
-def chords(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def measure_chords(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.linalg.norm(one - other, axis=1)
 
 
@@ -61,15 +61,15 @@ def test_joints_of_skeletons_and_markers(path: str, data_dir: Path) -> None:
 
 
 def test_where_how_large_and_at_which_rate_does_not_matter() -> None:
-    motion = performed()
+    motion = perform()
     features = matching_features(motion)
     for other in (move(motion, (3, 0, -5)), turn(motion, 2.0), scale(motion, 1.7)):
-        assert chords(matching_features(other), features).max() < 1e-3
-    assert chords(matching_features(resample(motion, 90)), features).max() < 0.1
+        assert measure_chords(matching_features(other), features).max() < 1e-3
+    assert measure_chords(matching_features(resample(motion, 90)), features).max() < 0.1
 
 
 def test_the_shape_of_a_body_does_not_matter() -> None:
-    motion = performed()
+    motion = perform()
     offsets = motion.skeleton.offsets.copy()
     for joint, name in enumerate(motion.skeleton.names):
         if name in {"LeftForeArm", "RightForeArm", "LeftHand", "RightHand"}:
@@ -79,24 +79,24 @@ def test_the_shape_of_a_body_does_not_matter() -> None:
     longer = forward_kinematics(skeleton, motion.rotations, root)
     other = replace(motion, skeleton=skeleton, positions=longer)
     assert np.abs(longer - motion.positions).max() > 0.1
-    assert chords(matching_features(other), matching_features(motion)).max() < 1e-3
+    assert measure_chords(matching_features(other), matching_features(motion)).max() < 1e-3
 
 
 def test_a_cut_has_the_features_of_the_whole() -> None:
-    motion = performed()
+    motion = perform()
     whole, cut = matching_features(motion), matching_features(motion[60:240])
-    assert np.median(chords(cut[4:-4], whole[15:60][4:-4])) < 0.01
+    assert np.median(measure_chords(cut[4:-4], whole[15:60][4:-4])) < 0.01
 
 
 def test_frames_in_which_nobody_is_seen_are_zero() -> None:
-    motion = replace(performed(), gaps=((60, 120),))
+    motion = replace(perform(), gaps=((60, 120),))
     features = matching_features(motion)
     unseen = np.flatnonzero(~features.any(axis=1))
     assert unseen.tolist() == list(range(15, 30))
 
 
 def test_limbs_without_knees_elbows_and_shoulders_do() -> None:
-    motion = performed()
+    motion = perform()
     found = match_canonical_joints(motion)
     kept = [j for j in JOINTS if not any(part in j for part in ("knee", "elbow", "shoulder"))]
     points = np.stack([motion.positions[:, found[j][0]] for j in kept], axis=1)
@@ -108,7 +108,7 @@ def test_limbs_without_knees_elbows_and_shoulders_do() -> None:
         positions[0] - positions[0, 0],
     )
     few = matching_features(Motion(skeleton, positions, motion.fps))
-    assert chords(few, matching_features(motion)).mean() < 0.6
+    assert measure_chords(few, matching_features(motion)).mean() < 0.6
 
 
 @pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
@@ -126,9 +126,9 @@ def test_legs_without_hips_are_refused() -> None:
 
 
 def test_mirrored_features_are_those_of_the_mirrored_motion() -> None:
-    motion = performed("kick")
+    motion = perform("kick")
     mirrored = matching_features(mirror(motion))
-    assert chords(matching_features(motion, mirrored=True), mirrored).max() < 1e-3
+    assert measure_chords(matching_features(motion, mirrored=True), mirrored).max() < 1e-3
     poses = matching_poses(motion)
     np.testing.assert_allclose(mirror_poses(mirror_poses(poses)), poses)
     np.testing.assert_allclose(mirror_poses(poses), matching_poses(mirror(motion)), atol=1e-6)

@@ -38,7 +38,7 @@ SCHEMES = [
 """Left ankle, right ankle, head, left wrist, right wrist."""
 
 
-def renamed(names: dict[str, str]) -> Skeleton:
+def rename_joints(names: dict[str, str]) -> Skeleton:
     """Rename some joints of the figure; give the others meaningless names."""
     plain = make_figure()
     new = tuple(names.get(name, f"node{i}") for i, name in enumerate(plain.names))
@@ -47,7 +47,7 @@ def renamed(names: dict[str, str]) -> Skeleton:
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_usual_names_are_found(scheme: str) -> None:
-    skeleton = renamed(dict(zip(PLAIN, scheme.split(","), strict=True)))
+    skeleton = rename_joints(dict(zip(PLAIN, scheme.split(","), strict=True)))
     found = end_effectors(skeleton)
     plain = make_figure()
     assert found.how == ("by name",) * 5
@@ -60,7 +60,7 @@ def test_usual_names_are_found(scheme: str) -> None:
 def test_without_names_the_shape_tells(action: str, facing: float) -> None:
     motion = synthesize([Action(action, 2)], fps=30, seed=1).motion
     turned = motion.positions * [facing, 1.0, facing]
-    found = end_effectors(Motion(renamed({}), turned, motion.fps))
+    found = end_effectors(Motion(rename_joints({}), turned, motion.fps))
     assert found.how == ("by shape",) * 5
     assert found.indices == end_effectors(motion).indices
 
@@ -111,37 +111,37 @@ def test_wrong_names_are_refused(names: object, message: str) -> None:
         end_effectors(make_figure(), names=names)  # type: ignore[arg-type]
 
 
-def performed(name: str, size: float = 1.75) -> Motion:
+def perform(name: str, size: float = 1.75) -> Motion:
     return synthesize([Action(name, repetitions=3)], fps=30, size=size).motion
 
 
-def size_of(motion: Motion) -> float:
+def measure_size(motion: Motion) -> float:
     return measure_body_size(motion, end_effectors(motion))
 
 
 def test_it_is_close_to_the_height_and_follows_it() -> None:
-    sizes = [size_of(performed("walk", size)) for size in (1.0, 1.5, 2.0)]
+    sizes = [measure_size(perform("walk", size)) for size in (1.0, 1.5, 2.0)]
     assert 1.5 * 0.8 < sizes[1] < 1.5
     np.testing.assert_allclose(sizes, sizes[1] * np.array([1.0, 1.5, 2.0]) / 1.5)
 
 
 def test_what_the_body_does_and_where_does_not_matter() -> None:
-    walk = performed("walk")
-    for motion in (performed("squat"), turn(walk, 1.0), move(walk, (5, 0, -3))):
-        assert size_of(motion) == pytest.approx(size_of(walk), rel=1e-6)
-    assert size_of(scale(walk, 2.5)) == pytest.approx(2.5 * size_of(walk), rel=1e-6)
+    walk = perform("walk")
+    for motion in (perform("squat"), turn(walk, 1.0), move(walk, (5, 0, -3))):
+        assert measure_size(motion) == pytest.approx(measure_size(walk), rel=1e-6)
+    assert measure_size(scale(walk, 2.5)) == pytest.approx(2.5 * measure_size(walk), rel=1e-6)
 
 
 def test_a_few_wild_frames_do_not_change_it() -> None:
-    walk = performed("walk")
+    walk = perform("walk")
     positions = walk.positions.copy()
     positions[10:20] *= 100
     wild = replace(walk, rotations=None, positions=positions)
-    assert size_of(wild) == pytest.approx(size_of(walk), rel=1e-6)
+    assert measure_size(wild) == pytest.approx(measure_size(walk), rel=1e-6)
 
 
 def test_a_body_without_extent_is_refused() -> None:
-    walk = performed("walk")
+    walk = perform("walk")
     point = replace(walk, rotations=None, positions=np.zeros_like(walk.positions))
     with pytest.raises(MotionError, match="no length"):
         measure_body_size(point, end_effectors(walk))

@@ -10,7 +10,7 @@ from scipy.signal import butter, sosfiltfilt
 from kineme.features.channels import filter_band, filter_low
 
 
-def random_walk(frames: int, channels: int) -> np.ndarray:
+def make_random_walk(frames: int, channels: int) -> np.ndarray:
     return np.random.default_rng(frames).standard_normal((frames, channels)).cumsum(axis=0)
 
 
@@ -23,7 +23,7 @@ def random_walk(frames: int, channels: int) -> np.ndarray:
 )
 def test_a_band_is_that_of_scipy(frames, channels, fps, low, ratio) -> None:
     edges = low * fps, min(low * ratio, 0.45) * fps
-    values, padding = random_walk(frames, channels), min(frames - 1, int(3 * fps / edges[0]))
+    values, padding = make_random_walk(frames, channels), min(frames - 1, int(3 * fps / edges[0]))
     sections = butter(2, edges, "bandpass", fs=fps, output="sos")
     expected = sosfiltfilt(sections, values, axis=0, padlen=padding)
     found = filter_band(values, fps, *edges, padding)
@@ -32,7 +32,7 @@ def test_a_band_is_that_of_scipy(frames, channels, fps, low, ratio) -> None:
 
 @given(frames=st.integers(1, 400), channels=st.integers(1, 40), cutoff=st.floats(0.01, 0.45))
 def test_a_low_pass_is_that_of_scipy(frames, channels, cutoff) -> None:
-    values, padding = random_walk(frames, channels), min(frames - 1, int(1 / cutoff))
+    values, padding = make_random_walk(frames, channels), min(frames - 1, int(1 / cutoff))
     sections = butter(2, cutoff, fs=1.0, output="sos")
     expected = sosfiltfilt(sections, values, axis=0, padlen=padding)
     found = filter_low(values, 1.0, cutoff, padding)

@@ -21,7 +21,7 @@ KICKS = synthesize([Action("walk", 2), Action("kick", 3, side="left")], fps=30, 
 few = settings(max_examples=10)
 
 
-def without_rotations(motion: Motion) -> Motion:
+def drop_rotations(motion: Motion) -> Motion:
     return Motion(motion.skeleton, motion.positions, motion.fps)
 
 
@@ -43,7 +43,7 @@ def test_mirroring_twice_is_the_identity(seed: int) -> None:
 @few
 def test_features_of_the_mirrored_motion_are_the_mirrored_features(seed, with_rotations) -> None:
     motion = random_recording(seed, activities=2, fps=30).motion
-    motion = motion if with_rotations else without_rotations(motion)
+    motion = motion if with_rotations else drop_rotations(motion)
     features = stack(pose_features(motion), (-5, 0, 5))
     found = stack(pose_features(mirror(motion)), (-5, 0, 5))
     np.testing.assert_allclose(found, mirror_features(features), atol=1e-12)
@@ -130,7 +130,7 @@ def test_only_pose_features_have_a_mirror_image(shape: tuple[int, ...]) -> None:
         mirror_features(np.zeros(shape))
 
 
-def body(*names: str) -> Motion:
+def make_body(*names: str) -> Motion:
     """Make a skeleton whose joints are all children of the first."""
     skeleton = Skeleton(names, (-1,) + (0,) * (len(names) - 1), np.ones((len(names), 3)))
     return Motion(skeleton, np.zeros((2, len(names), 3)), 30.0)
@@ -143,7 +143,7 @@ def body(*names: str) -> Motion:
      ("lower_l", "lower_r"), ("LEFT_KNEE", "RIGHT_KNEE"), ("l_finger2", "r_finger2")],
 )  # fmt: skip
 def test_names_of_all_programs_tell_the_side(left: str, right: str) -> None:
-    motion = body("hips", left, "middle", right)
+    motion = make_body("hips", left, "middle", right)
     positions = np.arange(24.0).reshape(2, 4, 3)
     found = mirror(Motion(motion.skeleton, positions, 30.0)).positions
     np.testing.assert_array_equal(found, positions[:, [0, 3, 2, 1]] * [-1, 1, 1])
@@ -151,7 +151,7 @@ def test_names_of_all_programs_tell_the_side(left: str, right: str) -> None:
 
 def test_a_body_without_sides_is_refused() -> None:
     with pytest.raises(MotionError, match="no joint names form a pair"):
-        mirror(body("hips", "a", "b"))
+        mirror(make_body("hips", "a", "b"))
 
 
 def test_limbs_that_hang_elsewhere_are_refused() -> None:

@@ -16,7 +16,7 @@ from kineme.interop.adapters import to_aeon
 WHY = "not installed: pip install 'kineme[segmenters]'"
 
 
-def series() -> np.ndarray:
+def make_series() -> np.ndarray:
     t = np.arange(900) / 30
     rng = np.random.default_rng(0)
     one = np.column_stack([np.sin(6 * t), np.cos(6 * t)])
@@ -24,8 +24,8 @@ def series() -> np.ndarray:
     return np.where((t < 15)[:, None], one, two) + 0.05 * rng.standard_normal((900, 2))
 
 
-def expected(level: str = "activity") -> list[int]:
-    return to_aeon(Segmenter(fps=30).fit(series()).segmentation_, level=level).tolist()
+def find_expected(level: str = "activity") -> list[int]:
+    return to_aeon(Segmenter(fps=30).fit(make_series()).segmentation_, level=level).tolist()
 
 
 def test_aeon_takes_it_for_a_segmenter() -> None:
@@ -34,12 +34,12 @@ def test_aeon_takes_it_for_a_segmenter() -> None:
 
     from kineme.interop.aeon_segmenter import KinemeSegmenter
 
-    x = series()
-    assert KinemeSegmenter(fps=30).fit_predict(x, axis=0).tolist() == expected()
-    assert KinemeSegmenter(fps=30).fit_predict(x.T, axis=1).tolist() == expected()
-    assert KinemeSegmenter(fps=30, level="primitive").fit_predict(x, axis=0).tolist() == expected(
-        "primitive"
-    )
+    x = make_series()
+    assert KinemeSegmenter(fps=30).fit_predict(x, axis=0).tolist() == find_expected()
+    assert KinemeSegmenter(fps=30).fit_predict(x.T, axis=1).tolist() == find_expected()
+    assert KinemeSegmenter(fps=30, level="primitive").fit_predict(
+        x, axis=0
+    ).tolist() == find_expected("primitive")
     changed = KinemeSegmenter(fps=30, constants={"min_action": 5.0}).clone()
     assert changed.get_params()["constants"] == {"min_action": 5.0}
     results = check_estimator(KinemeSegmenter, raise_exceptions=False)
@@ -56,8 +56,8 @@ def test_sktime_takes_it_for_a_detector() -> None:
 
     from kineme.interop.sktime_segmenter import KinemeSegmenter
 
-    found = KinemeSegmenter(fps=30).fit_predict(pd.DataFrame(series()))
-    assert found["ilocs"].array.left[1:].tolist() == expected()
+    found = KinemeSegmenter(fps=30).fit_predict(pd.DataFrame(make_series()))
+    assert found["ilocs"].array.left[1:].tolist() == find_expected()
     results = check_estimator(KinemeSegmenter, raise_exceptions=False, verbose=False)
     assert len(results) > 50
     assert {name: result for name, result in results.items() if result != "PASSED"} == {}

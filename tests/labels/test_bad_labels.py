@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_label_formats import LABEL_FORMATS, NASTY, babel, example, place
+from test_label_formats import LABEL_FORMATS, NASTY, format_babel, make_example, place
 
 from _damage import damage_bytes
 from kineme.errors import KinemeError, KinemeWarning, ParameterError, ReadError, WriteError
@@ -43,7 +43,7 @@ def test_bad_labels_are_one_clear_error(tmp_path, text, options, message) -> Non
 
 
 def test_bad_arguments_name_what_there_is(tmp_path) -> None:
-    result = example(["walk"])
+    result = make_example(["walk"])
     with pytest.raises(ParameterError, match="format must be one of csv, json, .* not 'srt'"):
         write_segments(result, tmp_path / "l.srt", format="srt")
     with pytest.raises(ParameterError, match="csv always holds both levels"):
@@ -53,7 +53,7 @@ def test_bad_arguments_name_what_there_is(tmp_path) -> None:
     with pytest.raises(ParameterError, match="n_frames is 0"):
         read_segments(tmp_path / "l.txt", n_frames=0)
     with pytest.raises(WriteError, match="too coarse for 2000 frames per second"):
-        write_segments(example(["walk"], fps=2000.0), tmp_path / "l.eaf")
+        write_segments(make_example(["walk"], fps=2000.0), tmp_path / "l.eaf")
     write_segments(result, tmp_path / "l.eaf")
     with pytest.raises(ReadError, match="has 119.88 frames per second, but fps is 60"):
         read_segments(tmp_path / "l.eaf", fps=60)
@@ -75,7 +75,7 @@ def test_a_document_type_is_refused_before_it_can_grow(tmp_path) -> None:
 )
 def test_a_damaged_file_is_read_or_refused(folder, name, labels, seed) -> None:
     path = place(folder, name, f"damaged_{name}")
-    write_segments(example(labels), path, format=name)
+    write_segments(make_example(labels), path, format=name)
     path.write_bytes(damage_bytes(path.read_bytes(), seed))
     with warnings.catch_warnings(), suppress(ReadError):
         warnings.simplefilter("ignore", KinemeWarning)
@@ -97,7 +97,7 @@ def test_memory_is_bounded_by_the_size_of_the_file(tmp_path, name) -> None:
         "textgrid": f'"ooTextFile" "TextGrid" 0 {huge} 1 "IntervalTier" "t" 0 {huge} 900000000',
         "bids": f"onset\tduration\ttrial_type\n0\t{huge[:12]}\twalk\n",
         "boris": f"Behavior,Start (s),Stop (s)\nwalk,0,{huge[:12]}\n",
-        "babel": babel(("walk", 0, 1e12), dur=1e12),
+        "babel": format_babel(("walk", 0, 1e12), dur=1e12),
         "ms-tcn": "walk\n",
         "clips": f"file,start,stop\na.bvh,0,{huge}\n",
     }

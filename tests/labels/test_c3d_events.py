@@ -23,7 +23,7 @@ from kineme.labels.c3d_events import read_events, write_events
 ezc3d = pytest.importorskip("ezc3d")
 
 
-def c3d(path: Path, events: list[tuple[float, str, str]], *, fps=100.0, frames=200) -> Path:
+def write_c3d(path: Path, events: list[tuple[float, str, str]], *, fps=100.0, frames=200) -> Path:
     """A file with one marker and these events: second, side, name."""
     file = ezc3d.c3d()
     file["parameters"]["POINT"]["RATE"]["value"] = [fps]
@@ -49,7 +49,7 @@ GAIT = [
 
 
 def test_each_event_lasts_until_the_next(tmp_path) -> None:
-    found = read_segments(c3d(tmp_path / "gait.c3d", GAIT))
+    found = read_segments(write_c3d(tmp_path / "gait.c3d", GAIT))
     rows = [(row.label or row.kind, row.start_frame, row.stop_frame) for row in found.activities]
     assert rows == [
         ("transition", 0, 20),
@@ -63,7 +63,7 @@ def test_each_event_lasts_until_the_next(tmp_path) -> None:
 
 
 def test_cycles_between_events_of_one_name(tmp_path) -> None:
-    path = c3d(tmp_path / "gait.c3d", GAIT)
+    path = write_c3d(tmp_path / "gait.c3d", GAIT)
     found = read_events(path, names=["Right Foot Strike"])
     assert found.cuts().tolist() == [20, 120]
     with pytest.raises(ReadError, match="no event 'Jump'; there are Left Foot Strike, Right"):
@@ -80,7 +80,7 @@ def test_events_come_at_their_frames_and_go_through_other_formats(
 ) -> None:
     folder = tmp_path_factory.getbasetemp()
     events = [(frame / fps, "", f"event {frame}") for frame in sorted(frames)]
-    found = read_segments(c3d(folder / "events.c3d", events, fps=fps))
+    found = read_segments(write_c3d(folder / "events.c3d", events, fps=fps))
     named = [row for row in found.activities if row.label]
     assert {row.start_frame: row.label for row in named} == {f: f"event {f}" for f in frames}
     write_segments(found, folder / "events.eaf")
@@ -91,10 +91,10 @@ def test_events_come_at_their_frames_and_go_through_other_formats(
 
 def test_files_without_events_and_other_files(tmp_path) -> None:
     with pytest.raises(ReadError, match="has no events"):
-        read_segments(c3d(tmp_path / "none.c3d", []))
+        read_segments(write_c3d(tmp_path / "none.c3d", []))
     with pytest.raises(ReadError, match="has no events"):  # all of them after the end
-        read_segments(c3d(tmp_path / "late.c3d", [(5.0, "", "late")]))
-    found = read_segments(c3d(tmp_path / "gait.c3d", GAIT))
+        read_segments(write_c3d(tmp_path / "late.c3d", [(5.0, "", "late")]))
+    found = read_segments(write_c3d(tmp_path / "gait.c3d", GAIT))
     with pytest.raises(WriteError, match="c3d can only be read: write segments to .csv, .json"):
         write_segments(found, tmp_path / "new.c3d")
 
@@ -113,13 +113,13 @@ FILES = ["Dec_real.c3d", "Eb015pi.c3d", "Eb015pr.c3d", "Eb015si.c3d", "sample_pr
          "walkingOptiTrack.c3d"]  # fmt: skip
 
 
-def layout_of(path: Path) -> Layout:
+def read_layout(path: Path) -> Layout:
     content = load(path)
     parameters = parse_c3d(content).parameters
     return Layout(content, parameters, read_header(content, parameters))
 
 
-def others(path: Path) -> dict[tuple[str, str], object]:
+def read_other_parameters(path: Path) -> dict[tuple[str, str], object]:
     """Return the parameters of a file without those that writing changes."""
     parameters = parse_c3d(load(path)).parameters
     kept = [
@@ -141,8 +141,8 @@ def test_a_copy_has_the_events_and_all_else_of_its_source(data_dir, tmp_path, na
     np.testing.assert_allclose(
         [at for at, _ in after.events], [at for at, _ in expected], atol=1e-5
     )
-    assert others(copy) == others(source)
-    old, new = layout_of(source), layout_of(copy)
+    assert read_other_parameters(copy) == read_other_parameters(source)
+    old, new = read_layout(source), read_layout(copy)
     grown = new.start - old.start
     assert grown >= 0
     assert grown % BLOCK == 0
@@ -170,7 +170,7 @@ def test_a_copy_has_the_events_and_all_else_of_its_source(data_dir, tmp_path, na
 @settings(max_examples=25)
 def test_writing_twice_adds_nothing(tmp_path_factory, events, marked: bool) -> None:
     folder = tmp_path_factory.getbasetemp()
-    source = c3d(folder / "source.c3d", GAIT if marked else [])
+    source = write_c3d(folder / "source.c3d", GAIT if marked else [])
     times, names = [at for at, _ in events], [name for _, name in events]
     added = write_events(source, folder / "once.c3d", times, names)
     assert len(parse_c3d(load(folder / "once.c3d")).events) == added + len(GAIT) * marked
@@ -179,7 +179,7 @@ def test_writing_twice_adds_nothing(tmp_path_factory, events, marked: bool) -> N
 
 
 def test_what_people_marked_stands(tmp_path: Path) -> None:
-    source, copy = c3d(tmp_path / "gait.c3d", GAIT), tmp_path / "copy.c3d"
+    source, copy = write_c3d(tmp_path / "gait.c3d", GAIT), tmp_path / "copy.c3d"
     added = write_events(source, copy, [0.21, 0.25, 1.6], ["right foot strike", "jump", "jump"])
     assert added == 2
     events = parse_c3d(load(copy)).events
@@ -190,7 +190,7 @@ def test_what_people_marked_stands(tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
-    source = c3d(tmp_path / "gait.c3d", GAIT)
+    source = write_c3d(tmp_path / "gait.c3d", GAIT)
     before = source.read_bytes()
     with pytest.raises(WriteError, match="is the recording itself: name another file"):
         write_events(source, source, TIMES, NAMES)
@@ -216,7 +216,7 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
 @settings(max_examples=60)
 def test_a_damaged_file_is_refused_or_read_as_before(tmp_path_factory, place, value) -> None:
     folder = tmp_path_factory.getbasetemp()
-    data = bytearray(c3d(folder / "sound.c3d", GAIT).read_bytes())
+    data = bytearray(write_c3d(folder / "sound.c3d", GAIT).read_bytes())
     data[place] = value
     source, copy = folder / "odd.c3d", folder / "copy.c3d"
     source.write_bytes(data)

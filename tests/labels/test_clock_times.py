@@ -25,13 +25,13 @@ AFTER = 40 + PAUSE_S
 pytestmark = pytest.mark.filterwarnings("ignore:.*the recording is split there")
 
 
-def times_with_a_pause() -> np.ndarray:
+def make_times_with_a_pause() -> np.ndarray:
     """40 s, hours of nothing, more than there is room for, and 40 s more."""
     seconds = np.arange(2400) / FPS
     return seconds + PAUSE_S * (seconds >= 40)
 
 
-def recording(path: Path, times, head: str = "time_s") -> Path:
+def write_recording(path: Path, times, head: str = "time_s") -> Path:
     seconds = np.arange(len(times)) / FPS
     rows = zip(times, np.sin(5 * seconds), np.cos(3 * seconds), strict=True)
     lines = [f"{time},{x:.5f},{y:.5f}" for time, x, y in rows]
@@ -39,14 +39,14 @@ def recording(path: Path, times, head: str = "time_s") -> Path:
     return path
 
 
-def truth(home: Path, rows: str, path: Path):
+def read_labels(home: Path, rows: str, path: Path):
     (home / "labels.csv").write_text(f"recording,start_s,stop_s,label\n{rows}")
     read = kineme.read(path)
     source = find_labels([path], home / "labels.csv")[path]
     return source.of(n_frames=read.n_frames, fps=read.fps, clock=read.provenance.clock)
 
 
-def placed(found) -> list[tuple[str, int, int]]:
+def list_labels(found) -> list[tuple[str, int, int]]:
     return [(row.label, row.start_frame, row.stop_frame) for row in found.activities if row.label]
 
 
@@ -65,48 +65,48 @@ EVERYTHING = [("a", 0, 600), ("b", 600, 1200), ("c", 1201, 1501), ("d", 1501, 24
     ],
 )
 def test_labels_behind_a_pause_are_where_the_clock_says(tmp_path, head, start, told) -> None:
-    times = times_with_a_pause() + start
-    path = recording(tmp_path / "walk.csv", [*map(told, times.tolist())], head)
+    times = make_times_with_a_pause() + start
+    path = write_recording(tmp_path / "walk.csv", [*map(told, times.tolist())], head)
     rows = [("a", 0, 20), ("b", 20, 40), ("c", AFTER, AFTER + 10), ("d", AFTER + 10, AFTER + 40)]
     lines = [f"walk,{told(a + start)},{told(b + start)},{name}" for name, a, b in rows]
-    assert placed(truth(tmp_path, "\n".join(lines), path)) == EVERYTHING
+    assert list_labels(read_labels(tmp_path, "\n".join(lines), path)) == EVERYTHING
 
 
 ROWS = f"walk,0,20,a\nwalk,20,40,b\nwalk,{AFTER},{AFTER + 10},c\nwalk,{AFTER + 10},{AFTER + 40},d"
 
 
 def test_labels_counted_from_the_first_frame_are_known_by_what_they_meet(tmp_path) -> None:
-    path = recording(tmp_path / "walk.csv", times_with_a_pause() + BEGUN, "timestamp")
-    found = truth(tmp_path, ROWS, path)
-    assert placed(found) == EVERYTHING
+    path = write_recording(tmp_path / "walk.csv", make_times_with_a_pause() + BEGUN, "timestamp")
+    found = read_labels(tmp_path, ROWS, path)
+    assert list_labels(found) == EVERYTHING
     assert any("relative to the first frame" in note for note in found.provenance["notes"])
 
 
 def test_what_the_package_wrote_itself_counts_frames_and_is_found_again(tmp_path) -> None:
-    path = recording(tmp_path / "walk.csv", times_with_a_pause())
+    path = write_recording(tmp_path / "walk.csv", make_times_with_a_pause())
     rows = f"walk,0,20,a\nwalk,20,40,b\nwalk,{1201 / FPS},{1501 / FPS},c\n"
-    assert placed(truth(tmp_path, f"{rows}walk,{1501 / FPS},81,d", path)) == EVERYTHING
+    assert list_labels(read_labels(tmp_path, f"{rows}walk,{1501 / FPS},81,d", path)) == EVERYTHING
 
 
 def test_labels_that_meet_nothing_are_named(tmp_path) -> None:
-    path = recording(tmp_path / "walk.csv", times_with_a_pause())
+    path = write_recording(tmp_path / "walk.csv", make_times_with_a_pause())
     rows = f"walk,0,20,a\nwalk,100,130,rest\nwalk,{AFTER},{AFTER + 40},c\n"
     rows += f"walk,{AFTER + 60},{AFTER + 70},after"
-    found = truth(tmp_path, rows, path)
-    assert placed(found) == [("a", 0, 600), ("c", 1201, 2401)]
+    found = read_labels(tmp_path, rows, path)
+    assert list_labels(found) == [("a", 0, 600), ("c", 1201, 2401)]
     (note,) = found.provenance["notes"]
     assert (
         note
         == "left out, since they contain no frame: 'rest' 100 to 130 s, 'after' 20100 to 20110 s"
     )
     with pytest.raises(ReadError, match="has no labels of this recording .*'b' 900000 to 900001 s"):
-        truth(tmp_path, "walk,900000,900001,b", path)
+        read_labels(tmp_path, "walk,900000,900001,b", path)
 
 
 def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
     from kineme.evaluation.inputs import read_truth
 
-    path = recording(tmp_path / "walk.csv", times_with_a_pause() + BEGUN, "timestamp")
+    path = write_recording(tmp_path / "walk.csv", make_times_with_a_pause() + BEGUN, "timestamp")
     kineme.write_segments(kineme.segment(kineme.read(path)), tmp_path / "found.csv")
     found = kineme.read_segments(tmp_path / "found.csv")
     lines = (tmp_path / "found.csv").read_text().splitlines()
@@ -122,7 +122,7 @@ def test_one_result_and_its_table_have_the_clock(tmp_path) -> None:
 
 
 def test_a_slice_keeps_the_time_of_its_frames(tmp_path) -> None:
-    read = kineme.read(recording(tmp_path / "walk.csv", times_with_a_pause()))
+    read = kineme.read(write_recording(tmp_path / "walk.csv", make_times_with_a_pause()))
     clock = read[1500:].provenance.clock
     assert clock.time([0.0, 1.0]).tolist() == pytest.approx(
         [AFTER + 10 - 1 / FPS, AFTER + 11 - 1 / FPS]

@@ -46,7 +46,7 @@ def place(folder: Path, name: str, stem: str = "take") -> Path:
     return folder / known.folder / f"{stem}{known.written_suffix}"
 
 
-def there_and_back(result: Segmentation, path: Path, name: str, level: Level | None = None):
+def write_and_read(result: Segmentation, path: Path, name: str, level: Level | None = None):
     for left_over in (*path.parent.glob("*.*"), path.parent.parent / "mapping.txt"):
         if left_over.is_file():
             left_over.unlink()
@@ -55,7 +55,7 @@ def there_and_back(result: Segmentation, path: Path, name: str, level: Level | N
     return read_segments(path, format=name, n_frames=result.n_frames, **told)
 
 
-def spans(result: Segmentation, level: Level) -> list[tuple]:
+def list_spans(result: Segmentation, level: Level) -> list[tuple]:
     """Frames, seconds and text of each segment of a level."""
     rows = result.level(level)
     return [
@@ -63,7 +63,7 @@ def spans(result: Segmentation, level: Level) -> list[tuple]:
     ]
 
 
-def kept(
+def list_kept_spans(
     result: Segmentation, level: Level, name: str, read_as: Level | None = None
 ) -> list[tuple]:
     """What of `spans` a format has room for; primitives alone are read as activities."""
@@ -83,7 +83,7 @@ def kept(
     return rows
 
 
-def merged(rows: list[tuple]) -> list[tuple]:
+def merge_spans(rows: list[tuple]) -> list[tuple]:
     """Equal neighbours as one, for a format that has one label per frame."""
     out: list[tuple] = []
     for row in rows:
@@ -94,7 +94,7 @@ def merged(rows: list[tuple]) -> list[tuple]:
     return out
 
 
-def example(labels: list[str], fps: float = 119.88) -> Segmentation:
+def make_example(labels: list[str], fps: float = 119.88) -> Segmentation:
     """Two activities of every label, with a transition in the middle, and their repetitions."""
     n = len(labels)
     kinds = ["activity" if label else "transition" for label in labels]
@@ -115,7 +115,7 @@ def example(labels: list[str], fps: float = 119.88) -> Segmentation:
 
 
 @pytest.mark.parametrize("name", LABEL_FORMATS)
-@hypothesis.example(result=example(NASTY), level="activity")
+@hypothesis.example(result=make_example(NASTY), level="activity")
 @given(result=segmentations(), level=st.sampled_from(["activity", "primitive"]))
 def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> None:
     assume(len(result.level(level)))
@@ -123,13 +123,13 @@ def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> N
     labels = result.table.label.tolist()
     assume(not {"transition", "activity", "n/a"} & set(labels))
     assume(name != "ms-tcn" or not any(label.startswith("\ufeff") for label in labels))
-    back = there_and_back(result, place(folder, name), name, level)
+    back = write_and_read(result, place(folder, name), name, level)
     assert back.n_frames == result.n_frames
     assert back.fps == pytest.approx(result.fps, rel=1e-12)
-    expected = kept(result, level, name, "activity")
-    got = spans(back, "activity")
+    expected = list_kept_spans(result, level, name, "activity")
+    got = list_spans(back, "activity")
     if name == "ms-tcn":
-        expected, got = merged(expected), merged(got)
+        expected, got = merge_spans(expected), merge_spans(got)
     for mine, theirs in zip(got, expected, strict=True):
         assert (*mine[:2], *mine[4:]) == (*theirs[:2], *theirs[4:])
         assert mine[2:4] == pytest.approx(theirs[2:4], rel=1e-12)
@@ -140,10 +140,10 @@ def test_each_level_comes_back_frame_for_frame(folder, name, result, level) -> N
 def test_both_levels_come_back_together(folder, name, result) -> None:
     assume(name != "elan" or result.fps < 1000)
     assume(not {"transition", "activity", "n/a"} & set(result.table.label.tolist()))
-    back = there_and_back(result, place(folder, name), name)
+    back = write_and_read(result, place(folder, name), name)
     for level in ("activity", "primitive"):
-        assert [row[:2] + row[4:] for row in spans(back, level)] == [
-            row[:2] + row[4:] for row in kept(result, level, name)
+        assert [row[:2] + row[4:] for row in list_spans(back, level)] == [
+            row[:2] + row[4:] for row in list_kept_spans(result, level, name)
         ]
 
 
@@ -154,7 +154,7 @@ def test_frames_and_seconds_are_right_at_any_rate(tmp_path, name, fps) -> None:
     cuts = [0, *range(1, 40), *range(40, n, 997), n]
     labels = [f"step {i}" for i in range(len(cuts) - 1)]
     result = make_activities(*cuts[1:], fps=fps, label=labels)
-    back = there_and_back(result, place(tmp_path, name), name)
+    back = write_and_read(result, place(tmp_path, name), name)
     assert back.table.start_frame.tolist() == cuts[:-1]
     assert back.table.stop_s.tolist() == pytest.approx([cut / fps for cut in cuts[1:]], rel=1e-13)
     assert (back.n_frames, back.fps) == (n, pytest.approx(fps, rel=1e-13))
@@ -164,7 +164,7 @@ def test_frames_and_seconds_are_right_at_any_rate(tmp_path, name, fps) -> None:
 
 
 def test_praatio_reads_what_we_write_and_we_read_both_of_its_forms(tmp_path) -> None:
-    result = example([label for label in NASTY if label == label.strip()])
+    result = make_example([label for label in NASTY if label == label.strip()])
     write_segments(result, tmp_path / "mine.TextGrid")
     theirs = textgrid.openTextgrid(str(tmp_path / "mine.TextGrid"), includeEmptyIntervals=True)
     assert theirs.tierNames == ("activity", "primitive")
@@ -177,8 +177,8 @@ def test_praatio_reads_what_we_write_and_we_read_both_of_its_forms(tmp_path) -> 
     for form in ("short_textgrid", "long_textgrid"):
         theirs.save(str(tmp_path / "theirs.TextGrid"), format=form, includeBlankSpaces=True)
         back = read_segments(tmp_path / "theirs.TextGrid", fps=result.fps)
-        assert spans(back, "activity") == kept(result, "activity", "textgrid")
-        assert spans(back, "primitive") == kept(result, "primitive", "textgrid")
+        assert list_spans(back, "activity") == list_kept_spans(result, "activity", "textgrid")
+        assert list_spans(back, "primitive") == list_kept_spans(result, "primitive", "textgrid")
 
 
 def test_a_textgrid_in_utf_16_with_points_and_gaps(tmp_path) -> None:
@@ -221,7 +221,7 @@ tief"
 
 
 def test_pympi_reads_what_we_write_and_we_read_what_it_writes(tmp_path) -> None:
-    result = example(NASTY, fps=100.0)
+    result = make_example(NASTY, fps=100.0)
     write_segments(result, tmp_path / "mine.eaf")
     theirs = Elan.Eaf(str(tmp_path / "mine.eaf"))
     found = sorted(theirs.get_annotation_data_for_tier("activity"))
@@ -235,7 +235,7 @@ def test_pympi_reads_what_we_write_and_we_read_what_it_writes(tmp_path) -> None:
         other.add_annotation("Bewegung", start, stop, label)
     other.to_file(str(tmp_path / "theirs.eaf"))
     back = read_segments(tmp_path / "theirs.eaf", fps=100)
-    assert spans(back, "activity") == kept(result, "activity", "elan")
+    assert list_spans(back, "activity") == list_kept_spans(result, "activity", "elan")
 
 
 def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path) -> None:
@@ -250,7 +250,7 @@ def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path) -> None:
 
 
 def test_pandas_reads_bids_events_and_the_sidecar_describes_every_column(tmp_path) -> None:
-    result = example(NASTY, fps=30.0)
+    result = make_example(NASTY, fps=30.0)
     write_segments(result, tmp_path / "walk_events.tsv")
     frame = pd.read_csv(tmp_path / "walk_events.tsv", sep="\t", keep_default_na=False)
     assert frame.trial_type[: len(NASTY)].tolist() == NASTY
@@ -266,7 +266,7 @@ def test_pandas_reads_bids_events_and_the_sidecar_describes_every_column(tmp_pat
 def test_a_bids_sidecar_keeps_what_others_wrote_and_a_segment_table_is_not_taken_for_one(
     tmp_path,
 ) -> None:
-    result = example(["walk", "run"])
+    result = make_example(["walk", "run"])
     (tmp_path / "a.json").write_text('{"trial_type": {"HED": {"walk": "Action/Walk"}}}')
     write_segments(result, tmp_path / "a.tsv")
     assert "HED" in json.loads((tmp_path / "a.json").read_text())["trial_type"]
@@ -308,14 +308,16 @@ Time,Media file path,Total length,FPS,Subject,Behavior,Behavioral category,Comme
 
 
 def test_boris_rows_alternate_and_carry_the_frame(tmp_path) -> None:
-    write_segments(example(["walk", "walk"]), tmp_path / "e.csv", format="boris", level="activity")
+    write_segments(
+        make_example(["walk", "walk"]), tmp_path / "e.csv", format="boris", level="activity"
+    )
     frame = pd.read_csv(tmp_path / "e.csv")
     assert frame["Behavior type"].tolist() == ["START", "STOP", "START", "STOP"]
     assert frame["Image index"].tolist() == [0, 7, 7, 14]
     assert frame["Time"].tolist() == [0, 7 / 119.88, 7 / 119.88, 14 / 119.88]
 
 
-def babel(*labels: tuple[str, float, float], dur: float = 4.0) -> str:
+def format_babel(*labels: tuple[str, float, float], dur: float = 4.0) -> str:
     annotated = [
         {"proc_label": text, "start_t": start, "end_t": stop} for text, start, stop in labels
     ]
@@ -324,7 +326,7 @@ def babel(*labels: tuple[str, float, float], dur: float = 4.0) -> str:
 
 def test_overlapping_babel_labels_become_segments_of_both(tmp_path) -> None:
     path = tmp_path / "train.json"
-    path.write_text(babel(("walk", 0, 3), ("wave", 1, 2), ("turn", 3, 3.5)))
+    path.write_text(format_babel(("walk", 0, 3), ("wave", 1, 2), ("turn", 3, 3.5)))
     with pytest.warns(KinemeWarning, match="with the texts of several: 1 segment"):
         back = read_segments(path, format="babel", fps=10)
     assert back.activities.label.tolist() == ["walk", "walk + wave", "walk", "turn", ""]
@@ -336,17 +338,21 @@ def test_babel_without_frame_labels_takes_those_of_the_sequence(tmp_path) -> Non
     labels = [{"raw_label": "walk on a treadmill", "proc_label": None}]
     path.write_text(json.dumps({"dur": 2.0, "frame_ann": None, "seq_ann": {"labels": labels}}))
     back = read_segments(path, format="babel", fps=10)
-    assert spans(back, "activity") == [(0, 20, 0.0, 2.0, "activity", -1, "walk on a treadmill")]
+    assert list_spans(back, "activity") == [
+        (0, 20, 0.0, 2.0, "activity", -1, "walk on a treadmill")
+    ]
 
 
 def test_the_ms_tcn_mapping_grows_and_keeps_its_numbers(tmp_path) -> None:
     for stem, labels in (("a", ["walk", "high jump"]), ("b", ["run", "walk"])):
-        write_segments(example(labels), tmp_path / "groundTruth" / f"{stem}.txt", format="ms-tcn")
+        write_segments(
+            make_example(labels), tmp_path / "groundTruth" / f"{stem}.txt", format="ms-tcn"
+        )
     lines = (tmp_path / "mapping.txt").read_text().splitlines()
     assert lines == ["0 walk", "1 high_jump", "2 run"]
     assert (tmp_path / "groundTruth" / "b.txt").read_text() == "run\n" * 7 + "walk\n" * 7
     with pytest.raises(WriteError, match="give groundTruth/c.txt"):
-        write_segments(example(["run"]), tmp_path / "c.txt", format="ms-tcn")
+        write_segments(make_example(["run"]), tmp_path / "c.txt", format="ms-tcn")
 
 
 def test_background_of_ms_tcn_corpora_is_transition(tmp_path) -> None:

@@ -308,7 +308,7 @@ PAIRS: list[tuple[str, str, Beside]] = [
 ]
 
 
-def table(folder: Path, name: str, form: str, fps: float, label: str) -> Path:
+def write_table(folder: Path, name: str, form: str, fps: float, label: str) -> Path:
     folder.mkdir()
     path = folder / name
     segments = make_activities(60, 120, fps=fps, label=[label, "squat"])
@@ -320,8 +320,8 @@ def table(folder: Path, name: str, form: str, fps: float, label: str) -> Path:
 def test_killed_between_the_two_renames(
     tmp_path: Path, name: str, form: str, beside: Beside
 ) -> None:
-    old = table(tmp_path / "old", name, form, 120.0, "walk")
-    new = table(tmp_path / "new", name, form, 60.0, "walk")
+    old = write_table(tmp_path / "old", name, form, 120.0, "walk")
+    new = write_table(tmp_path / "new", name, form, 60.0, "walk")
     assert kineme.read_segments(new, format=form).fps == 60.0
     shutil.copy(new, old)
     with pytest.raises(ReadError, match=r"is of 60 frames per second, but .* states 120"):
@@ -332,7 +332,7 @@ def test_killed_between_the_two_renames(
 def test_cuts_of_another_table_are_said(
     tmp_path: Path, name: str, form: str, beside: Beside
 ) -> None:
-    path = table(tmp_path / "a", name, form, 60.0, "walk")
+    path = write_table(tmp_path / "a", name, form, 60.0, "walk")
     path.write_text(path.read_text().replace("60", "61"))
     said = f"does not match {beside(path).name}"
     with warnings.catch_warnings():
@@ -344,7 +344,7 @@ def test_cuts_of_another_table_are_said(
 
 @pytest.mark.parametrize(("name", "form", "beside"), PAIRS)
 def test_labels_may_be_edited(tmp_path: Path, name: str, form: str, beside: Beside) -> None:
-    path = table(tmp_path / "a", name, form, 60.0, "walk")
+    path = write_table(tmp_path / "a", name, form, 60.0, "walk")
     path.write_text(path.read_text().replace("walk", "jump"))
     edited = kineme.read_segments(path, format=form)
     assert edited.activities.label.tolist() == ["jump", "squat"]

@@ -28,27 +28,27 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("pictures")
 
 
-def turning(frames: int, fps: float = 30.0) -> Signals:
+def make_turning(frames: int, fps: float = 30.0) -> Signals:
     """A point that goes round and round."""
     angle = np.linspace(0, 40, frames)
     return Signals(np.column_stack([np.cos(angle), np.sin(angle)]), fps)
 
 
-def with_primitives(stops: list[int], clusters: list[int]) -> Segmentation:
+def make_primitives(stops: list[int], clusters: list[int]) -> Segmentation:
     """One activity of primitives that stop at these frames."""
     spans = zip([0, *stops], stops, clusters, strict=False)
     rows = [("activity", "activity", 0, stops[-1], -1, "")]
     return from_rows(rows + [("primitive", "activity", *span, "") for span in spans])
 
 
-def whole(n_frames: int) -> Segmentation:
-    return with_primitives([n_frames], [0])
+def make_whole(n_frames: int) -> Segmentation:
+    return make_primitives([n_frames], [0])
 
 
 def test_an_hour_takes_little_memory(folder: Path) -> None:
     frames = 108_000
-    result = with_primitives([*range(40, frames + 1, 40)], [i % 300 for i in range(frames // 40)])
-    recording = turning(frames)
+    result = make_primitives([*range(40, frames + 1, 40)], [i % 300 for i in range(frames // 40)])
+    recording = make_turning(frames)
     tracemalloc.start()
     plot_segmentation(result, recording, folder / "hour.png")
     peak = tracemalloc.get_traced_memory()[1]
@@ -60,31 +60,31 @@ def test_an_hour_takes_little_memory(folder: Path) -> None:
 @pytest.mark.parametrize("suffix", [".png", ".pdf", ".svg"])
 def test_pictures_by_suffix(folder: Path, suffix: str) -> None:
     path = folder / f"picture{suffix}"
-    plot_segmentation(whole(90), turning(90), path)
+    plot_segmentation(make_whole(90), make_turning(90), path)
     first = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<?xml"}[suffix]
     assert path.read_bytes().startswith(first)
 
 
 def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(WriteError, match=r"pictures are written as \.png"):
-        plot_segmentation(whole(9), turning(9), tmp_path / "x.bmp")
+        plot_segmentation(make_whole(9), make_turning(9), tmp_path / "x.bmp")
     with pytest.raises(WriteError, match="does not exist"):
-        plot_segmentation(whole(9), turning(9), tmp_path / "none" / "x.png")
+        plot_segmentation(make_whole(9), make_turning(9), tmp_path / "none" / "x.png")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_picture_needs_the_recording_of_the_segments(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="give the segments of this recording"):
-        plot_segmentation(whole(9), turning(8), tmp_path / "x.png")
+        plot_segmentation(make_whole(9), make_turning(8), tmp_path / "x.png")
     with pytest.raises(ParameterError, match="Motion or Signals"):
-        plot_segmentation(whole(9), np.zeros((9, 2)), tmp_path / "x.png")  # type: ignore[arg-type]
+        plot_segmentation(make_whole(9), np.zeros((9, 2)), tmp_path / "x.png")  # type: ignore[arg-type]
 
 
 @settings(max_examples=30)
 @given(segmentations())
 def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
     axes = Figure().add_subplot()
-    plot_matrix(result, turning(result.n_frames, result.fps), ax=axes)
+    plot_matrix(result, make_turning(result.n_frames, result.fps), ax=axes)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     for cluster, count in result.repetitions().items():
         assert f"{cluster}  ({count}×)" in legend
@@ -92,9 +92,9 @@ def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
 
 def test_a_legend_of_many_clusters_says_how_many_are_left_out() -> None:
     n = 50
-    result = with_primitives([*range(1, n + 1)], [*range(n - 1), 17])
+    result = make_primitives([*range(1, n + 1)], [*range(n - 1), 17])
     axes = Figure().add_subplot()
-    plot_matrix(result, turning(n), ax=axes)
+    plot_matrix(result, make_turning(n), ax=axes)
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert "17  (2×)" in legend
     assert legend[-1] == f"and {n - 1 - matrix.MAX_LEGEND} more"
@@ -117,24 +117,24 @@ BLINDNESS = {
 @pytest.mark.parametrize("kind", ["none", *BLINDNESS])
 def test_colours_stay_apart_for_colour_blind_eyes(kind: str) -> None:
     matrix = np.array(BLINDNESS.get(kind, np.eye(3)))
-    seen = [lab(matrix @ linear(color)) for color in (*PALETTE, NO_CLUSTER)]
+    seen = [to_lab(matrix @ to_linear(color)) for color in (*PALETTE, NO_CLUSTER)]
     for one, other in combinations(seen, 2):
         assert np.linalg.norm(one - other) > 10
 
 
-def linear(color: str) -> np.ndarray:
+def to_linear(color: str) -> np.ndarray:
     channels = np.array([int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
     return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
 
 
-def lab(rgb: np.ndarray) -> np.ndarray:
+def to_lab(rgb: np.ndarray) -> np.ndarray:
     """CIE L*a*b* of linear sRGB."""
     to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
     x, y, z = np.cbrt(np.array(to_xyz) @ np.clip(rgb, 0, 1) / [0.9505, 1.0, 1.089])
     return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
 
 
-def turned(motion: Motion, degrees: float) -> Motion:
+def turn_motion(motion: Motion, degrees: float) -> Motion:
     """The motion of somebody who faces elsewhere."""
     cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     turn = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
@@ -145,7 +145,7 @@ def test_poses_look_alike_wherever_somebody_faces() -> None:
     walk = kineme.read(kineme.bundled_recording()).seconds(0.5, 1.6)
     drawn = [
         np.array(plot_strip(each, ax=Figure().subplots()).collections[0].get_segments())
-        for each in (walk, turned(walk, 70))
+        for each in (walk, turn_motion(walk, 70))
     ]
     assert len(drawn[0]) == 7 * sum(parent >= 0 for parent in walk.skeleton.parents)
     np.testing.assert_allclose(*drawn, atol=1e-6)

@@ -18,7 +18,7 @@ from kineme.segments.segmentation import Segmentation
 from segmentations import make_activities, segmentations
 
 
-def result(
+def make_result(
     cuts: list[int], clusters: list[int], fps: float = 10.0, **provenance: object
 ) -> Segmentation:
     kinds = ["activity" if cluster >= 0 else "transition" for cluster in clusters]
@@ -26,7 +26,7 @@ def result(
     return make_activities(*cuts, fps=fps, **columns, provenance=provenance)
 
 
-def rows_of(axes: object) -> list[list[tuple[float, float, str]]]:
+def list_bars(axes: object) -> list[list[tuple[float, float, str]]]:
     """Start, stop and colour of each bar, row by row."""
     rows = []
     for bars in axes.collections:  # type: ignore[attr-defined]
@@ -42,7 +42,7 @@ def test_every_result_is_drawn_segment_by_segment(found: Segmentation) -> None:
     given_axes = Figure().add_subplot()
     assert kineme.plot_timeline(found, ax=given_axes) is given_axes
     levels = [rows for rows in (found.activities, found.primitives) if len(rows)]
-    for table, bars in zip(levels, rows_of(given_axes), strict=True):
+    for table, bars in zip(levels, list_bars(given_axes), strict=True):
         starts, stops, colors = zip(*bars)
         np.testing.assert_allclose(starts, table.start_s)
         np.testing.assert_allclose(stops, table.stop_s)
@@ -53,14 +53,14 @@ def test_every_result_is_drawn_segment_by_segment(found: Segmentation) -> None:
 
 
 def test_without_axes_a_figure_is_made() -> None:
-    axes = kineme.plot_timeline(result([40, 90], [0, 1]))
+    axes = kineme.plot_timeline(make_result([40, 90], [0, 1]))
     assert [text.get_text() for text in axes.texts] == ["walk", "walk"]
     assert [label.get_text() for label in axes.get_yticklabels()] == ["activities"]
     plt.close(axes.figure)
 
 
 def test_a_label_is_no_formula() -> None:
-    found = result([40], [0])
+    found = make_result([40], [0])
     priced = name_segment(found, "activity", 0, "$5 and $")
     figure = Figure()
     axes = kineme.plot_timeline(priced, ax=figure.add_subplot())
@@ -69,11 +69,11 @@ def test_a_label_is_no_formula() -> None:
 
 
 def test_compared_clusters_take_the_colours_of_those_they_share_time_with() -> None:
-    first = result([30, 60, 90], [0, 1, 0])
-    other = result([280, 600, 900, 1000], [7, 2, 7, 4], fps=100.0)
+    first = make_result([30, 60, 90], [0, 1, 0])
+    other = make_result([280, 600, 900, 1000], [7, 2, 7, 4], fps=100.0)
     assert match_clusters(first.table, other.table) == {7: 0, 2: 1, 4: 2}
     axes = kineme.compare([first, other], ax=Figure().add_subplot())
-    top, below = rows_of(axes)
+    top, below = list_bars(axes)
     assert [color for *_, color in top] == [get_cluster_color(c) for c in (0, 1, 0)]
     assert [color for *_, color in below] == [get_cluster_color(c) for c in (0, 1, 0, 2)]
     assert axes.get_xlim() == (0, 10.0)
@@ -84,9 +84,9 @@ def test_results_are_called_by_what_tells_them_apart() -> None:
         axes = kineme.compare(list(results), ax=Figure().add_subplot(), **options)
         return [label.get_text() for label in axes.get_yticklabels()]
 
-    plain = result([40], [0])
-    one, other = (result([40], [0], preset=name) for name in ("kineme", "voegele2014"))
-    a, b = (result([40], [0], preset="kineme", input={"path": f"x/{n}.bvh"}) for n in "ab")
+    plain = make_result([40], [0])
+    one, other = (make_result([40], [0], preset=name) for name in ("kineme", "voegele2014"))
+    a, b = (make_result([40], [0], preset="kineme", input={"path": f"x/{n}.bvh"}) for n in "ab")
     assert names(one, other) == ["kineme", "voegele2014"]
     assert names(plain, one) == ["result 1", "kineme"]
     assert names(a, b) == ["a.bvh", "b.bvh"]
@@ -98,11 +98,11 @@ def test_results_are_called_by_what_tells_them_apart() -> None:
     ("results", "options", "message"),
     [
         ([], {}, "at least one result"),
-        (result([9], [0]), {}, "compare takes a Sequence, not Segmentation"),
+        (make_result([9], [0]), {}, "compare takes a Sequence, not Segmentation"),
         ([3], {}, "compare takes a Segmentation, not int"),
-        ([result([9], [0])], {"names": ["a", "b"]}, "give a different one for each"),
-        ([result([9], [0])], {"level": "rest"}, "level must be"),
-        ([result([9], [0])], {"level": "primitive"}, "has no segments of level 'primitive'"),
+        ([make_result([9], [0])], {"names": ["a", "b"]}, "give a different one for each"),
+        ([make_result([9], [0])], {"level": "rest"}, "level must be"),
+        ([make_result([9], [0])], {"level": "primitive"}, "has no segments of level 'primitive'"),
     ],
 )
 def test_what_cannot_be_compared_is_said(results: object, options: dict, message: str) -> None:

@@ -153,13 +153,13 @@ def test_another_rate_estimates_again(video: Path, pictures: list[float]) -> Non
         estimate_poses(video, rate=0)
 
 
-def faint(time: float) -> Pose:
+def guess_faintly(time: float) -> Pose:
     """What an estimator guesses where nobody is."""
     return replace(squat(time), confidence=np.full(33, 0.1))
 
 
 def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float]) -> None:
-    register(drawn_estimator(people=lambda time: [faint(time)]), replace=True)
+    register(drawn_estimator(people=lambda time: [guess_faintly(time)]), replace=True)
     with pytest.raises(ReadError, match="no person found"):
         kineme.read(video)
     result = CliRunner().invoke(app, ["pose", str(video)])
@@ -168,7 +168,7 @@ def test_nobody_is_never_a_table_of_somebody(video: Path, pictures: list[float])
 
 
 def test_while_nobody_is_seen_there_is_a_gap(video: Path, pictures: list[float]) -> None:
-    estimator = drawn_estimator(people=lambda t: [faint(t) if 2 <= t < 3 else squat(t)])
+    estimator = drawn_estimator(people=lambda t: [guess_faintly(t) if 2 <= t < 3 else squat(t)])
     register(estimator, replace=True)
     with pytest.warns(KinemeWarning, match="the recording is split there"):
         assert kineme.read(video).gaps == ((30, 45),)

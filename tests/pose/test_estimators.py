@@ -16,7 +16,7 @@ from kineme.pose.mediapipe_estimator import start_mediapipe
 from kineme.pose.rtmlib_estimator import ESTIMATOR as RTMLIB
 
 
-def stand_in(*boxes: tuple[int, int, int, int]) -> SimpleNamespace:
+def make_stand_in(*boxes: tuple[int, int, int, int]) -> SimpleNamespace:
     """rtmlib, as far as it is used: as many people as boxes, in a picture of blue, green, red."""
 
     def find(picture: np.ndarray, bboxes: list) -> tuple[np.ndarray, np.ndarray]:
@@ -30,14 +30,14 @@ def stand_in(*boxes: tuple[int, int, int, int]) -> SimpleNamespace:
 
 
 def test_rtmlib_finds_several_people_or_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "rtmlib", stand_in((5, 6, 20, 40), (30, 6, 50, 40)))
+    monkeypatch.setitem(sys.modules, "rtmlib", make_stand_in((5, 6, 20, 40), (30, 6, 50, 40)))
     picture = np.full((48, 64, 3), (1, 2, 3), np.uint8)
     with RTMLIB.start(None) as estimate:
         poses = estimate(picture, 0.0)
     assert [pose.image[0].tolist() for pose in poses] == [[5, 6], [30, 6]]
     assert all(len(pose.image) == len(RTMLIB.keypoints) for pose in poses)
     assert poses[0].metres is None
-    monkeypatch.setitem(sys.modules, "rtmlib", stand_in())
+    monkeypatch.setitem(sys.modules, "rtmlib", make_stand_in())
     with RTMLIB.start(None) as estimate:
         assert estimate(picture, 0.0) == []
 

@@ -22,7 +22,7 @@ ACC, GYRO = ["acc_x", "acc_y", "acc_z"], ["gyro_x", "gyro_y", "gyro_z"]
 ZONE = "Europe/Berlin"
 
 
-def movement(times: np.ndarray, channels: list[str]) -> pd.DataFrame:
+def make_movement(times: np.ndarray, channels: list[str]) -> pd.DataFrame:
     """Quick and large swings until the border, then slow and small ones, at these seconds."""
     early = times < BORDER
     turn = np.where(early, 7.0, 3.0) * times
@@ -35,60 +35,62 @@ def movement(times: np.ndarray, channels: list[str]) -> pd.DataFrame:
     return pd.DataFrame(dict(zip(channels, columns)))
 
 
-def rows_at(times: np.ndarray) -> tuple[pd.DataFrame, np.ndarray]:
-    return movement(times, ACC), times
+def make_rows(times: np.ndarray) -> tuple[pd.DataFrame, np.ndarray]:
+    return make_movement(times, ACC), times
 
 
-def merged() -> tuple[pd.DataFrame, np.ndarray]:
+def merge_by_time() -> tuple[pd.DataFrame, np.ndarray]:
     acc_at = np.arange(0, LENGTH, 0.02)
     gyro_at = np.arange(0, LENGTH, 0.01) + 0.0034
     both = (
-        movement(acc_at, ACC)
+        make_movement(acc_at, ACC)
         .set_index(acc_at)
-        .join(movement(gyro_at, GYRO).set_index(gyro_at), how="outer")
+        .join(make_movement(gyro_at, GYRO).set_index(gyro_at), how="outer")
     )
     return both.reset_index(drop=True), both.index.to_numpy()
 
 
-def lost() -> tuple[pd.DataFrame, np.ndarray]:
+def lose_rows() -> tuple[pd.DataFrame, np.ndarray]:
     times = np.arange(0, LENGTH, 0.02)
     kept = np.random.default_rng(1).random(len(times)) > 0.1
-    return rows_at(times[kept])
+    return make_rows(times[kept])
 
 
-def summer_time(begin: str) -> tuple[pd.DataFrame, pd.DatetimeIndex]:
+def make_local_times(begin: str) -> tuple[pd.DataFrame, pd.DatetimeIndex]:
     """Local times; the clock is changed 40 s after they begin."""
-    frame, times = rows_at(np.arange(0, LENGTH, 0.02))
+    frame, times = make_rows(np.arange(0, LENGTH, 0.02))
     zoned = pd.Timestamp(begin, tz=ZONE) + pd.to_timedelta(np.rint(times * 1e9).astype("i8"))
     return frame, zoned.tz_localize(None)
 
 
-def shuffled() -> tuple[pd.DataFrame, pd.DatetimeIndex]:
-    frame, times = rows_at(np.arange(0, LENGTH, 0.02))
+def shuffle_rows() -> tuple[pd.DataFrame, pd.DatetimeIndex]:
+    frame, times = make_rows(np.arange(0, LENGTH, 0.02))
     stamps = pd.Timestamp("2026-05-01T09:30") + pd.to_timedelta(np.rint(times * 1e9).astype("i8"))
     order = np.random.default_rng(2).permutation(len(times))
     return frame.iloc[order].reset_index(drop=True), stamps[order]
 
 
-def since_boot() -> tuple[pd.DataFrame, np.ndarray]:
+def count_since_boot() -> tuple[pd.DataFrame, np.ndarray]:
     times = np.arange(0, LENGTH, 0.02)
     jitter = np.random.default_rng(3).integers(-900_000, 900_000, len(times))
-    return movement(times, ACC), 83_512_004_123_456 + np.rint(times * 1e9).astype("i8") + jitter
+    return make_movement(times, ACC), 83_512_004_123_456 + np.rint(times * 1e9).astype(
+        "i8"
+    ) + jitter
 
 
-def hole() -> tuple[pd.DataFrame, np.ndarray]:
+def leave_hole() -> tuple[pd.DataFrame, np.ndarray]:
     times = np.arange(0, LENGTH, 0.02)
-    return rows_at(times[(times < 25) | (times >= 45)])
+    return make_rows(times[(times < 25) | (times >= 45)])
 
 
 CASES = {
-    "merged by time": merged,
-    "a tenth lost": lost,
-    "spring": lambda: summer_time("2026-03-29T01:59:20"),
-    "autumn": lambda: summer_time("2026-10-25T02:59:20+02:00"),
-    "shuffled": shuffled,
-    "nanoseconds since boot": since_boot,
-    "a hole of 20 s": hole,
+    "merged by time": merge_by_time,
+    "a tenth lost": lose_rows,
+    "spring": lambda: make_local_times("2026-03-29T01:59:20"),
+    "autumn": lambda: make_local_times("2026-10-25T02:59:20+02:00"),
+    "shuffled": shuffle_rows,
+    "nanoseconds since boot": count_since_boot,
+    "a hole of 20 s": leave_hole,
 }
 
 
@@ -120,9 +122,9 @@ CONTAINERS = [as_csv, as_parquet, as_frame, as_xarray, as_array]
 
 
 @cache
-def undisturbed() -> float:
+def find_undisturbed_border() -> float:
     """Where the method puts the border in even rows: by its own grid, a quarter of a second off."""
-    values = movement(np.arange(0, LENGTH, 0.02), ACC).to_numpy()
+    values = make_movement(np.arange(0, LENGTH, 0.02), ACC).to_numpy()
     found = kineme.segment(Signals(values, 50)).activities.start_s
     border: float = found[np.abs(found - BORDER).argmin()]
     assert abs(border - BORDER) < 0.3
@@ -132,12 +134,12 @@ def undisturbed() -> float:
 def check_border(signals: Signals) -> None:
     """The values tell that the border is where the clock says, and so does the table."""
     assert signals.duration == pytest.approx(LENGTH, abs=0.1)
-    true = movement(signals.times, list(signals.names[:3])).to_numpy()
+    true = make_movement(signals.times, list(signals.names[:3])).to_numpy()
     inside = np.abs(signals.times - BORDER) > 0.05
     inside &= ~mark_spans(signals.gaps, signals.n_frames)
     assert np.abs(signals.values[:, :3] - true)[inside].max() < 0.6  # noqa: PD011
     starts = kineme.segment(signals).activities.start_s
-    assert np.abs(starts - undisturbed()).min() <= 0.1
+    assert np.abs(starts - find_undisturbed_border()).min() <= 0.1
 
 
 @pytest.mark.parametrize("container", CONTAINERS)
@@ -152,49 +154,49 @@ def test_the_border_stands_where_the_clock_says(case, container, tmp_path) -> No
     assert signals.gaps == (((1250, 2250),) if case == "a hole of 20 s" else ())
 
 
-def two_clocks(folder: Path) -> tuple[Path, Path]:
+def write_two_clocks(folder: Path) -> tuple[Path, Path]:
     """An accelerometer in milliseconds since 1970 and a gyroscope at dates, begun 1.5 s later."""
     acc_at, gyro_at = np.arange(0, LENGTH, 0.02), np.arange(1.5034, LENGTH, 0.01)
     begin = pd.Timestamp("2026-05-01T09:30:00Z")
-    acc = movement(acc_at, ACC).assign(time_ms=begin.value // 10**6 + np.rint(acc_at * 1e3))
+    acc = make_movement(acc_at, ACC).assign(time_ms=begin.value // 10**6 + np.rint(acc_at * 1e3))
     gyro_times = begin + pd.to_timedelta(np.rint(gyro_at * 1e9).astype("i8"))
-    gyro = movement(gyro_at, GYRO).assign(time=gyro_times)
+    gyro = make_movement(gyro_at, GYRO).assign(time=gyro_times)
     acc.to_csv(folder / "acc.csv", index=False)
     gyro.to_csv(folder / "gyro.csv", index=False)
     return folder / "acc.csv", folder / "gyro.csv"
 
 
 def test_two_files_with_two_clocks_are_one_recording(tmp_path) -> None:
-    both = join_signals(*map(kineme.read, two_clocks(tmp_path)))
+    both = join_signals(*map(kineme.read, write_two_clocks(tmp_path)))
     assert (both.names, both.fps) == ((*ACC, *GYRO), 100)
     begun = both.provenance.clock.times[0] - pd.Timestamp("2026-05-01T09:30:00Z").timestamp()
     assert begun == pytest.approx(1.5034, abs=1e-3)
-    true = movement(both.times + begun, ACC).to_numpy()
+    true = make_movement(both.times + begun, ACC).to_numpy()
     inside = np.abs(both.times + begun - BORDER) > 0.05
     assert np.abs(both.values[:, :3] - true)[inside].max() < 0.6  # noqa: PD011
     found = kineme.segment(both).activities.start_s + begun
-    assert np.abs(found - undisturbed()).min() <= 0.1
+    assert np.abs(found - find_undisturbed_border()).min() <= 0.1
 
 
 def test_the_command_joins_files_and_names_rows(tmp_path) -> None:
-    paths = [*map(str, two_clocks(tmp_path))]
+    paths = [*map(str, write_two_clocks(tmp_path))]
     out = tmp_path / "out.csv"
     found = CliRunner().invoke(app, ["segment", *paths, "--join", "--quiet", "-o", str(out)])
     assert (found.exit_code, out.is_file()) == (0, True)
     assert len(kineme.read_segments(out).activities) == 2
-    frame, times = lost()
+    frame, times = lose_rows()
     with pytest.warns(KinemeWarning, match="no common clock: assumed to begin together"):
         join_signals(as_signals(frame, times=times + 1.7e9), as_signals(frame, times=times))
     with pytest.raises(ParameterError, match="do not overlap in time"):
         join_signals(as_signals(frame, times=times), as_signals(frame, fps=50), offsets=[0, 900])
     table = kineme.segment(frame, times=times).to_dataframe()
     border = table[table.level == "activity"].start_row.to_numpy()[1]
-    assert abs(times[border] - undisturbed()) <= 0.1
+    assert abs(times[border] - find_undisturbed_border()) <= 0.1
 
 
 def test_frozen_and_saturated_channels_are_named() -> None:
     times = np.arange(0, LENGTH, 0.02)
-    frame = movement(times, ACC)
+    frame = make_movement(times, ACC)
     frame.loc[1000:2000, "acc_y"] = frame.acc_y[1000]
     loud = np.random.default_rng(0).standard_normal(len(times)).cumsum() % 7
     frame["acc_z"] = np.clip(9 * np.sin(5 * times) ** 7 + 0.01 * loud, -2, 2)
@@ -207,7 +209,7 @@ def test_frozen_and_saturated_channels_are_named() -> None:
 
 @pytest.mark.parametrize("name", ["set", "reps", "weight", "label", "Set number", "frame"])
 def test_columns_that_count_or_label_are_no_channels(name, tmp_path) -> None:
-    frame = movement(np.arange(0, 2, 0.02), ACC).assign(**{name: 3})
+    frame = make_movement(np.arange(0, 2, 0.02), ACC).assign(**{name: 3})
     assert as_signals(frame, fps=50).names == tuple(ACC)
     frame.to_csv(tmp_path / "a.csv", index=False)
     assert kineme.read(tmp_path / "a.csv", fps=50).names == tuple(ACC)

@@ -25,7 +25,7 @@ REST = np.array(
 )
 
 
-def body(n: int = 100, fps: float = 50.0, gaps: tuple[tuple[int, int], ...] = ()) -> Motion:
+def make_body(n: int = 100, fps: float = 50.0, gaps: tuple[tuple[int, int], ...] = ()) -> Motion:
     positions = np.repeat(REST[None], n, axis=0)
     positions[:, :, 2] += np.arange(n)[:, None] / fps
     parents = (-1, 0, 0, 1, 2, 0, 0, 0)
@@ -43,38 +43,38 @@ def spans(draw: st.DrawFn, n: int = 100, apart: int = 1) -> tuple[tuple[int, int
     return tuple(found)
 
 
-def hidden(motion: Motion) -> np.ndarray:
+def mark_hidden(motion: Motion) -> np.ndarray:
     return mark_spans(motion.gaps, motion.n_frames)
 
 
 @given(spans(), st.integers(0, 99), st.integers(1, 100))
 def test_a_cut_has_the_gaps_of_its_frames(gaps: tuple, start: int, length: int) -> None:
-    motion = body(gaps=gaps)
+    motion = make_body(gaps=gaps)
     stop = min(100, start + length)
-    assert np.array_equal(hidden(cut(motion, start, stop)), hidden(motion)[start:stop])
+    assert np.array_equal(mark_hidden(cut(motion, start, stop)), mark_hidden(motion)[start:stop])
 
 
 @given(spans(), st.sampled_from([50.0, 25.0, 10.0, 50 / 7, 30.0, 29.97, 120.0]))
 def test_frames_between_seen_ones_only_count_as_seen(gaps: tuple, fps: float) -> None:
-    motion = body(gaps=gaps)
+    motion = make_body(gaps=gaps)
     again = resample(motion, fps)
     at = np.arange(again.n_frames) * 50 / fps
     before = np.minimum(np.floor(at + 1e-9).astype(int), 99)
     after = np.minimum(np.ceil(at - 1e-9).astype(int), 99)
-    unseen = hidden(motion)
-    assert np.array_equal(hidden(again), unseen[before] | unseen[after])
+    unseen = mark_hidden(motion)
+    assert np.array_equal(mark_hidden(again), unseen[before] | unseen[after])
 
 
 @given(spans())
 def test_parts_and_gaps_tile_the_motion(gaps: tuple) -> None:
-    motion = move(body(gaps=gaps), (1, 0, 0))
-    if hidden(motion).all():
+    motion = move(make_body(gaps=gaps), (1, 0, 0))
+    if mark_hidden(motion).all():
         with pytest.raises(MotionError, match="not seen in any frame"):
             split_at_gaps(motion)
         return
     parts = split_at_gaps(motion)
     seen = np.concatenate([np.arange(at, at + part.n_frames) for at, part in parts])
-    assert np.array_equal(seen, np.flatnonzero(~hidden(motion)))
+    assert np.array_equal(seen, np.flatnonzero(~mark_hidden(motion)))
     for start, part in parts:
         assert part.gaps == ()
         assert np.array_equal(part.positions, motion.positions[start : start + part.n_frames])
@@ -85,15 +85,15 @@ def test_parts_and_gaps_tile_the_motion(gaps: tuple) -> None:
 @pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
 def test_files_of_positions_hold_gaps(suffix: str, gaps: tuple) -> None:
     long = tuple((start, stop) for start, stop in gaps if stop - start > 10)
-    motion = body(gaps=long)
+    motion = make_body(gaps=long)
     if sum(b - a for a, b in long) > 80:
         return
     with tempfile.TemporaryDirectory() as folder:
         kineme.write(motion, Path(folder) / f"a{suffix}")
         again = kineme.read(Path(folder) / f"a{suffix}")
-    kept = hidden(again)
+    kept = mark_hidden(again)
     # What is seen for 0.2 s or less at an end of the recording becomes part of the gap.
-    assert kept[hidden(motion)].all()
+    assert kept[mark_hidden(motion)].all()
     assert np.abs(again.positions - motion.positions)[~kept].max() < 1e-8
     assert again.n_frames == 100
 

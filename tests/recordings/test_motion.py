@@ -22,7 +22,7 @@ STILL = [1.0, 0.0, 0.0, 0.0]
 seeds = st.integers(0, 2**32)
 
 
-def quaternions(seed: int, *shape: int) -> np.ndarray:
+def make_quaternions(seed: int, *shape: int) -> np.ndarray:
     q = np.random.default_rng(seed).normal(size=(*shape, 4))
     return q / np.linalg.norm(q, axis=-1, keepdims=True)
 
@@ -39,13 +39,13 @@ def test_translations_are_recovered(seed: int) -> None:
     rng = np.random.default_rng(seed)
     skeleton = Skeleton(tuple("abcd"), (-1, 0, 0, 2), rng.normal(size=(4, 3)))
     moves = rng.normal(size=(5, 4, 3))
-    motion = Motion.from_rotations(skeleton, quaternions(seed, 5, 4), 30, translations=moves)
+    motion = Motion.from_rotations(skeleton, make_quaternions(seed, 5, 4), 30, translations=moves)
     np.testing.assert_allclose(
         compute_local_translations(motion.skeleton, motion.positions, motion.rotations),
         moves,
         atol=1e-12,
     )
-    rigid = Motion.from_rotations(skeleton, quaternions(seed, 5, 4), 30)
+    rigid = Motion.from_rotations(skeleton, make_quaternions(seed, 5, 4), 30)
     offsets = np.broadcast_to(skeleton.offsets, (5, 4, 3))
     np.testing.assert_allclose(
         compute_local_translations(rigid.skeleton, rigid.positions, rigid.rotations),
@@ -117,7 +117,7 @@ def test_motions_that_contradict_themselves(
 
 @given(seeds)
 def test_quaternions_agree_with_scipy(seed: int) -> None:
-    a, b = quaternions(seed, 7), quaternions(seed + 1, 7)
+    a, b = make_quaternions(seed, 7), make_quaternions(seed + 1, 7)
     v = np.random.default_rng(seed).normal(size=(7, 3))
     ours, theirs = (
         Rotation.from_quat(a, scalar_first=True),

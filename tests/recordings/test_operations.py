@@ -19,7 +19,7 @@ TREE = Skeleton(
 )
 
 
-def motion(n: int = 41, fps: float = 120, *, seed: int = 0, rotations: bool = True) -> Motion:
+def make_motion(n: int = 41, fps: float = 120, *, seed: int = 0, rotations: bool = True) -> Motion:
     """Every joint turns steadily about an axis of its own, the root walks along x."""
     rng = np.random.default_rng(seed)
     axes = rng.normal(size=(4, 3))
@@ -34,7 +34,7 @@ def motion(n: int = 41, fps: float = 120, *, seed: int = 0, rotations: bool = Tr
 
 @pytest.mark.parametrize("n", [1, 4, 5, 40, 41, 7583])
 def test_a_whole_ratio_takes_frames_as_they_are(n: int) -> None:
-    dense = motion(n)
+    dense = make_motion(n)
     thin = resample(dense, 30)
     assert thin.n_frames == (n - 1) // 4 + 1
     assert thin.fps == 30
@@ -47,7 +47,7 @@ def test_a_whole_ratio_takes_frames_as_they_are(n: int) -> None:
 
 @given(st.integers(1, 50), st.sampled_from([25.0, 29.97, 30.0, 59.94, 100.0, 240.0]), st.booleans())
 def test_times_of_the_new_frames(n: int, fps: float, rotations: bool) -> None:
-    old = motion(n, 120, rotations=rotations)
+    old = make_motion(n, 120, rotations=rotations)
     new = resample(old, fps)
     assert new.n_frames == floor((n - 1) * fps / 120 + 1e-9) + 1
     assert new.times[-1] <= old.times[-1] + 1e-9
@@ -56,8 +56,8 @@ def test_times_of_the_new_frames(n: int, fps: float, rotations: bool) -> None:
 
 
 def test_steady_turns_are_interpolated_exactly() -> None:
-    new = resample(motion(121), 50)
-    expected = motion(51, 50)
+    new = resample(make_motion(121), 50)
+    expected = make_motion(51, 50)
     np.testing.assert_allclose(new.positions, expected.positions, atol=1e-9)
     assert new.rotations is not None
     bones = np.linalg.norm(
@@ -77,7 +77,7 @@ def test_there_and_back_on_a_real_recording(data_dir: Path) -> None:
 
 
 def test_cut() -> None:
-    old = motion()
+    old = make_motion()
     part = cut(old, 10, 20)
     np.testing.assert_array_equal(part.positions, old.positions[10:20])
     assert part.provenance.notes == ("cut to frames 10 to 20",)
@@ -90,7 +90,7 @@ def test_cut() -> None:
 def test_position_and_rotation_stay_in_step(
     angle: float, factor: float, offset: tuple[float, float, float]
 ) -> None:
-    changed = move(turn(scale(motion(5), factor), angle), offset)
+    changed = move(turn(scale(make_motion(5), factor), angle), offset)
     assert changed.rotations is not None
     positions = forward_kinematics(changed.skeleton, changed.rotations, changed.positions[:, 0])
     np.testing.assert_allclose(positions, changed.positions, atol=1e-9)
@@ -107,7 +107,7 @@ def test_turn_is_about_the_vertical_from_z_to_x() -> None:
 )
 def test_values_are_checked(operation: object, value: object) -> None:
     with pytest.raises(ParameterError, match="give"):
-        operation(motion(), value)  # type: ignore[operator]
+        operation(make_motion(), value)  # type: ignore[operator]
 
 
 def test_a_rate_beyond_all_measure_is_refused() -> None:

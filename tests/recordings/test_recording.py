@@ -23,38 +23,38 @@ ARM = Skeleton(("shoulder", "elbow", "hand"), (-1, 0, 1), np.zeros((3, 3)), {2})
 EVENTS = ((0.5, "on"), (4.0, "off"))
 
 
-def motion(n: int = 100, fps: float = 20.0, gaps: tuple = ()) -> Motion:
+def make_motion(n: int = 100, fps: float = 20.0, gaps: tuple = ()) -> Motion:
     positions = np.arange(n)[:, None, None] + np.arange(3.0)[:, None] * (1.0, 2.0, 0.5)
     turns = np.zeros((n, 3, 4))
     turns[..., 0] = 1
     return Motion(ARM, positions, fps, turns, Provenance("a.npz", events=EVENTS), gaps)
 
 
-def signals(n: int = 100, fps: float = 20.0, gaps: tuple = ()) -> Signals:
+def make_signals(n: int = 100, fps: float = 20.0, gaps: tuple = ()) -> Signals:
     values = np.arange(2.0 * n).reshape(n, 2)
     return Signals(values, fps, ("x", "y"), gaps, Provenance("a.csv", events=EVENTS))
 
 
-def numbers(recording: Motion | Signals) -> np.ndarray:
+def get_numbers(recording: Motion | Signals) -> np.ndarray:
     return recording.positions if isinstance(recording, Motion) else recording.values  # noqa: PD011
 
 
-both = pytest.mark.parametrize("make", [motion, signals])
+both = pytest.mark.parametrize("make", [make_motion, make_signals])
 
 
 @both
 @given(st.integers(-120, 120), st.one_of(st.none(), st.integers(-120, 120)))
 def test_slices_are_those_of_numpy(make, start: int, stop: int | None) -> None:
     recording = make(gaps=((10, 20), (50, 60)))
-    expected = numbers(recording)[start:stop]
+    expected = get_numbers(recording)[start:stop]
     rest = ~mark_spans(recording.gaps, 100)[start:stop]
     if not len(expected) or not rest.any():
-        is_refused = make is signals or not len(expected)
+        is_refused = make is make_signals or not len(expected)
         with pytest.raises(ParameterError) if is_refused else nullcontext():
             recording[start:stop]
         return
     part = recording[start:stop]
-    np.testing.assert_array_equal(numbers(part), expected)
+    np.testing.assert_array_equal(get_numbers(part), expected)
     assert len(part) == part.n_frames == len(expected)
     np.testing.assert_array_equal(mark_spans(part.spans(), len(expected)), rest)
 
@@ -71,7 +71,9 @@ def test_a_slice_takes_its_events_along(make) -> None:
 @both
 def test_slices_by_seconds(make) -> None:
     recording = make()
-    np.testing.assert_array_equal(numbers(recording.seconds(1.0, 2.5)), numbers(recording)[20:50])
+    np.testing.assert_array_equal(
+        get_numbers(recording.seconds(1.0, 2.5)), get_numbers(recording)[20:50]
+    )
     assert recording.seconds(4.5, 99).n_frames == recording.seconds(4.5).n_frames == 10
     for times, said in [
         ((-1, 2), "-1 is not a time"),
@@ -134,11 +136,11 @@ def test_a_notebook_shows_a_picture_and_facts(make) -> None:
 
 
 def test_both_are_recordings() -> None:
-    assert isinstance(motion(), Recording)
-    assert isinstance(signals(), Recording)
+    assert isinstance(make_motion(), Recording)
+    assert isinstance(make_signals(), Recording)
     assert not isinstance(np.zeros(3), Recording)
-    assert repr(signals()) == "<Signals of 100 frames (5.0 s) at 20 Hz: 2 channels>"
-    assert repr(motion()) == (
+    assert repr(make_signals()) == "<Signals of 100 frames (5.0 s) at 20 Hz: 2 channels>"
+    assert repr(make_motion()) == (
         "<Motion of 100 frames (5.0 s) at 20 Hz: 3 joints, 1 of them end sites>"
     )
 

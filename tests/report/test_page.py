@@ -51,7 +51,7 @@ class Scripts(HTMLParser):
         self.texts[self.inside] = self.texts.get(self.inside, "") + data
 
 
-def labelled(text: str) -> Segmentation:
+def label_all(text: str) -> Segmentation:
     columns = dict(SEGMENTS.table.columns())
     columns["label"] = np.full(len(SEGMENTS), text)
     return Segmentation.from_columns(
@@ -59,7 +59,7 @@ def labelled(text: str) -> Segmentation:
     )
 
 
-def content(path: Path) -> dict[str, object]:
+def read_content(path: Path) -> dict[str, object]:
     return json.loads(Scripts(path.read_text(encoding="utf-8")).texts["kineme-recording"])
 
 
@@ -93,7 +93,7 @@ def test_the_page_asks_for_nothing_from_elsewhere(tmp_path: Path) -> None:
 
 def test_texts_stay_inside_their_element() -> None:
     shown = make_page_data(RECORDING)
-    message = make_recording_message(shown, labelled(NASTY), name=NASTY + BREAKS)
+    message = make_recording_message(shown, label_all(NASTY), name=NASTY + BREAKS)
     page = fill_template(TEMPLATE, message, shown.binary, {})
     assert page.isascii()
     parsed = Scripts(page)
@@ -107,7 +107,7 @@ def test_names_that_are_not_unicode_are_shown(tmp_path: Path) -> None:
     name = os.fsdecode(b"G\xe4nge.bvh")
     table = replace(SEGMENTS, provenance={"input": {"path": f"/data/{name}"}})
     write_report(RECORDING, table, tmp_path / "out.html")
-    assert content(tmp_path / "out.html")["name"] == "G?nge.bvh"
+    assert read_content(tmp_path / "out.html")["name"] == "G?nge.bvh"
 
 
 def test_a_name_like_a_place_for_data_is_not_filled() -> None:
@@ -125,7 +125,7 @@ def test_signals_are_shown_without_a_figure(tmp_path: Path) -> None:
     segments = kineme.segment(signals)
     for name, source in (("signals", signals), ("array", values)):
         write_report(source, segments, tmp_path / f"{name}.html", name=name)
-        message = content(tmp_path / f"{name}.html")
+        message = read_content(tmp_path / f"{name}.html")
         assert message["motion"] is None
         assert message["matrix"]["sizes"] == [300, 150]
         assert message["name"] == name
@@ -139,7 +139,7 @@ def test_tables_with_any_provenance_are_shown(tmp_path: Path) -> None:
     ):
         table = replace(SEGMENTS, provenance={"input": source})
         write_report(RECORDING, table, tmp_path / "out.html")
-        assert content(tmp_path / "out.html")["name"] == name
+        assert read_content(tmp_path / "out.html")["name"] == name
     with pytest.raises(ParameterError, match=r"the provenance is not as kineme writes it: input"):
         replace(SEGMENTS, provenance={"input": 7})
 

@@ -31,7 +31,7 @@ def run(*arguments: str) -> Result:
     return CliRunner().invoke(app, list(arguments))
 
 
-def shown(path: Path) -> dict[str, object]:
+def read_shown(path: Path) -> dict[str, object]:
     text = path.read_text(encoding="utf-8")
     found = re.search(r'<script[^>]*id="kineme-recording">(.*?)</script>', text, re.DOTALL)
     return json.loads(found[1])
@@ -41,7 +41,7 @@ def test_a_page_per_recording_beside_the_prompt(folder: Path) -> None:
     result = run("report", "one.bvh", "two.bvh")
     assert result.exit_code == 0, result.output
     assert result.output.split() == ["one.html", "two.html"]
-    assert shown(folder / "one.html")["name"] == "one.bvh"
+    assert read_shown(folder / "one.html")["name"] == "one.bvh"
 
 
 def test_corrected_tables_are_shown(folder: Path) -> None:
@@ -52,7 +52,7 @@ def test_corrected_tables_are_shown(folder: Path) -> None:
     assert run("report", "one.bvh", "--segments", "one.segments.json").exit_code == 0
     assert run("report", "one.bvh", "two.bvh", "--segments", ".", "-o", "all").exit_code == 0
     for page in ("one.html", "all/one.html", "all/two.html"):
-        rows = shown(folder / page)["segmentation"]["segments"]
+        rows = read_shown(folder / page)["segmentation"]["segments"]
         assert [row["label"] for row in rows] == ["<b>squat</b>", ""]
     result = run("report", "one.bvh", "two.bvh", "--segments", "one.segments.json")
     assert result.exit_code == 2
@@ -62,7 +62,7 @@ def test_corrected_tables_are_shown(folder: Path) -> None:
 def test_segmenting_writes_the_page_on_the_way(folder: Path) -> None:
     result = run("segment", "one.bvh", "-o", "one.json", "--report", "{name}.page.html", "--quiet")
     assert result.exit_code == 0, result.output
-    message = shown(folder / "one.page.html")
+    message = read_shown(folder / "one.page.html")
     table = json.loads((folder / "one.json").read_text(encoding="utf-8"))
     assert message["segmentation"]["segments"] == table["segments"]
     assert message["motion"]["n_samples"] == 450

@@ -21,7 +21,7 @@ CHROMIUM = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
 EVIL = "</style><script>alert(1)</script> 3 & $x$"
 
 
-def session(amplitude: float, seed: int, *names: str) -> Cycles:
+def make_session(amplitude: float, seed: int, *names: str) -> Cycles:
     actions = [Action(name, 6, amplitude=amplitude) for name in names]
     made = synthesize(actions, fps=60, seed=seed)
     return kineme.cycles(made.motion, made.truth)
@@ -29,16 +29,16 @@ def session(amplitude: float, seed: int, *names: str) -> Cycles:
 
 @pytest.fixture(scope="module")
 def squats() -> tuple[Cycles, Cycles]:
-    return session(1.0, 3, "squat"), session(0.7, 4, "squat")
+    return make_session(1.0, 3, "squat"), make_session(0.7, 4, "squat")
 
 
-def text_of(path: Path) -> str:
+def read_text(path: Path) -> str:
     return path.read_text(encoding="utf-8").replace("\N{MINUS SIGN}", "-")
 
 
 def test_it_has_the_numbers_of_the_table(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     write_sessions(*squats, tmp_path / "sheet.html", names=("May", "June"))
-    page = text_of(tmp_path / "sheet.html")
+    page = read_text(tmp_path / "sheet.html")
     table = compare_sessions(*squats)
     row = np.flatnonzero(table["measure"] == "knee_l.range")[0]
     mean, sd, difference, low, high = (
@@ -55,13 +55,13 @@ def test_it_says_how_sure_counts_are(squats: tuple[Cycles, Cycles], tmp_path: Pa
     told = {"confidence": np.full(6, 0.78), "border_confidence": np.full(6, 0.9)}
     before = replace(squats[0], columns={**squats[0].columns, **told})
     write_sessions(before, squats[1], tmp_path / "sheet.html")
-    assert "squat: 6 (78 % sure) → 6 repetitions" in text_of(tmp_path / "sheet.html")
+    assert "squat: 6 (78 % sure) → 6 repetitions" in read_text(tmp_path / "sheet.html")
 
 
 def test_it_says_what_was_left_out_and_where(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     sessions = squats[0], squats[1].exclude([2])
     write_sessions(*sessions, tmp_path / "sheet.html", names=("May", "June"))
-    page = text_of(tmp_path / "sheet.html")
+    page = read_text(tmp_path / "sheet.html")
     assert "; 1 of June left out (by hand)." in page
     assert "of May left out" not in page
     assert "(means of 4 and 3)" in page
@@ -69,7 +69,7 @@ def test_it_says_what_was_left_out_and_where(squats: tuple[Cycles, Cycles], tmp_
 
 def test_it_is_whole_and_texts_stay_texts(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     write_sessions(*squats, tmp_path / "sheet.html", names=(EVIL, "_June"))
-    page = text_of(tmp_path / "sheet.html")
+    page = read_text(tmp_path / "sheet.html")
     assert "<script" not in page
     assert not re.findall(r'(?:src|href)="(?!data:)', page)
     assert page.count("<img") == 6
@@ -77,7 +77,7 @@ def test_it_is_whole_and_texts_stay_texts(squats: tuple[Cycles, Cycles], tmp_pat
 
 def test_what_cannot_be_compared_is_refused(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="the sessions have no group in common"):
-        write_sessions(squats[0], session(1.0, 3, "walk"), tmp_path / "sheet.html")
+        write_sessions(squats[0], make_session(1.0, 3, "walk"), tmp_path / "sheet.html")
     with pytest.raises(WriteError, match=r"written as \.html"):
         write_sessions(*squats, tmp_path / "sheet.pdf")
     assert list(tmp_path.iterdir()) == []
@@ -86,7 +86,7 @@ def test_what_cannot_be_compared_is_refused(squats: tuple[Cycles, Cycles], tmp_p
 def test_few_repetitions_give_no_bounds(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     first = squats[0].select(np.arange(len(squats[0])) < 2)  # one of them inner
     write_sessions(first, squats[1], tmp_path / "sheet.html")
-    page = text_of(tmp_path / "sheet.html")
+    page = read_text(tmp_path / "sheet.html")
     assert "too few" in page
     assert "nan" not in re.sub(r'src="[^"]*"', "", page)
 
@@ -97,7 +97,7 @@ def test_it_prints_on_one_sheet(squats: tuple[Cycles, Cycles], tmp_path: Path) -
     many = ("squat", "walk", "jump", "wave", "run")
     pages = {"one": squats}
     for n in (2, 3, 5):
-        pages[f"{n}"] = session(1.0, 3, *many[:n]), session(0.9, 4, *many[:n])
+        pages[f"{n}"] = make_session(1.0, 3, *many[:n]), make_session(0.9, 4, *many[:n])
     long = "Thursday afternoon, after the second week of training with weights"
     with sync_api.sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])

@@ -12,7 +12,7 @@ from kineme.recordings import Motion
 from kineme.synthesis import MotionGraph, line_route, motion_graph, parse_line, synthesize
 
 
-def distances(motion: Motion, line: list[tuple[float, float]]) -> np.ndarray:
+def measure_distances(motion: Motion, line: list[tuple[float, float]]) -> np.ndarray:
     """Metres from the root to the nearest point of the line, frame by frame."""
     corners = np.array(line)
     at = np.linspace(0, len(line) - 1, 2000)
@@ -30,7 +30,7 @@ def test_a_straight_line_is_walked(exercises: Motion, graph: MotionGraph) -> Non
     assert np.linalg.norm(floor[0] - line[0]) < 0.05
     ends = np.linalg.norm(floor - line[-1], axis=1)
     assert ends.min() < 0.5
-    assert distances(motion, line)[: ends.argmin()].max() < 0.5
+    assert measure_distances(motion, line)[: ends.argmin()].max() < 0.5
 
 
 def test_a_corner_to_the_side_to_which_somebody_turned(

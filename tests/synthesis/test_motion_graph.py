@@ -33,7 +33,7 @@ from kineme.synthesis import (
 )
 
 
-def small(names: str, edges: list[tuple[int, int]]) -> MotionGraph:
+def make_graph(names: str, edges: list[tuple[int, int]]) -> MotionGraph:
     """One node per letter, a dot for a phase without name; edges all jumps of 1 cm."""
     nodes = [Node(0, 10 * i, 10 * i + 10, -1, n.strip(".")) for i, n in enumerate(names)]
     made = [Edge(a, b, nodes[a].stop, nodes[b].start, 0.01) for a, b in sorted(edges)]
@@ -112,17 +112,17 @@ def test_recordings_that_do_not_fit_are_refused(exercises: Motion) -> None:
 
 
 def test_pruning_keeps_what_reaches_itself() -> None:
-    made = small("abcd", [(0, 1), (1, 2), (2, 1), (2, 3)])
+    made = make_graph("abcd", [(0, 1), (1, 2), (2, 1), (2, 3)])
     assert made.core().tolist() == [1, 2]
     pruned = made.pruned()
     assert [node.name for node in pruned.nodes] == ["b", "c"]
     assert [(e.tail, e.head) for e in pruned.edges] == [(0, 1), (1, 0)]
     with pytest.raises(ParameterError, match="raise the threshold"):
-        small("ab", [(0, 1)]).pruned()
+        make_graph("ab", [(0, 1)]).pruned()
 
 
 def test_actions_pass_through_nameless_nodes_only() -> None:
-    made = small("a.bc", [(0, 1), (1, 2), (2, 3), (0, 0)])
+    made = make_graph("a.bc", [(0, 1), (1, 2), (2, 3), (0, 0)])
     assert action_route(made, [("a", 2), ("b", 1)]) == [0, 0, 1, 2]
     assert find_following(made, "a") == ["a", "b"]
     with pytest.raises(
@@ -140,7 +140,7 @@ def test_actions_pass_through_nameless_nodes_only() -> None:
 def test_a_route_is_found_exactly_where_there_is_one(
     edges: set[tuple[int, int]], wanted: list[str]
 ) -> None:
-    made = small("ab.ab.", sorted(edges))
+    made = make_graph("ab.ab.", sorted(edges))
     found = {(i, 0) for i, node in enumerate(made.nodes) if node.name == wanted[0]}
     waiting = list(found)
     while waiting:  # every state (node, actions done) that can be reached
@@ -165,10 +165,10 @@ def test_a_route_is_found_exactly_where_there_is_one(
 def test_a_random_walk_repeats_by_its_seed_and_never_ends_early(graph: MotionGraph) -> None:
     walk = random_route(graph, 30, 7)
     assert walk == random_route(graph, 30, 7) != random_route(graph, 30, 8)
-    made = small("abc", [(0, 1), (1, 0), (0, 2)])
+    made = make_graph("abc", [(0, 1), (1, 0), (0, 2)])
     assert set(random_route(made, 20, 0)) == {0, 1}
     with pytest.raises(ParameterError, match="every route through this graph ends"):
-        random_route(small("ab", [(0, 1)]), 1, 0)
+        random_route(make_graph("ab", [(0, 1)]), 1, 0)
     with pytest.raises(ParameterError, match="above 0 and below 1e6 s, not -1"):
         random_route(graph, -1, 0)
 
@@ -192,5 +192,5 @@ def test_what_was_written_is_read_again(graph: MotionGraph, tmp_path: Path) -> N
 
 def test_a_graph_of_motions_from_no_file_is_not_written(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="read from files"):
-        write_graph(small("a", [(0, 0)]), tmp_path / "graph.json")
+        write_graph(make_graph("a", [(0, 0)]), tmp_path / "graph.json")
     assert not list(tmp_path.iterdir())

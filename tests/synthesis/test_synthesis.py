@@ -33,17 +33,17 @@ from kineme.synthesis import (
 )
 
 
-def repetitions_in(found: Segmentation, activity: int) -> int:
+def count_repetitions(found: Segmentation, activity: int) -> int:
     rows = found.primitives
     return int(((rows.activity == activity) & (rows.kind == "primitive")).sum())
 
 
-def largest_step(motion: Motion) -> float:
+def measure_largest_step(motion: Motion) -> float:
     """Metres that a joint moves from frame to frame at most."""
     return float(np.linalg.norm(np.diff(motion.positions, axis=0), axis=2).max())
 
 
-def largest_turn(motion: Motion) -> float:
+def measure_largest_turn(motion: Motion) -> float:
     """Degrees that a joint turns from frame to frame at most."""
     q = motion.rotations
     assert q is not None
@@ -51,7 +51,7 @@ def largest_turn(motion: Motion) -> float:
     return float(np.degrees(2 * half).max())
 
 
-def ankle_slides(motion: Motion) -> np.ndarray:
+def measure_ankle_slides(motion: Motion) -> np.ndarray:
     found = end_effectors(motion)
     paths = [motion.positions[:, ankle] for ankle in found.indices[:2]]
     return np.array([
@@ -71,7 +71,7 @@ def test_segmenting_finds_the_actions_and_counts_asked_for(
     motion = synthesize(graph, [exercises], action_route(graph, wanted))
     found = kineme.segment(motion)
     runs = [row for row in found.activities if row.kind == "activity"]
-    inside = [repetitions_in(found, row.activity) for row in runs]
+    inside = [count_repetitions(found, row.activity) for row in runs]
     assert inside == [count for _, count in wanted]
     first = {name: i for i, (name, _) in reversed([*enumerate(wanted)])}
     assert [row.cluster for row in runs] == [runs[first[name]].cluster for name, _ in wanted]
@@ -85,11 +85,11 @@ def test_a_random_walk_is_as_smooth_as_the_recording_and_stands(
     route = random_route(graph, 60, seed)
     motion = synthesize(graph, [exercises], route)
     assert motion.duration >= 60
-    assert largest_step(motion) <= 1.5 * largest_step(exercises)
-    assert largest_turn(motion) <= 1.5 * largest_turn(exercises)
-    assert ankle_slides(motion).mean() < 0.01
+    assert measure_largest_step(motion) <= 1.5 * measure_largest_step(exercises)
+    assert measure_largest_turn(motion) <= 1.5 * measure_largest_turn(exercises)
+    assert measure_ankle_slides(motion).mean() < 0.01
     sliding = synthesize(graph, [exercises], route, plant=False)
-    assert ankle_slides(motion).mean() < 0.5 * ankle_slides(sliding).mean()
+    assert measure_ankle_slides(motion).mean() < 0.5 * measure_ankle_slides(sliding).mean()
 
 
 def test_the_recording_itself_comes_out_as_it_went_in(exercises: Motion) -> None:

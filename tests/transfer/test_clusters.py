@@ -26,7 +26,7 @@ RARE = 3
 """Recordings that contain the last kind of movement."""
 
 
-def cluster_set() -> tuple[ClusterSet, np.ndarray]:
+def make_cluster_set() -> tuple[ClusterSet, np.ndarray]:
     """Local clusters of some kinds of movement, one of each in a recording, and their kinds.
 
     Each kind is an arc in a plane of its own: nothing in one is like anything in another.
@@ -60,7 +60,7 @@ def link(clusters: ClusterSet, progress: Any = None, **constants: Any) -> Assign
 
 
 def test_rounds_find_the_clusters_that_comparing_all_pairwise_finds() -> None:
-    clusters, kinds = cluster_set()
+    clusters, kinds = make_cluster_set()
     told: list[str] = []
     whole = link(clusters)
     in_rounds = link(clusters, progress=told.append, most=20)
@@ -76,7 +76,7 @@ def test_rounds_find_the_clusters_that_comparing_all_pairwise_finds() -> None:
 def test_neither_threads_nor_blocks_nor_order_change_clusters(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    clusters, kinds = cluster_set()
+    clusters, kinds = make_cluster_set()
     here = link(clusters, most=20)
     monkeypatch.setattr(transfer_clusters, "map_threads", lambda work, items: [*map(work, items)])
     alone = link(clusters, most=20)
@@ -89,7 +89,7 @@ def test_neither_threads_nor_blocks_nor_order_change_clusters(
 
 
 def test_one_local_cluster_or_none_is_linked_to_nothing() -> None:
-    clusters, _ = cluster_set()
+    clusters, _ = make_cluster_set()
     one = link(clusters.select(np.array([3])))
     assert (one.cluster.tolist(), one.next_cluster.tolist()) == ([0], [-1])
     assert np.isnan(one.confidence).all()

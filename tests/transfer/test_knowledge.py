@@ -23,12 +23,12 @@ MADE = synthesize([Action("walk", 3), Action("kick", 2), Action("walk", 2)], fps
 BASE = KnowledgeBase.from_recording(MADE.motion, MADE.truth)
 
 
-def from_file(digest: str, motion: Motion = MADE.motion) -> KnowledgeBase:
+def make_base(digest: str, motion: Motion = MADE.motion) -> KnowledgeBase:
     provenance = replace(motion.provenance, path=f"{digest}.bvh", sha256=digest)
     return KnowledgeBase.from_recording(replace(motion, provenance=provenance), MADE.truth)
 
 
-def same(a: KnowledgeBase, b: KnowledgeBase) -> bool:
+def are_same(a: KnowledgeBase, b: KnowledgeBase) -> bool:
     pairs = zip(a.columns().values(), b.columns().values(), strict=True)
     return np.array_equal(a.features, b.features) and all(np.array_equal(x, y) for x, y in pairs)
 
@@ -44,13 +44,13 @@ def test_labels_of_activities_are_inherited_and_suffice() -> None:
     table = MADE.truth.table
     bare = np.where(table.level == "primitive", "", table.label)
     inherited = replace(MADE.truth, table=replace(table, label=bare))
-    assert same(KnowledgeBase.from_recording(MADE.motion, inherited), BASE)
+    assert are_same(KnowledgeBase.from_recording(MADE.motion, inherited), BASE)
     only = replace(MADE.truth, table=table.select(table.level == "activity"))
     assert KnowledgeBase.from_recording(MADE.motion, only).counts() == {"kick": 1, "walk": 2}
 
 
 def test_merging_keeps_all_and_replaces_a_recording_by_its_later_labels() -> None:
-    one, two = from_file("a"), from_file("b")
+    one, two = make_base("a"), make_base("b")
     assert len(one + two) == 2 * len(BASE)
     renamed = replace(one, labels=np.full(len(one), "march"))
     assert (one + two + renamed).counts() == {"kick": 2, "march": len(BASE), "walk": 5}
@@ -58,9 +58,9 @@ def test_merging_keeps_all_and_replaces_a_recording_by_its_later_labels() -> Non
 
 
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
-    base = BASE + from_file("é")
+    base = BASE + make_base("é")
     base.save(tmp_path / "base.npz")
-    assert same(KnowledgeBase.load(tmp_path / "base.npz"), base)
+    assert are_same(KnowledgeBase.load(tmp_path / "base.npz"), base)
     with np.load(tmp_path / "base.npz", allow_pickle=False) as file:
         assert json.loads(str(file["head"]))["schema"] == "kineme.knowledge/2"
 
@@ -72,7 +72,7 @@ def test_another_suffix_or_a_missing_folder_leaves_nothing(tmp_path: Path) -> No
     assert not list(tmp_path.iterdir())
 
 
-def stored(head: object, **changed: object) -> bytes:
+def store(head: object, **changed: object) -> bytes:
     arrays = {"features": BASE.features, **BASE.columns(), **changed}
     file = io.BytesIO()
     np.savez(file, head=np.array(json.dumps(head)), **arrays)
@@ -90,15 +90,15 @@ HEAD = {
 @pytest.mark.parametrize(("content", "reason"), [
     (b"", "not a knowledge base, or is damaged"),
     (b"level,kind\n", "not a knowledge base, or is damaged"),
-    (stored({**HEAD, "schema": "kineme.knowledge/9"}), "has version 'kineme.knowledge/9'"),
-    (stored({**HEAD, "schema": "kineme.knowledge/1"}), "label its recordings again"),
-    (stored({**HEAD, "fps": 30.0}), "with fps 30.0, not 15.0"),
-    (stored([1]), "has version"),
-    (stored(HEAD, lengths=BASE.lengths + 1), "lengths add up to"),
-    (stored(HEAD, labels=BASE.labels[1:]), "same length"),
-    (stored(HEAD, labels=np.arange(len(BASE))), "labels holds int"),
-    (stored(HEAD, features=BASE.features * np.nan), "must be finite"),
-    (stored(HEAD, sources=np.array([{}] * len(BASE))), "not a knowledge base, or is damaged"),
+    (store({**HEAD, "schema": "kineme.knowledge/9"}), "has version 'kineme.knowledge/9'"),
+    (store({**HEAD, "schema": "kineme.knowledge/1"}), "label its recordings again"),
+    (store({**HEAD, "fps": 30.0}), "with fps 30.0, not 15.0"),
+    (store([1]), "has version"),
+    (store(HEAD, lengths=BASE.lengths + 1), "lengths add up to"),
+    (store(HEAD, labels=BASE.labels[1:]), "same length"),
+    (store(HEAD, labels=np.arange(len(BASE))), "labels holds int"),
+    (store(HEAD, features=BASE.features * np.nan), "must be finite"),
+    (store(HEAD, sources=np.array([{}] * len(BASE))), "not a knowledge base, or is damaged"),
 ])  # fmt: skip
 def test_a_bad_file_is_one_clear_error(tmp_path: Path, content: bytes, reason: str) -> None:
     path = tmp_path / "bad.npz"
@@ -115,7 +115,7 @@ def test_a_missing_file_says_so(tmp_path: Path) -> None:
 @settings(max_examples=60)
 @given(st.data())
 def test_any_damage_is_an_error_of_ours_or_harmless(tmp_path_factory, data: st.DataObject) -> None:
-    content = bytearray(stored(HEAD))
+    content = bytearray(store(HEAD))
     for _ in range(data.draw(st.integers(1, 4))):
         content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
     path = tmp_path_factory.mktemp("fuzz") / "base.npz"

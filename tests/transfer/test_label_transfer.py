@@ -29,22 +29,22 @@ ASKED = synthesize(
 FEATURES = transfer_features(ASKED.motion)
 
 
-def without_labels(segments: Segmentation) -> Segmentation:
+def drop_labels(segments: Segmentation) -> Segmentation:
     blank = np.full(len(segments.table), "")
     return replace(segments, table=replace(segments.table, label=blank), hierarchy=None)
 
 
-BLANK = without_labels(ASKED.truth)
+BLANK = drop_labels(ASKED.truth)
 
 
-def of_activities(segments: Segmentation) -> list[tuple[str, str]]:
+def pair_labels(segments: Segmentation) -> list[tuple[str, str]]:
     rows = zip(ASKED.truth.primitives, segments.primitives, strict=True)
     return [(truth.label, row.label) for truth, row in rows if truth.kind == "primitive"]
 
 
 def test_another_body_at_another_rate_gets_the_right_names() -> None:
     result = transfer_labels(BLANK, FEATURES, KNOWLEDGE)
-    pairs = of_activities(result)
+    pairs = pair_labels(result)
     assert {got for truth, got in pairs if truth == "squat"} == {""}  # nobody taught it
     known = [(truth, got) for truth, got in pairs if truth != "squat"]
     assert known
@@ -110,7 +110,7 @@ def test_activities_are_labelled_where_there_are_no_primitives() -> None:
     assert activities == ["jump", "walk", "", "kick"]
 
 
-def one_transition(motion: kineme.Motion) -> Segmentation:
+def make_transition(motion: kineme.Motion) -> Segmentation:
     """Make the segmentation of a recording without activities."""
     return make_activities(motion.n_frames, fps=motion.fps, kind=["transition"])
 
@@ -118,7 +118,7 @@ def one_transition(motion: kineme.Motion) -> Segmentation:
 def test_a_recording_too_short_for_activities_is_searched() -> None:
     kick = next(row for row in ASKED.truth.primitives if row.label == "kick")
     short = ASKED.motion[max(0, kick.start_frame - 12) : kick.stop_frame + 12]
-    nothing = one_transition(short)
+    nothing = make_transition(short)
     result = transfer_labels(nothing, transfer_features(short), KNOWLEDGE)
     (found,) = [row for row in result.primitives if row.kind == "primitive"]
     assert found.label == "kick"
@@ -132,7 +132,7 @@ def test_a_recording_too_short_for_activities_is_searched() -> None:
 
 def test_touching_matches_are_primitives_of_one_activity() -> None:
     walk = synthesize([Action("walk", 3)], fps=60, seed=9)
-    nothing = one_transition(walk.motion)
+    nothing = make_transition(walk.motion)
     result = transfer_labels(nothing, transfer_features(walk.motion), KNOWLEDGE)
     assert [row.label for row in result.activities if row.kind == "activity"] == ["walk"]
     assert sum(row.label == "walk" for row in result.primitives) >= 2

@@ -12,7 +12,9 @@ from kineme.transfer.matching import Primitives, compute_label_costs, number_mov
 DIMS = 3
 
 
-def naive_label_costs(unknown: Primitives, known: Primitives, codes, n_labels: int) -> np.ndarray:
+def compute_naive_label_costs(
+    unknown: Primitives, known: Primitives, codes, n_labels: int
+) -> np.ndarray:
     costs = np.full((len(unknown), n_labels), np.inf)
 
     def frames_of(side: Primitives, run: int) -> np.ndarray:
@@ -52,19 +54,19 @@ def primitives(draw: st.DrawFn, most: int = 5) -> Primitives:
 def test_equal_to_the_naive_version(unknown: Primitives, known: Primitives) -> None:
     codes = known.runs % 3
     costs = compute_label_costs(unknown, known, codes, 3, radius=1e3)
-    expected = naive_label_costs(unknown, known, codes, 3)
+    expected = compute_naive_label_costs(unknown, known, codes, 3)
     np.testing.assert_allclose(costs, expected, rtol=1e-4, atol=1e-3)  # of single precision
 
 
-def cycles(n: int, *, phase: float = 0.0, frames: int = 12) -> np.ndarray:
+def make_cycles(n: int, *, phase: float = 0.0, frames: int = 12) -> np.ndarray:
     angles = 2 * np.pi * (np.arange(n * frames) / frames + phase)
     return np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
 
 
 def test_a_cycle_cut_at_another_phase_matches_inside_a_run_only() -> None:
-    unknown = Primitives(cycles(2, phase=0.5), np.array([12, 12]), np.array([0, 0]))
+    unknown = Primitives(make_cycles(2, phase=0.5), np.array([12, 12]), np.array([0, 0]))
     for runs, cost in (([0, 0, 0], 0.0), ([0, 1, 2], np.inf)):
-        known = Primitives(cycles(3), np.array([12] * 3), np.array(runs))
+        known = Primitives(make_cycles(3), np.array([12] * 3), np.array(runs))
         found = compute_label_costs(unknown, known, np.zeros(3, int), 1, radius=0.2)
         np.testing.assert_allclose(found, cost, atol=1e-5)
 
@@ -90,6 +92,6 @@ def test_a_fragment_does_not_stand_for_its_run() -> None:
 
 def test_what_matches_through_others_is_one_movement() -> None:
     heights = (0.0, 0.2, 0.4, 3.0)
-    frames = np.concatenate([cycles(1) + [0, 0, height] for height in heights])
+    frames = np.concatenate([make_cycles(1) + [0, 0, height] for height in heights])
     four = Primitives(frames, np.array([12] * 4), np.arange(4))
     assert number_movements(four, 0.25).tolist() == [0, 0, 0, 1]

@@ -15,13 +15,13 @@ from kineme.errors import ParameterError
 from kineme.transfer.matching import BLOCK, search, warp
 
 
-def directions(n: int, seed: int, dims: int = 6) -> np.ndarray:
+def make_directions(n: int, seed: int, dims: int = 6) -> np.ndarray:
     """Make a smooth random walk on the sphere."""
     values = np.cumsum(np.random.default_rng(seed).normal(size=(n, dims)), axis=0)
     return (values / np.linalg.norm(values, axis=1, keepdims=True)).astype(np.float32)
 
 
-def at_speed(features: np.ndarray, speed: float) -> np.ndarray:
+def change_speed(features: np.ndarray, speed: float) -> np.ndarray:
     at = np.arange(0, len(features) - 1, speed)
     before, share = at.astype(int), (at % 1)[:, None]
     return (1 - share) * features[before] + share * features[before + 1]
@@ -30,7 +30,7 @@ def at_speed(features: np.ndarray, speed: float) -> np.ndarray:
 @given(st.integers(1, 12), st.integers(1, 6), st.integers(0, 99))
 @settings(max_examples=60)
 def test_equal_to_the_naive_version(n: int, m: int, seed: int) -> None:
-    recording, example = directions(n, seed), directions(m, seed + 100)
+    recording, example = make_directions(n, seed), make_directions(m, seed + 100)
     costs, starts = warp(example, recording)
     expected, begins = naive.find_warpings(cdist(recording, example))
     np.testing.assert_allclose(costs, expected, rtol=1e-5, atol=1e-3)  # float32
@@ -39,7 +39,7 @@ def test_equal_to_the_naive_version(n: int, m: int, seed: int) -> None:
 
 
 def test_a_long_recording_is_one_whatever_the_block() -> None:
-    recording = directions(2 * BLOCK + 50, 1)
+    recording = make_directions(2 * BLOCK + 50, 1)
     across = slice(BLOCK - 8, BLOCK + 12)
     found = search(recording[across], recording, threshold=0.01)
     assert (found.starts.tolist(), found.stops.tolist()) == ([across.start], [across.stop])
@@ -49,7 +49,7 @@ def test_a_long_recording_is_one_whatever_the_block() -> None:
 def test_found_at_half_to_twice_the_speed(speed: float) -> None:
     movement = np.stack([np.cos(np.arange(40) / 12), np.sin(np.arange(40) / 12)], axis=1)
     still = np.repeat([[-1.0, 0.0]], 30, axis=0)
-    performed = at_speed(movement, speed)
+    performed = change_speed(movement, speed)
     found = search(movement, np.concatenate([still, performed, still]), threshold=0.1)
     assert len(found.starts) == 1
     assert abs(found.starts[0] - 30) <= 3
@@ -71,11 +71,11 @@ def test_matches_are_apart_within_the_threshold_and_the_best_come_first() -> Non
 
 
 def test_nothing_is_found_where_the_body_is_not_seen() -> None:
-    recording = directions(100, 5)
+    recording = make_directions(100, 5)
     recording[40:60] = 0.0
-    for start, stop in zip(*search(directions(10, 6), recording)[:2], strict=True):
+    for start, stop in zip(*search(make_directions(10, 6), recording)[:2], strict=True):
         assert not (start < 60 and stop > 50)
-    assert len(search(directions(10, 6), np.zeros((200, 6))).starts) == 0
+    assert len(search(make_directions(10, 6), np.zeros((200, 6))).starts) == 0
 
 
 @pytest.mark.parametrize(
@@ -91,4 +91,4 @@ def test_nothing_is_found_where_the_body_is_not_seen() -> None:
 )
 def test_what_cannot_be_searched_is_refused(example: object, options: dict, said: str) -> None:
     with pytest.raises(ParameterError, match=said):
-        search(example, directions(50, 8), **options)
+        search(example, make_directions(50, 8), **options)

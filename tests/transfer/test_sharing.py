@@ -18,7 +18,7 @@ from kineme.transfer.embeddings import compute_channel_samples, embedding
 from kineme.transfer.sharing import share_by_samples
 
 
-def shuffled(found: kineme.Segmentation) -> kineme.Segmentation:
+def reverse_clusters(found: kineme.Segmentation) -> kineme.Segmentation:
     """Reverse the cluster numbers."""
     clusters = found.table.cluster
     turned = np.where(clusters >= 0, clusters.max() - clusters, -1)
@@ -30,7 +30,8 @@ def test_the_same_movements_get_the_same_numbers_again() -> None:
     found = kineme.segment(motion)
     other = scale(turn(motion, 1.0), 1.1)
     first, second, third = share_clusters(
-        [motion, other, motion], [found, shuffled(kineme.segment(other)), shuffled(found)]
+        [motion, other, motion],
+        [found, reverse_clusters(kineme.segment(other)), reverse_clusters(found)],
     )
     assert first.table == found.table
     assert (second.activities.cluster == found.activities.cluster).all()
@@ -68,7 +69,7 @@ def test_segments_of_another_recording_are_refused() -> None:
         share_clusters([cut(motion, 0, 100)], [found])
 
 
-def still_and_shaken(turns: list[bool], unit: float = 1.0) -> tuple:
+def make_still_and_shaken(turns: list[bool], unit: float = 1.0) -> tuple:
     """Make ten seconds of rest and of shaking, with one segment and cluster each."""
     rng = np.random.default_rng(len(turns))
     rows = [[5.0, 0.0] + (3.0 if on else 0.1) * rng.standard_normal((200, 2)) for on in turns]
@@ -87,7 +88,7 @@ def still_and_shaken(turns: list[bool], unit: float = 1.0) -> tuple:
 @pytest.mark.parametrize("told", [None, 2])
 def test_clusters_of_signals_are_alike_in_all_recordings(told: int | None) -> None:
     turns = ([True, False], [False, True, False], [False, False])
-    signals, found = zip(*map(still_and_shaken, turns), strict=True)
+    signals, found = zip(*map(make_still_and_shaken, turns), strict=True)
     shared = share_clusters(signals, found, n_clusters=told)
     still = int(shared[2].activities.cluster[0])
     for one, own, before in zip(shared, turns, found, strict=True):
@@ -99,14 +100,14 @@ def test_clusters_of_signals_are_alike_in_all_recordings(told: int | None) -> No
 
 def test_a_still_recording_is_not_stretched_to_a_moving_one() -> None:
     signals, found = zip(
-        still_and_shaken([True, True]), still_and_shaken([True, True], 0.01), strict=True
+        make_still_and_shaken([True, True]), make_still_and_shaken([True, True], 0.01), strict=True
     )
     moved, still = share_clusters(signals, found, n_clusters=2)
     assert set(moved.table.cluster.tolist()).isdisjoint(still.table.cluster.tolist())
 
 
 def test_signals_of_other_channels_share_nothing() -> None:
-    one, found = still_and_shaken([True, False])
+    one, found = make_still_and_shaken([True, False])
     other = kineme.Signals(one.values, one.fps, ["a", "b"])
     with pytest.raises(ParameterError, match="with the same channels, not 1, 2 and of a, b"):
         share_clusters([one, other], [found, found])
@@ -128,21 +129,21 @@ def test_clusters_of_signals_do_not_depend_on_the_order_of_recordings() -> None:
         assert [shared[i] for i in order] == again
 
 
-def poses(name: str, **how: float) -> np.ndarray:
+def perform(name: str, **how: float) -> np.ndarray:
     return matching_poses(synthesize([Action(name, 3, **how)], fps=60).motion)
 
 
-def apart(one: np.ndarray, other: np.ndarray) -> float:
+def measure_distance(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.linalg.norm(embedding(one) - embedding(other)))
 
 
 def test_speed_and_side_change_little_and_another_movement_much() -> None:
-    walk, kick = poses("walk"), poses("kick")
-    assert apart(walk, poses("walk", speed=1.4)) < 0.3
-    assert apart(kick, mirror_poses(kick)) < apart(kick, walk)
+    walk, kick = perform("walk"), perform("kick")
+    assert measure_distance(walk, perform("walk", speed=1.4)) < 0.3
+    assert measure_distance(kick, mirror_poses(kick)) < measure_distance(kick, walk)
     for other in ("squat", "jump", "arm circles"):
-        assert apart(walk, poses(other)) > 0.8
+        assert measure_distance(walk, perform(other)) > 0.8
 
 
 def test_a_single_pose_is_a_segment() -> None:
-    assert np.isfinite(embedding(poses("walk")[:1])).all()
+    assert np.isfinite(embedding(perform("walk")[:1])).all()
