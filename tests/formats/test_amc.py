@@ -59,18 +59,6 @@ def test_equals_the_naive_implementation(data_dir: Path, recording: str) -> None
                 assert end == pytest.approx(tip, abs=1e-9)
 
 
-@pytest.mark.parametrize("trial", ["86_01", "86_09"])
-def test_gives_the_features_of_the_authors_program(data_dir: Path, trial: str) -> None:
-    """Five tips without translation and heading, at -5, 0, 5 frames of 30 Hz, in cm."""
-    stored = np.load(data_dir / f"cmu86/reference/2014_paper_{trial}.npz")["features"]
-    motion = read(data_dir / f"cmu86/{trial}.amc")
-    tips = [motion.joint(j) for j in ("lfoot", "rfoot", "head_end", "lhand", "rhand")]
-    slow = Motion(motion.skeleton, motion.positions[::4], 30.0, motion.rotations[::4])
-    stacked = naive.stack(naive.pose_features(slow, tips), [-5, 0, 5])
-    assert stacked.T.shape == stored.shape
-    assert np.abs(100 * stacked.T - stored).max() < 0.001
-
-
 def test_values_may_come_in_any_order_and_layout(tmp_path: Path) -> None:
     plain = read(pair(tmp_path))
     swapped = AMC.replace("back 5.5 6 7\nleg 10 11.5 12", "leg 10 11.5 12\n# why not\nback 5.5 6 7")

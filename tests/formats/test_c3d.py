@@ -15,7 +15,6 @@ from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
-from kineme.recordings.operations import split_at_gaps
 from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
 
@@ -156,7 +155,7 @@ def test_what_the_file_does_not_say_is_inferred_and_said(tmp_path: Path) -> None
 
 def test_gaps(tmp_path: Path) -> None:
     points = POINTS.copy()
-    c7, t10, ankle = (PLUG_IN_GAIT.index(name) for name in ("C7", "T10", "RANK"))
+    c7, t10 = (PLUG_IN_GAIT.index(name) for name in ("C7", "T10"))
     points[10:30, c7] = np.nan  # 0.2 s: filled
     filled = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
     wanted = walking()[:, c7]
@@ -165,15 +164,6 @@ def test_gaps(tmp_path: Path) -> None:
     points[10:31, t10] = np.nan  # longer: left out
     with pytest.warns(KinemeWarning, match=r"T10 \(frames 10 to 30\)"):
         assert "T10" not in read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT)).skeleton.names
-    points = z_up_millimetres(walking(120))
-    points[30:60, ankle] = np.nan  # longer, and the body needs it: the recording is split
-    with pytest.warns(KinemeWarning, match=r"frames 30 to 59 \(0.30 s\), for gaps .* RANK: the"):
-        broken = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
-    assert broken.gaps == ((30, 60),)
-    assert [(start, part.n_frames) for start, part in split_at_gaps(broken)] == [(0, 30), (60, 60)]
-    seen = np.r_[0:30, 60:120]
-    wanted = walking(120)[seen, ankle]
-    assert np.abs(broken.positions[seen, broken.joint("right_ankle")] - wanted).max() < 1e-4
 
 
 def test_markers_without_gaps_make_the_body_where_they_can(tmp_path: Path) -> None:
@@ -252,15 +242,6 @@ def test_the_same_take_in_three_encodings(data_dir: Path) -> None:
     assert intel.events == sgi.events == ((2.72, "RIC"), (5.4, "RHS"), (7.32, "RTO"))
 
 
-@pytest.mark.parametrize("name", REAL)
-@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
-def test_real_files_load(data_dir: Path, name: str) -> None:
-    motion = kineme.read(data_dir / "formats" / f"{name}.c3d")
-    assert motion.n_frames > 80
-    # Metres: a whole body, or the foot and knee of walkingOptiTrack.
-    assert 0.2 < np.median(np.ptp(motion.positions, axis=1).max(axis=1)) < 2.5
-
-
 ANALOG = np.random.default_rng(0).standard_normal((60, 4, 6))
 
 
@@ -312,3 +293,11 @@ def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
     muscle = ANALOG[:, :, 1]
     ends = np.stack([muscle.min(axis=1), muscle.max(axis=1)], axis=1)
     np.testing.assert_allclose(np.frombuffer(tile, "<f4").reshape(-1, 2), ends, rtol=1e-5)
+
+
+def test_analog_channels_without_a_rate_of_their_own() -> None:
+    """ezc3d#52: Xsens leaves out ANALOG:RATE."""
+    analog = np.zeros((60, 4, 2))
+    file = parse(c3d_bytes(POINTS, PLUG_IN_GAIT, analog=analog))
+    assert file.parameters.number("ANALOG", "RATE", default=-1.0) == -1.0
+    assert file.analog_rate == 400

@@ -15,32 +15,15 @@ from hypothesis import strategies as st
 from pyarrow import parquet
 from scipy.io import savemat
 
-from kineme import Motion, Signals, bundled_recording, read, segment
+from kineme import Motion, Signals, bundled_recording, read
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.dialects import hold_channels
-
-MOT = (
-    "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees=yes\n\nendheader\n"
-    "time\tknee_angle_r\thip_flexion_r\n"
-)
-
 
 def write(folder: Path, name: str, text: str) -> Path:
     path = folder / name
     path.write_text(text, encoding="utf-8")
     return path
-
-
-def test_a_table_of_a_phone(tmp_path) -> None:
-    rows = "".join(f"{i},{i * 10},walk,{i}.5,{-i},9.8\n" for i in range(20))
-    text = "sample,time_ms,activity,acc_x,acc_y,acc_z\n" + rows
-    signals = read(write(tmp_path, "phone.csv", text))
-    assert signals.names == ("acc_x", "acc_y", "acc_z")
-    assert signals.fps == pytest.approx(100)
-    assert signals.values[3].tolist() == [3.5, -3, 9.8]
-    assert signals.provenance.notes == ("columns that are not channels: sample, activity",)
-    assert signals.provenance.format == "table"
 
 
 SPREADSHEET = "time;acc_x;acc_y\n" + "".join(f"{i / 50:.2f};{i % 7}.5;-0.25\n" for i in range(9))
@@ -90,12 +73,6 @@ def test_decimal_commas_are_those_of_numbers_alone(tmp_path) -> None:
         read(path)
 
 
-def test_names_as_windows_writes_them(tmp_path) -> None:
-    path = tmp_path / "a.csv"
-    path.write_bytes("time,Größe (m/s²)\n0,1\n0.1,2\n".encode("cp1252"))
-    assert read(path).names == ("Größe (m/s²)",)
-
-
 def test_a_first_row_with_holes_is_no_line_of_units(tmp_path) -> None:
     text = "time,acc,said\n,nan,walk\n0.1,1,walk\n0.2,2,run\n0.3,3,run\n"
     signals = read(write(tmp_path, "a.csv", text))
@@ -111,31 +88,6 @@ def test_clocks_and_labels_under_other_names_are_no_channels(tmp_path) -> None:
     assert signals.names == ("acc",)
     assert signals.provenance.notes == ("columns that are not channels: Zeit (s), label",)
     assert read(path, fps=50, columns=["Zeit (s)"]).names == ("Zeit (s)",)
-
-
-def test_times_that_are_not_understood_are_named(tmp_path) -> None:
-    rows = [f"half past {i},{i % 7}\n" for i in range(9)]
-    path = write(tmp_path, "a.csv", "Timestamp,acc\n" + "".join(rows))
-    with pytest.raises(ReadError, match="'Timestamp' holds neither numbers nor ISO dates"):
-        read(path)
-
-
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("a.csv", "# by a logger\na,b\n1,2\n3,4\n"),
-        ("a.tsv", "a\tb\n1\t2\n3\t4\n"),
-        ("a.txt", "a;b\n1;2\n3;4\n"),
-        ("a.dat", "a   b\n 1.0  2.0\n 3.0  4.0\n"),
-        ("a.csv", '"a","b"\n1,2\n3,4\n'),
-        ("a.csv", "\ufeffa,b\r\n1,2\r\n3,4\r\n"),
-    ],
-)
-def test_dialects(tmp_path, name, text) -> None:
-    signals = read(write(tmp_path, name, text), fps=50)
-    assert signals.names == ("a", "b")
-    assert signals.values.tolist() == [[1, 2], [3, 4]]
-    assert signals.fps == 50
 
 
 @pytest.mark.parametrize(
@@ -379,16 +331,6 @@ def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None
         assert read(path).n_frames == 40
 
 
-def test_opensim_tables(tmp_path) -> None:
-    path = write(tmp_path, "a.mot", MOT + "0.0\t1\t2\n0.01 3   4\n0.02\t5\t6\n")
-    signals = read(path)
-    assert signals.names == ("knee_angle_r", "hip_flexion_r")
-    assert signals.fps == pytest.approx(100)
-    assert signals.values.tolist() == [[1, 2], [3, 4], [5, 6]]
-    assert signals.provenance.format == "MOT/STO"
-    assert isinstance(signals, Signals)
-
-
 def test_parquet(tmp_path) -> None:
     table = pa.table({"time": [0, 0.5, 1], "a": [1, 2, 3], "who": list("xyz"), "b": [4.0, 5, 6]})
     parquet.write_table(table, tmp_path / "a.parquet")
@@ -399,10 +341,6 @@ def test_parquet(tmp_path) -> None:
     assert signals.provenance.notes == ("columns that are not channels: who",)
     with pytest.raises(ReadError, match="cannot be read as numbers"):
         read(tmp_path / "a.parquet", columns=["who"])
-    data = (tmp_path / "a.parquet").read_bytes()
-    (tmp_path / "b.parquet").write_bytes(data[: len(data) // 2])
-    with pytest.raises(ReadError, match="is damaged"):
-        read(tmp_path / "b.parquet")
 
 
 @pytest.mark.parametrize(
@@ -460,34 +398,13 @@ def test_odd_tables_are_read_or_refused(tmp_path_factory, text) -> None:
 def test_real_channels(data_dir) -> None:
     mot = read(data_dir / "formats" / "subject01_walk_IK.mot")
     assert (mot.n_frames, mot.n_channels, mot.fps) == (151, 10, 60)
-    files = [
-        read(data_dir / "formats" / f"Eb015{kind}.c3d", columns=()) for kind in ("pi", "pr", "si")
-    ]
-    assert files[0].names[:3] == ("FX1", "FY1", "FZ1")
-    assert files[0].values.shape == (1800, 16)
-    assert files[0].fps == 200
-    for other in files[1:]:
-        assert np.abs(other.values - files[0].values).max() < 1e-3 * np.abs(files[0].values).max()
+    plates = read(data_dir / "formats" / "Eb015pi.c3d", columns=())
+    assert (plates.names[:3], plates.fps) == (("FX1", "FY1", "FZ1"), 200)
+    assert plates.values.shape == (1800, 16)
     with pytest.raises(ReadError, match=r"which analog .* muscles.* FX1, .*, CH15, CH16"):
         read(data_dir / "formats" / "Eb015pr.c3d", emg=True)
     with pytest.raises(ReadError, match="holds no analog channels"):
         read(data_dir / "cmu_formats" / "02_01.c3d", columns=())
-
-
-@pytest.mark.parametrize("name", ["WalkJogRun1", "WalkJogRun2"])
-def test_walking_jogging_and_running(data_dir, name) -> None:
-    """Change points 3800 and 6800 (UTSA archive), from one accelerometer channel.
-
-    Three actions, and each change at a border, give or take 3 s, or in the transition between.
-    """
-    signals = read(data_dir / "timeseries" / f"{name}.txt", fps=100)
-    found = segment(signals)
-    walk, jog, run = found.per_frame(level="activity")[[2000, 5300, 8500]]
-    assert len({walk, jog, run} - {-1}) == 3
-    kinds = found.per_frame("kind", level="activity")
-    for change in (3800, 6800):
-        near = np.abs(found.cuts() - change).min() <= 300
-        assert near or kinds[change] == "transition"
 
 
 def test_columns_are_chosen_by_wildcards(tmp_path) -> None:

@@ -9,11 +9,6 @@ import pytest
 from test_capture_tables import nexus
 
 import kineme
-from kineme.errors import KinemeWarning
-from kineme.formats.dialects import DIALECTS, Dialect
-from kineme.formats.files import FileContent
-from kineme.formats.listing import scan_folder
-from kineme.formats.sniffing import sniff
 
 ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
 
@@ -82,45 +77,3 @@ def test_capture_tables_may_be_saved_again_by_a_spreadsheet(tmp_path: Path, enco
     motion = kineme.read(path)
     assert motion.provenance.format == "Nexus table"
     assert "head" in motion.skeleton.names
-
-
-def test_what_was_sniffed_is_there_to_look_at() -> None:
-    content = FileContent(Path("a.csv"), text("Logger", "t;a;b;c", separator=";").encode())
-    table = sniff(content)
-    assert table.names == ["t", "a", "b", "c"]
-    assert (table.head, table.first_row, table.separator) == (1, 2, ";")
-    assert table.find_numeric_columns() == table.names
-    assert table.remarks == ("1 line above the names skipped",)
-    bare = sniff(FileContent(Path("a.csv"), text().encode()))
-    assert bare.is_headless
-    assert bare.number_columns().names == ["1", "2", "3", "4"]
-    np.testing.assert_array_equal(bare.number_columns().numbers(), ROWS)
-
-
-def test_a_dialect_that_cannot_tell_its_files_costs_itself_only(tmp_path: Path) -> None:
-    def recognises(names, lines):
-        raise KeyError(names[0])
-
-    DIALECTS.register(Dialect("broken", recognises, lambda table, options: None))
-    path = tmp_path / "a.csv"
-    path.write_text(text("time,acc_x,acc_y,acc_z"))
-    try:
-        with pytest.warns(
-            KinemeWarning, match="broken was skipped, since it failed to recognise files"
-        ):
-            assert kineme.read(path).n_frames == len(ROWS)
-    finally:
-        DIALECTS.remove("broken")
-
-
-@pytest.mark.parametrize(
-    "head",
-    ["start_s;stop_s;label", "start_s\tstop_s\tlabel", "Observer,Ann\nstart_s,stop_s,label,n"],
-)
-def test_a_folder_passes_over_tables_of_spans_in_any_layout(tmp_path: Path, head: str) -> None:
-    names = head.splitlines()[-1]
-    separator = next(mark for mark in ";\t," if mark in names)
-    row = separator.join(["0.5", "1.5", "walk", "3"][: names.count(separator) + 1])
-    (tmp_path / "labels.csv").write_text(f"{head}\n{row}\n{row}\n{row}\n")
-    (tmp_path / "take.csv").write_text(text("time,acc_x,acc_y,acc_z"))
-    assert [path.name for path in scan_folder(tmp_path).recordings] == ["take.csv"]

@@ -14,6 +14,7 @@ from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
 import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats.dialects import DIALECTS, Dialect
+from kineme.recordings.times import parse_date
 
 N, FPS = 300, 50
 VALUES = np.round(np.sin(np.arange(N)[:, None] / [7, 5, 3]), 4)
@@ -233,11 +234,6 @@ def test_columns_are_chosen_from_signals_that_a_dialect_reads(tmp_path: Path) ->
         read(tmp_path, text, columns=["z"])
 
 
-def test_the_clock_is_found_beside_the_columns_that_are_asked_for(tmp_path: Path) -> None:
-    signals = read(tmp_path, FILES["a clock under its own name"], columns=["Y"])
-    assert (signals.names, signals.fps) == (("Y",), FPS)
-
-
 def test_a_rate_that_the_header_tells_is_said(tmp_path: Path) -> None:
     signals = read(tmp_path, FILES["ActiGraph"])
     assert "50 Hz, from a line above the columns" in signals.provenance.notes
@@ -276,11 +272,6 @@ def test_one_day_beyond_the_twelfth_tells_the_order(tmp_path: Path) -> None:
     lines = [f"{at:%d/%m/%Y %H:%M:%S},{i % 7}" for i, at in enumerate(times)]
     signals = read(tmp_path, "Timestamp,X\n" + "\n".join(lines) + "\n")
     assert (signals.fps, signals.gaps, signals.provenance.notes) == (1, (), ())
-
-
-def test_names_of_another_number_than_cells_are_still_an_error(tmp_path: Path) -> None:
-    with pytest.raises(ReadError, match="line 2: 4 cells, but 2 columns"):
-        read(tmp_path, "time,X\n" + rows(",", counted(0.02)))
 
 
 @pytest.mark.parametrize("titled", [False, True])
@@ -337,3 +328,16 @@ def test_names_in_two_lines(tmp_path: Path) -> None:
     assert signals.provenance.notes == ("columns that are not channels: (no name)",)
     toes = read(tmp_path, "frame,L_TOE,L_TOE,L_TOE\n,x,y,z\n" + lines, fps=FPS, unit="mm")
     assert "L_TOE" in toes.skeleton.names
+
+
+def test_a_leap_second(tmp_path: Path) -> None:
+    assert parse_date("2016-12-31T23:59:60.5Z") == parse_date("2017-01-01T00:00:00.5Z")
+    assert parse_date("23:59:60") == 86400
+    assert parse_date("T09:30:00") == parse_date("09:30:00") == 34200
+    with pytest.raises(ValueError, match="is not an ISO date"):
+        parse_date("23:59:61")
+    seconds = [58.0, 58.5, 59.0, 59.5, 60.0, 60.5]
+    rows = "".join(f"2016-12-31T23:59:{second:04.1f}Z,{i}.5\n" for i, second in enumerate(seconds))
+    (tmp_path / "a.csv").write_text("time,acc_x\n" + rows)
+    found = kineme.read(tmp_path / "a.csv")
+    assert (found.fps, found.n_frames, found.gaps) == (2, 6, ())

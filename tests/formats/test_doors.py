@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from format_samples import BVH
 import kineme
 from kineme.errors import MotionError, ParameterError, ReadError
 from kineme.formats import registry
-from kineme.labels import registry as label_registry
+from kineme.formats.listing import scan_folder
+from kineme.labels import registry as labels
 
 
 class SurprisingError(Exception):
@@ -23,29 +25,20 @@ def surprise(*_: object) -> None:
     raise SurprisingError("deep inside")
 
 
-def test_surprises_of_a_reader(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+@pytest.mark.parametrize(
+    ("known", "odd", "read"),
+    [
+        (registry, registry.Format("odd", (".odd",), lambda _: False, surprise), kineme.read),
+        (labels, labels.LabelFormat("odd", "", (".odd",), "all", surprise), kineme.read_segments),
+    ],
+)
+def test_surprises_of_a_reader(tmp_path: Path, request, known, odd, read) -> None:
     path = tmp_path / "a.odd"
     path.write_text("anything")
-    odd = registry.Format("odd", (".odd",), lambda _: False, surprise)  # type: ignore[arg-type]
-    registry.register(odd)
-    request.addfinalizer(lambda: registry.FORMATS.remove("odd"))
-    with pytest.raises(
-        ReadError, match=r"a\.odd: cannot be read, it may be damaged.*deep inside"
-    ) as caught:
-        kineme.read(path)
-    assert isinstance(caught.value.__cause__, SurprisingError)
-
-
-def test_surprises_of_a_reader_of_labels(tmp_path: Path, request: pytest.FixtureRequest) -> None:
-    path = tmp_path / "a.odd"
-    path.write_text("anything")
-    odd = label_registry.LabelFormat("odd", "", (".odd",), "all", surprise)  # type: ignore[arg-type]
-    label_registry.register(odd)
-    request.addfinalizer(lambda: label_registry.FORMATS.remove("odd"))
-    with pytest.raises(
-        ReadError, match=r"a\.odd: cannot be read, it may be damaged.*deep inside"
-    ) as caught:
-        kineme.read_segments(path)
+    known.register(odd)
+    request.addfinalizer(lambda: known.FORMATS.remove("odd"))
+    with pytest.raises(ReadError, match=r"a\.odd: cannot be read, .*deep inside") as caught:
+        read(path)
     assert isinstance(caught.value.__cause__, SurprisingError)
 
 
@@ -73,3 +66,14 @@ def test_values_that_no_body_or_clock_has(tmp_path: Path) -> None:
         kineme.Motion(body, np.zeros((3, 1, 3)), 1e-300)
     with pytest.raises(ParameterError, match="too large for a sensor"):
         kineme.Signals([[1e300], [0.0]], 50)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+@pytest.mark.parametrize("suffix", [".bvh", ".csv", ".json", ".npz"])
+def test_a_pipe_is_not_waited_for(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"a{suffix}"
+    os.mkfifo(path)
+    for reader in (kineme.read, kineme.read_segments, kineme.KnowledgeBase.load):
+        with pytest.raises(ReadError, match="is a pipe|are stored as"):
+            reader(path)
+    assert scan_folder(tmp_path).recordings == []

@@ -94,10 +94,6 @@ def test_openpose_in_one_file(tmp_path: Path) -> None:
     assert np.array_equal(motion.positions, numbered.positions)
     one = read(tmp_path, "c.json", frames[0], fps=25)
     assert one.n_frames == 1
-    solid = [openpose_frame(p, key="pose_keypoints_3d") for p in standing(OPENPOSE[25])]
-    motion = read(tmp_path, "d.json", solid, fps=25)
-    assert stands(motion)
-    assert waves(motion) == pytest.approx(0.8, abs=0.05)
 
 
 def test_openpose_in_space_is_taken_where_it_is_there(tmp_path: Path) -> None:

@@ -28,17 +28,6 @@ def test_names_made_unique_are_those_of_the_plain_way(names: list[str]) -> None:
     assert make_unique(names) == given_
 
 
-def test_many_names() -> None:
-    def alike(n: int) -> None:
-        assert len(set(make_unique(["a"] * n))) == n
-
-    def numbered(n: int) -> None:
-        assert make_unique(map(str, range(n)))[-1] == f"{n - 1}"
-
-    assert times_longer(alike, 3 * N) < LINEAR
-    assert times_longer(numbered, 3 * N) < LINEAR
-
-
 def test_many_bones(tmp_path: Path) -> None:
     def read(n: int) -> None:
         bones = "".join(f"begin\nname b{i}\ndirection 0 1 0\nlength 1\nend\n" for i in range(n))

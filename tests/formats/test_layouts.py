@@ -84,13 +84,6 @@ def test_labels_are_no_recording(tmp_path: Path, name: str, text: str) -> None:
     assert spans == [(1.2, 5.9)]
 
 
-def test_boris_names_the_points_that_it_leaves_out(tmp_path: Path) -> None:
-    path = tmp_path / "take.csv"
-    path.write_text(BORIS)
-    with pytest.warns(kineme.KinemeWarning, match=r"left out: clap \(1\)"):
-        kineme.read_segments(path, fps=10)
-
-
 def test_ultralytics_people_by_frame(tmp_path: Path) -> None:
     """A frame without anybody keeps its place."""
     x = [100.0 + 10 * (i % 3) for i in range(17)]

@@ -35,6 +35,8 @@ def archive(path: Path, *names: str) -> Path:
         ("imu.csv", "time,acc_x\n0,1\n", True),
         ("nameless.csv", "0.5,0.25\n", True),
         ("labels.csv", "start_s,stop_s,label\n0,1,a\n", False),
+        ("labels.csv", "start_s;stop_s;label\n" + "0.5;1.5;walk\n" * 3, False),
+        ("labels.csv", "Observer,Ann\nstart_s,stop_s,label\n" + "0.5,1.5,walk\n" * 3, False),
         ("labels.tsv", "\ufeffonset\tduration\n", False),
         ("readme.txt", "time went by\n", False),
         ("take.txt", "acc_x\tacc_y\n" + "0.1\t0.2\n" * 20, True),  # nothing tells its rate
@@ -155,17 +157,6 @@ def test_a_numbered_json_beside_recordings_is_no_frame(tmp_path: Path) -> None:
     (tmp_path / "notes_1.json").write_text('{"who": "me"}', encoding="utf-8")
     found = scan_folder(tmp_path)
     assert (found.recordings, found.passed_over) == ([tmp_path / "walk.bvh"], [])
-
-
-def test_files_known_by_their_suffix_are_not_opened(tmp_path: Path, monkeypatch) -> None:
-    for i in range(5):
-        (tmp_path / f"{i}.bvh").write_text("", encoding="utf-8")
-
-    def never(*_: object) -> bytes:
-        raise AssertionError("opened")
-
-    monkeypatch.setattr(Path, "open", never)
-    assert len(scan_folder(tmp_path).recordings) == 5
 
 
 def test_archives_that_are_none_are_not_listed_as_zip(tmp_path: Path) -> None:

@@ -94,25 +94,8 @@ def long_bvh(folder: Path) -> Path:
     return path
 
 
-def long_amc(folder: Path) -> Path:
-    (folder / "long.asf").write_text(
-        ":units\nlength 1\nangle deg\n:root\norder TX TY TZ RX RY RZ\naxis XYZ\n"
-        "position 0 0 0\norientation 0 0 0\n:bonedata\n"
-        "begin\nname a\ndirection 0 1 0\nlength 30\naxis 0 0 0 XYZ\ndof rx ry rz\nend\n"
-        "begin\nname b\ndirection 0 1 0\nlength 30\naxis 0 0 0 XYZ\ndof rx ry rz\nend\n"
-        ":hierarchy\nbegin\nroot a\na b\nend\n"
-    )
-    path = folder / "long.amc"
-    frames = (f"{i}\nroot 1 2 3 4 5 6\na 7 8 9\nb 1 2 3\n" for i in range(1, FRAMES + 1))
-    path.write_text(":FULLY-SPECIFIED\n:DEGREES\n" + "".join(frames))
-    return path
-
-
-@pytest.mark.parametrize("make", [long_bvh, long_amc])
-def test_long_recordings_hold_little_more_than_themselves(
-    tmp_path: Path, make: Callable[[Path], Path]
-) -> None:
-    path = make(tmp_path)
+def test_a_long_recording_holds_little_more_than_itself(tmp_path: Path) -> None:
+    path = long_bvh(tmp_path)
     kineme.read(path)  # which imports
     tracemalloc.start()
     motion = kineme.read(path)

@@ -8,39 +8,22 @@ from typing import Any
 import numpy as np
 import pytest
 from keypoint_samples import write_trc
-from marker_samples import c3d_bytes
+from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking
 
 import kineme
 from kineme.errors import KinemeWarning
 from kineme.formats import ReadOptions, read_quietly
 
 FPS, FRAMES = 100.0, 400
-REST = {
-    "LASI": (0.12, 1.0, 0.1),
-    "RASI": (-0.12, 1.0, 0.1),
-    "LPSI": (0.05, 1.02, -0.1),
-    "RPSI": (-0.05, 1.02, -0.1),
-    "LANK": (0.1, 0.1, 0.0),
-    "RANK": (-0.1, 0.1, 0.0),
-    "LFHD": (0.07, 1.7, 0.1),
-    "RFHD": (-0.07, 1.7, 0.1),
-    "LWRA": (0.4, 0.9, 0.0),
-    "RWRA": (-0.4, 0.9, 0.0),
-}
-NAMES = list(REST)
+NAMES = PLUG_IN_GAIT
 TURNS = {"y": [0, 1, 2], "z": [2, 0, 1], "x": [1, 2, 0]}
 """For each axis that is up, the axes of y-up positions in its order."""
 
 
 def walker(*, head: bool = True) -> np.ndarray:
     """Return markers of somebody who walks along z with swinging arms, metres with y up."""
-    times = np.arange(FRAMES) / FPS
-    points = np.repeat(np.array([*REST.values()])[None], FRAMES, axis=0)
-    points[:, :, 2] += 1.2 * times[:, None]
-    swing = 0.3 * np.sin(2 * np.pi * times)
-    for name, sign in (("LWRA", 1), ("RWRA", -1), ("LANK", -1), ("RANK", 1)):
-        points[:, NAMES.index(name), 2] += sign * swing
-    return points if head else points[:, [i for i, n in enumerate(NAMES) if "FHD" not in n]]
+    points = walking(FRAMES, FPS)
+    return points if head else points[:, [i for i, n in enumerate(NAMES) if "HD" not in n]]
 
 
 def write_csv(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
@@ -88,10 +71,10 @@ def height(motion: Any, upper: str) -> float:
 @pytest.mark.parametrize("suffix", WRITERS)
 def test_the_up_axis_is_that_of_the_body(tmp_path: Path, suffix: str, up: str, head: bool) -> None:
     points = walker(head=head)
-    names = NAMES if head else [name for name in NAMES if "FHD" not in name]
+    names = NAMES if head else [name for name in NAMES if "HD" not in name]
     turned = points[:, :, TURNS[up]]
     motion = read_quietly(WRITERS[suffix](tmp_path / f"a{suffix}", turned, names))
-    part, expected = ("head", 1.6) if head else ("pelvis", 0.91)
+    part, expected = ("head", 1.55) if head else ("pelvis", 0.9)
     assert height(motion, part) == pytest.approx(expected, abs=0.02)
 
 
@@ -99,7 +82,7 @@ def test_the_up_axis_is_that_of_the_body(tmp_path: Path, suffix: str, up: str, h
 def test_a_c3d_that_names_another_up_axis_is_warned_of(tmp_path: Path, stated: str) -> None:
     path = write_c3d(tmp_path / "a.c3d", walker()[:, :, TURNS["z"]], NAMES, up=stated)
     motion = read_quietly(path)
-    assert height(motion, "head") == pytest.approx(1.6, abs=0.02)
+    assert height(motion, "head") == pytest.approx(1.55, abs=0.02)
     assert [f"the file names {stated}" in each for each in motion.provenance.warnings] == (
         [] if stated == "z" else [True]
     )
@@ -175,12 +158,12 @@ def test_markers_of_one_bone_that_are_exchanged_are_warned_of(tmp_path: Path) ->
 def test_a_body_of_a_kilometre_is_of_another_unit(tmp_path: Path) -> None:
     path = write_trc(tmp_path / "a.trc", 1000 * walker(), NAMES, "m", FPS)
     with pytest.warns(
-        KinemeWarning, match=r"unit m, the points spread over 16\d\d m: mm assumed \(1\.6\d m\)"
+        KinemeWarning, match=r"unit m, the points spread over 1550 m: mm assumed \(1\.55 m\)"
     ):
         motion = kineme.read(path)
-    assert height(motion, "head") == pytest.approx(1.6, abs=0.02)
-    assert height(kineme.read(path, unit="m"), "head") == pytest.approx(1600, abs=20)
-    assert height(kineme.read(path, unit="mm"), "head") == pytest.approx(1.6, abs=0.02)
+    assert height(motion, "head") == pytest.approx(1.55, abs=0.02)
+    assert height(kineme.read(path, unit="m"), "head") == pytest.approx(1550, abs=20)
+    assert height(kineme.read(path, unit="mm"), "head") == pytest.approx(1.55, abs=0.02)
 
 
 def test_a_body_that_lies_is_warned_of(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import pytest
 from pyarrow import parquet
 
 import kineme
-from kineme.errors import ReadError, SeveralPeopleError
+from kineme.errors import ReadError
 from kineme.formats.keypoints.mediapipe import NAMES
 from kineme.formats.keypoints.poses import KEY
 from kineme.formats.listing import scan_folder
@@ -36,12 +36,6 @@ def test_others_can_read_it(tmp_path: Path) -> None:
     np.testing.assert_allclose(table["time"], AT_30_HZ)
     assert table["left_knee_confidence"][0].as_py() == pytest.approx(0.9)
     assert table["left_knee_u"][0].as_py() == pytest.approx(340)
-
-
-def test_squats_are_counted(tmp_path: Path) -> None:
-    motion = kineme.read(write_squats(tmp_path / "poses.parquet", np.arange(600) / 30))
-    found = kineme.segment(motion).to_dataframe()
-    assert len(found[(found.level == "primitive") & (found.kind == "primitive")]) in (9, 10)
 
 
 def test_variable_rates_keep_their_times(tmp_path: Path) -> None:
@@ -72,20 +66,6 @@ def test_jitter_is_filtered(tmp_path: Path) -> None:
     assert steps.mean() < 0.02  # without a filter .07
     assert np.ptp(knee[:, 2]) > 0.38
     assert any("Butterworth" in note for note in motion.provenance.notes)
-
-
-def test_several_people_are_chosen_from(tmp_path: Path) -> None:
-    """Whatever their order in a frame, people stay who they are."""
-
-    def two(time: float) -> list[Pose]:
-        poses = [squat(time, 200), squat(0, 500)]
-        return poses[:: 1 if round(30 * time) % 2 else -1]
-
-    path = write_squats(tmp_path / "a.parquet", AT_30_HZ, two)
-    with pytest.raises(SeveralPeopleError, match="choose one with person="):
-        kineme.read(path)
-    moved = [np.ptp(kineme.read(path, person=who).positions[:, :, 1], axis=0).max() for who in "01"]
-    assert sorted(np.round(moved, 1)) == [0.0, 0.4]
 
 
 def test_without_depth_it_is_the_picture(tmp_path: Path) -> None:

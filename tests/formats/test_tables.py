@@ -12,7 +12,6 @@ import pytest
 from format_samples import motions
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from marker_samples import PLUG_IN_GAIT, walking
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
@@ -75,15 +74,6 @@ def test_rates_of_tables(tmp_path: Path) -> None:
             read(tmp_path, "a.csv", table(body(), **columns))
 
 
-def test_rows_that_were_lost_are_filled_in(tmp_path: Path) -> None:
-    at = np.r_[0:8, 10:30] / 25
-    points = body(30)
-    motion = read(tmp_path, "a.csv", table(points[np.r_[0:8, 10:30]], time=at.tolist()))
-    assert (motion.n_frames, motion.fps, motion.gaps) == (30, 25, ())
-    assert np.allclose(motion.positions, points)
-    assert any("times are uneven" in note for note in motion.provenance.notes)
-
-
 def test_a_pause_is_a_gap_of_a_motion(tmp_path: Path) -> None:
     at = np.arange(40) / 25 + 2.0 * (np.arange(40) >= 15)
     motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
@@ -113,15 +103,6 @@ def test_times_that_nobody_can_read(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match=r"line 2: column 'time' holds neither .* \(--fps\)"):
         read(tmp_path, "a.csv", text)
     assert read(tmp_path, "a.csv", text, fps=25).fps == 25
-
-
-@pytest.mark.parametrize(("factor", "unit"), [(1e3, "milli"), (1e6, "micro"), (1e9, "nano")])
-def test_times_in_another_unit_are_told(tmp_path: Path, factor: float, unit: str) -> None:
-    text = table(body(), time=[f"{i / 25 * factor:.0f}" for i in range(20)])
-    with pytest.warns(
-        KinemeWarning, match=f"time is read in {unit}seconds, inferred from its steps"
-    ):
-        assert read(tmp_path, "a.csv", text).fps == 25
 
 
 def test_units_in_the_names_of_columns(tmp_path: Path) -> None:
@@ -405,18 +386,12 @@ def test_positions_round_trip(suffix: str, fps: float, frames: int) -> None:
     assert np.abs(again.positions - motion.positions).max() < 1e-8
 
 
-@pytest.mark.parametrize("name", ["subject01_walk.trc", "markers.trc"])
-@pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
-def test_real_trc(data_dir: Path, name: str) -> None:
-    motion = kineme.read(data_dir / "formats" / name)
-    assert motion.n_frames > 90
-    if name == "subject01_walk.trc":
-        assert kineme.pose_features(motion)[:, 7].mean() == pytest.approx(0.65, abs=0.1)
-
-
-def test_a_walk_of_markers_has_the_size_of_a_person() -> None:
-    from kineme.features import end_effectors, measure_body_size
-    from kineme.formats.points import Points, to_motion
-
-    motion = to_motion(Points(PLUG_IN_GAIT, walking(), 100, "m", "y"), kineme.Provenance())
-    assert 1.4 < measure_body_size(motion, end_effectors(motion)) < 1.8
+def test_what_kineme_wrote_keeps_its_unit_whatever_is_said_of_its_axis(tmp_path: Path) -> None:
+    motion = kineme.read(kineme.bundled_recording())[:30]
+    kineme.write(motion, tmp_path / "own.npz")
+    for options in ({"up": "y"}, {"unit": "m"}, {"unit": "m", "up": "y"}):
+        found = kineme.read(tmp_path / "own.npz", **options)
+        assert (found.positions == motion.positions).all()
+        assert found.rotations is not None
+    turned = kineme.read(tmp_path / "own.npz", up="z")
+    assert not any("unit" in note for note in turned.provenance.notes)

@@ -12,7 +12,7 @@ from kineme import Signals
 from kineme.clips.split import write_clips
 from kineme.errors import WriteError
 from kineme.formats import write
-from kineme.segments.segmentation import Segmentation
+from segmentations import make_activities
 
 VALUES = np.random.default_rng(0).normal(size=(30, 2))
 TIMES = [f"{i / 50}" for i in range(30)]
@@ -85,9 +85,7 @@ def test_few_rows(tmp_path: Path, n: int, suffix: str, names: list[str]) -> None
 def test_a_clip_of_one_row(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text(FILES[name])
     signals = kineme.read(tmp_path / name, fps=50)
-    columns = {"level": ["activity"] * 3, "kind": ["activity"] * 3}
-    columns |= {"start_frame": [0, 5, 6], "stop_frame": [5, 6, 30]}
-    rows = list(Segmentation.from_columns(columns, n_frames=30, fps=50))
+    rows = list(make_activities(5, 6, 30, fps=50))
     for row, clip in zip(rows, write_clips([(signals, rows)], tmp_path / "clips"), strict=True):
         found = kineme.read(clip)
         assert found.fps == 50
@@ -104,7 +102,5 @@ def test_a_motion_of_one_frame(tmp_path: Path, suffix: str) -> None:
 
 @pytest.mark.parametrize(("n_frames", "fps"), [(10**9, 1e-6), (10**15, 1.0), (9, 1e9)])
 def test_what_no_label_format_can_tell_is_no_segmentation(n_frames: int, fps: float) -> None:
-    columns = {"level": ["activity"], "kind": ["activity"]}
-    columns |= {"start_frame": [0], "stop_frame": [n_frames]}
     with pytest.raises(ValueError, match="a recording cannot last|frame rate must be"):
-        Segmentation.from_columns(columns, n_frames=n_frames, fps=fps)
+        make_activities(n_frames, fps=fps)

@@ -182,36 +182,11 @@ def test_praatio_reads_what_we_write_and_we_read_both_of_its_forms(tmp_path) -> 
 
 
 def test_a_textgrid_in_utf_16_with_points_and_gaps(tmp_path) -> None:
-    text = """File type = "ooTextFile"
-Object class = "TextGrid"
-
-0
-2
-<exists>
-2
-"TextTier"
-"beats"
-0
-2
-1
-0.5
-"clap"
-"IntervalTier"
-"Bewegung"
-0
-2
-3
-0
-0.5
-""
-0.5
-1
-"Kniebeuge
-tief"
-1
-2
-""
-"""
+    points = ['"TextTier"', '"beats"', 0, 2, 1, 0.5, '"clap"']
+    spans = [0, 0.5, '""', 0.5, 1, '"Kniebeuge\ntief"', 1, 2, '""']
+    intervals = ['"IntervalTier"', '"Bewegung"', 0, 2, 3, *spans]
+    head = ['File type = "ooTextFile"', 'Object class = "TextGrid"', "", 0, 2, "<exists>", 2]
+    text = "".join(f"{line}\n" for line in [*head, *points, *intervals])
     (tmp_path / "wide.TextGrid").write_text(text, encoding="utf-16")
     back = read_segments(tmp_path / "wide.TextGrid", fps=10)
     assert back.activities.start_frame.tolist() == [0, 5, 10]
