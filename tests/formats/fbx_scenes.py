@@ -10,7 +10,7 @@ from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
 
-def motion_of(data: bytes, folder: Path, **options: object) -> Motion:
+def read_scene(data: bytes, folder: Path, **options: object) -> Motion:
     path = folder / "a.fbx"
     path.write_bytes(data)
     motion = read_quietly(path, ReadOptions(**options))  # type: ignore[arg-type]
@@ -30,7 +30,7 @@ class Bones(Scene):
             self.models[name] = parent = self.model(name, parent, kind, **said.get(name, {}))
 
 
-def one_bone(**said: object) -> Bones:
+def make_bone(**said: object) -> Bones:
     return Bones({"a": {"LclTranslation": [0.0, 1.0, 0.0]}, "b": said,
                   "c": {"LclTranslation": [0.0, 0.0, 0.5]}})  # fmt: skip
 
@@ -42,8 +42,8 @@ def animate_turn(scene: Scene, *models: int, stop: float = 1) -> None:
         scene.animate(layer, model, "R", X=Keys([0, stop], [0, 90]))
 
 
-def played(scene: Bones, folder: Path, what: str = "R", node: str = "b", **axes: Keys) -> Motion:
+def play(scene: Bones, folder: Path, what: str = "R", node: str = "b", **axes: Keys) -> Motion:
     layer = scene.layer(scene.take("take", 0, 1))
     rest = (1, 1, 1) if what == "S" else (0, 0, 0)
     scene.animate(layer, scene.models[node], what, rest, **axes)
-    return motion_of(scene.binary(), folder)
+    return read_scene(scene.binary(), folder)

@@ -21,7 +21,7 @@ _SPOTS = {
 }  # fmt: skip
 
 
-def standing(names: tuple[str, ...], frames: int = 30) -> np.ndarray:
+def make_person(names: tuple[str, ...], frames: int = 30) -> np.ndarray:
     """(frames, keypoints, 3): metres, y up, x to the left of the person, the left wrist waving."""
     points = np.zeros((frames, len(names), 3))
     for i, name in enumerate(names):
@@ -36,12 +36,12 @@ def standing(names: tuple[str, ...], frames: int = 30) -> np.ndarray:
     return points
 
 
-def pixels(points: np.ndarray, x: float = 500.0) -> np.ndarray:
+def project(points: np.ndarray, x: float = 500.0) -> np.ndarray:
     """(frames, keypoints, 2): as a camera in front sees them, 300 pixels to the metre."""
     return np.stack([x + 300 * points[..., 0], 900 - 300 * points[..., 1]], axis=-1)
 
 
-def openpose_frame(*people: np.ndarray, sure: float = 0.8, key: str = "pose_keypoints_2d") -> dict:
+def make_frame(*people: np.ndarray, sure: float = 0.8, key: str = "pose_keypoints_2d") -> dict:
     """One frame of OpenPose's with these people, (keypoints, 2 or 3) each."""
     found = []
     for points in people:
@@ -50,12 +50,12 @@ def openpose_frame(*people: np.ndarray, sure: float = 0.8, key: str = "pose_keyp
     return {"version": 1.3, "people": found}
 
 
-def openpose(count: int = 25, frames: int = 30) -> list[dict]:
-    return [openpose_frame(points) for points in pixels(standing(OPENPOSE[count], frames))]
+def make_openpose(count: int = 25, frames: int = 30) -> list[dict]:
+    return [make_frame(points) for points in project(make_person(OPENPOSE[count], frames))]
 
 
-def coco(frames: int = 30, *, results: bool = False, x: float = 500.0, **more) -> dict | list:
-    points = pixels(standing(COCO, frames), x)
+def make_coco(frames: int = 30, *, results: bool = False, x: float = 500.0, **more) -> dict | list:
+    points = project(make_person(COCO, frames), x)
     third = 0.9 if results else 2
     entries = [
         {
@@ -73,11 +73,11 @@ def coco(frames: int = 30, *, results: bool = False, x: float = 500.0, **more) -
     return {"images": images, "annotations": entries, "categories": categories}
 
 
-def mmpose(
+def make_mmpose(
     names: tuple[str, ...] = COCO, *, named: bool = True, xs: tuple[float, ...] = (500.0,), **more
 ) -> dict | list:
     """A video of people at these places; without its facts where it is not ``named``."""
-    points = [pixels(standing(names), x) for x in xs]
+    points = [project(make_person(names), x) for x in xs]
     frames = [
         {
             "frame_id": i + 1,
@@ -92,24 +92,24 @@ def mmpose(
     return {"meta_info": facts, "instance_info": frames} if named else frames
 
 
-def world_landmarks(frames: int = 30) -> np.ndarray:
+def make_world_landmarks(frames: int = 30) -> np.ndarray:
     """(frames, 33, 3): metres from the hips' middle, y down, z away from the camera."""
-    points = standing(MEDIAPIPE, frames)
+    points = make_person(MEDIAPIPE, frames)
     hips = [MEDIAPIPE.index("left_hip"), MEDIAPIPE.index("right_hip")]
     return (points - points[:, hips].mean(axis=1, keepdims=True)) * (1, -1, -1)
 
 
-def image_landmarks(frames: int = 30) -> np.ndarray:
+def make_image_landmarks(frames: int = 30) -> np.ndarray:
     """(frames, 33, 3): shares of an image of 1000 x 1000 pixels."""
-    points = standing(MEDIAPIPE, frames)
-    return np.concatenate([pixels(points) / 1000, 0.3 * points[..., 2:]], axis=2)
+    points = make_person(MEDIAPIPE, frames)
+    return np.concatenate([project(points) / 1000, 0.3 * points[..., 2:]], axis=2)
 
 
-def marks(pose: np.ndarray, visibility: float = 0.99) -> list[dict]:
+def to_marks(pose: np.ndarray, visibility: float = 0.99) -> list[dict]:
     return [{"x": x, "y": y, "z": z, "visibility": visibility} for x, y, z in pose.tolist()]
 
 
-def sleap_csv(tracks: dict[str, np.ndarray], nodes: tuple[str, ...]) -> str:
+def to_sleap_csv(tracks: dict[str, np.ndarray], nodes: tuple[str, ...]) -> str:
     head = ["track", "frame_idx", "instance.score"]
     head += [f"{node}.{field}" for node in nodes for field in ("x", "y", "score")]
     lines = [",".join(head)]
@@ -120,7 +120,7 @@ def sleap_csv(tracks: dict[str, np.ndarray], nodes: tuple[str, ...]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def sleap_h5(tracks: np.ndarray, nodes: tuple[str, ...], names: list[str], new: bool) -> bytes:
+def to_sleap_h5(tracks: np.ndarray, nodes: tuple[str, ...], names: list[str], new: bool) -> bytes:
     """An analysis file; ``tracks`` is (tracks, frames, nodes, 2)."""
     import h5py
 

@@ -30,7 +30,7 @@ _AT = {
 PLUG_IN_GAIT = [*_AT]
 
 
-def walking(frames: int = 60, fps: float = 100.0) -> np.ndarray:
+def make_walk(frames: int = 60, fps: float = 100.0) -> np.ndarray:
     """(frames, markers of `PLUG_IN_GAIT`, 3): metres, y up, facing z, moving ahead."""
     t = np.arange(frames)[:, None] / fps
     points = np.repeat(np.array([*_AT.values()])[None], frames, axis=0)
@@ -40,12 +40,12 @@ def walking(frames: int = 60, fps: float = 100.0) -> np.ndarray:
     return points
 
 
-def z_up_millimetres(points: np.ndarray) -> np.ndarray:
+def to_millimetres(points: np.ndarray) -> np.ndarray:
     """As most laboratories store them."""
     return 1000 * points[:, :, [0, 2, 1]] * [1, -1, 1]
 
 
-def c3d_bytes(
+def to_c3d(
     points: np.ndarray,
     labels: list[str],
     *,
@@ -83,17 +83,17 @@ def c3d_bytes(
         _, samples, channels = analog.shape
         values["ANALOG", "USED"] = np.int16([channels])
         values["ANALOG", "LABELS"] = [f"emg{i}" for i in range(channels)]
-    parameters = _parameters(values | (more or {}), processor)
+    parameters = _to_records(values | (more or {}), processor)
     n_blocks = -(-len(parameters) // 512)
     block = 2 + n_blocks
     head = bytearray(512)
     head[:2] = b"\x02\x50"
     last = first + frames - 1
     counts = (n, samples * channels, min(first, 65535), min(last, 65535), 0)
-    head[2:12] = _words(np.array(counts, np.uint16).view(np.int16), processor)
-    head[12:16] = _words(np.float32([-scale if real else scale]), processor)
-    head[16:20] = _words(np.array([block, samples], np.int16), processor)
-    head[20:24] = _words(np.float32([rate]), processor)
+    head[2:12] = _to_words(np.array(counts, np.uint16).view(np.int16), processor)
+    head[12:16] = _to_words(np.float32([-scale if real else scale]), processor)
+    head[16:20] = _to_words(np.array([block, samples], np.int16), processor)
+    head[20:24] = _to_words(np.float32([rate]), processor)
     quads = np.zeros((frames, n, 4))
     quads[:, :, :3] = points if real else points / scale
     quads[np.isnan(points).any(axis=2)] = (0, 0, 0, -1)
@@ -101,15 +101,15 @@ def c3d_bytes(
     if analog is not None:
         rows = np.concatenate([rows, analog.reshape(frames, -1)], axis=1)
     stored = rows.astype(np.float32) if real else np.rint(rows).astype(np.int16)
-    return bytes(head) + parameters.ljust(512 * n_blocks, b"\0") + _words(stored, processor)
+    return bytes(head) + parameters.ljust(512 * n_blocks, b"\0") + _to_words(stored, processor)
 
 
-def _parameters(values: dict[tuple[str, str], Any], processor: int) -> bytes:
+def _to_records(values: dict[tuple[str, str], Any], processor: int) -> bytes:
     groups = sorted({group for group, _ in values})
     out = bytearray([1, 0x50, 0, processor])
     for i, group in enumerate(groups, 1):
         out += bytes([len(group), 256 - i]) + group.encode()
-        out += _words(np.int16([3]), processor) + b"\0"
+        out += _to_words(np.int16([3]), processor) + b"\0"
     for (group, name), value in values.items():
         if isinstance(value, list):
             width = max(map(len, value), default=1)
@@ -119,14 +119,14 @@ def _parameters(values: dict[tuple[str, str], Any], processor: int) -> bytes:
             array = np.asarray(value)
             shape = array.shape[::-1]  # the first dimension runs fastest
             body = bytes([4 if array.dtype.kind == "f" else 2, len(shape), *shape])
-            body += _words(array, processor)
+            body += _to_words(array, processor)
         body += b"\0"
         out += bytes([len(name), groups.index(group) + 1]) + name.encode()
-        out += _words(np.int16([len(body) + 2]), processor) + body
+        out += _to_words(np.int16([len(body) + 2]), processor) + body
     return bytes(out + b"\0\0")
 
 
-def _words(array: np.ndarray, processor: int) -> bytes:
+def _to_words(array: np.ndarray, processor: int) -> bytes:
     if array.dtype.kind == "f" and processor == DEC:
         pairs = (array.astype(np.float32) * 4).view("<u2").reshape(-1, 2)
         return pairs[:, ::-1].tobytes()

@@ -31,6 +31,8 @@ def swap(text: str, old: str, new: str) -> str:
 
 
 HEAD, DATA = BVH.split("MOTION")
+
+
 @pytest.mark.parametrize(
     ("text", "line", "reason"),
     [

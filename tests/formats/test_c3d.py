@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
+from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
@@ -19,7 +19,7 @@ from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
 
 REAL = ["Dec_real", "Eb015pi", "Eb015pr", "Eb015si", "sample_propulsion", "walkingOptiTrack"]
-POINTS = z_up_millimetres(walking())
+POINTS = to_millimetres(make_walk())
 
 
 def parse(data: bytes):
@@ -38,9 +38,7 @@ def test_every_encoding_holds_the_same(tmp_path: Path, processor: int, real: boo
     analog = np.arange(60 * 4 * 2, dtype=float).reshape(60, 4, 2)
     scales = {("ANALOG", "SCALE"): np.float32([2, 3]), ("ANALOG", "GEN_SCALE"): np.float32([0.5])}
     scales |= {("ANALOG", "OFFSET"): np.int16([-1, 100])}
-    data = c3d_bytes(
-        POINTS, PLUG_IN_GAIT, processor=processor, real=real, analog=analog, more=scales
-    )
+    data = to_c3d(POINTS, PLUG_IN_GAIT, processor=processor, real=real, analog=analog, more=scales)
     file = parse(data)
     assert file.labels == PLUG_IN_GAIT
     assert np.abs(file.points - POINTS).max() <= (1e-3 if real else 0.05 + 1e-9)
@@ -49,12 +47,12 @@ def test_every_encoding_holds_the_same(tmp_path: Path, processor: int, real: boo
     motion = read(tmp_path, data)
     assert motion.fps == 100.0
     assert np.allclose(
-        motion.positions[:, motion.joint("C7")], walking()[:, PLUG_IN_GAIT.index("C7")], atol=1e-4
+        motion.positions[:, motion.joint("C7")], make_walk()[:, PLUG_IN_GAIT.index("C7")], atol=1e-4
     )
 
 
 def test_the_body_of_plug_in_gait(tmp_path: Path) -> None:
-    motion = read(tmp_path, c3d_bytes(POINTS, [f"Ann:{name}" for name in PLUG_IN_GAIT]))
+    motion = read(tmp_path, to_c3d(POINTS, [f"Ann:{name}" for name in PLUG_IN_GAIT]))
     at = dict(zip(motion.skeleton.names, motion.positions[0], strict=True))
     assert np.allclose(at["pelvis"], (0, 1, 0), atol=1e-4)
     assert np.allclose(at["left_wrist"], (0.3, 0.9, 0), atol=1e-4)
@@ -67,22 +65,22 @@ def test_the_body_of_plug_in_gait(tmp_path: Path) -> None:
 
 
 def test_wrong_and_saturated_counts(tmp_path: Path) -> None:
-    still = np.tile(z_up_millimetres(walking(1)[:, :4]), (66_000, 1, 1))
+    still = np.tile(to_millimetres(make_walk(1)[:, :4]), (66_000, 1, 1))
     labels = PLUG_IN_GAIT[:4]
-    saturated = c3d_bytes(still, labels)
+    saturated = to_c3d(still, labels)
     ends = {("TRIAL", "ACTUAL_START_FIELD"): np.int16([1, 0])}
     ends |= {("TRIAL", "ACTUAL_END_FIELD"): np.array([66_000 - 65_536, 1], np.int16)}
     assert len(parse(saturated).points) == 65_535
-    assert len(parse(c3d_bytes(still, labels, more=ends)).points) == 66_000
+    assert len(parse(to_c3d(still, labels, more=ends)).points) == 66_000
     as_float = {("POINT", "FRAMES"): np.float32([66_000])}
-    assert len(parse(c3d_bytes(still, labels, more=as_float)).points) == 66_000
+    assert len(parse(to_c3d(still, labels, more=as_float)).points) == 66_000
 
 
-def miscounted(header: int, used: int) -> bytes:
+def miscount(header: int, used: int) -> bytes:
     """A file with eight points, of which header and parameters state another number."""
     points = 100 * np.arange(1, 9)[:, None] + np.tile(np.arange(3.0), (40, 1, 1))
     labels, more = [f"M{i}" for i in range(8)], {("POINT", "USED"): np.int16([used])}
-    data = bytearray(c3d_bytes(points, labels, more=more))
+    data = bytearray(to_c3d(points, labels, more=more))
     data[2:4] = header.to_bytes(2, "little")
     return bytes(data)
 
@@ -90,18 +88,18 @@ def miscounted(header: int, used: int) -> bytes:
 @pytest.mark.parametrize(("header", "used"), [(8, 7), (7, 8), (8, 12), (12, 8)])
 def test_the_count_that_fits_the_file_is_taken_and_said(tmp_path, header, used) -> None:
     with pytest.warns(KinemeWarning, match=f"the header counts {header} points .* parameters"):
-        motion = read(tmp_path, miscounted(header, used))
-    np.testing.assert_array_equal(motion.positions, read(tmp_path, miscounted(8, 8)).positions)
+        motion = read(tmp_path, miscount(header, used))
+    np.testing.assert_array_equal(motion.positions, read(tmp_path, miscount(8, 8)).positions)
 
 
 def test_where_no_count_fits_the_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="17 points .* parameters 18 .* neither fits"):
-        read(tmp_path, miscounted(17, 18))
+        read(tmp_path, miscount(17, 18))
 
 
 def test_more_than_255_labels() -> None:
     labels = [f"m{i}" for i in range(300)]
-    file = parse(c3d_bytes(np.ones((3, 300, 3)), labels))
+    file = parse(to_c3d(np.ones((3, 300, 3)), labels))
     assert file.labels == labels
 
 
@@ -112,7 +110,7 @@ def test_events_count_from_the_first_frame(tmp_path: Path) -> None:
         ("EVENT", "LABELS"): ["Foot Strike", "Foot Off"],
         ("EVENT", "TIMES"): np.float32([[1, 0.75], [0, 2.5]]),
     }
-    motion = read(tmp_path, c3d_bytes(POINTS, PLUG_IN_GAIT, first=201, more=events))
+    motion = read(tmp_path, to_c3d(POINTS, PLUG_IN_GAIT, first=201, more=events))
     assert motion.provenance.events == ((0.5, "Right Foot Off"), (58.75, "Left Foot Strike"))
     assert "the first frame is frame 201 of the capture" in motion.provenance.notes
 
@@ -121,7 +119,7 @@ def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
     labels = [*PLUG_IN_GAIT, "LKneeAngles", "*12", "C_101", "Unlabeled 7", "C7b"]
     points = np.concatenate([POINTS, np.full((60, 5, 3), 90.0)], axis=1)
     more = {("POINT", "ANGLES"): ["LKneeAngles"]}
-    names = read(tmp_path, c3d_bytes(points, labels, more=more)).skeleton.names
+    names = read(tmp_path, to_c3d(points, labels, more=more)).skeleton.names
     assert {"C7", "C7b"} <= set(names)
     assert not {"LKneeAngles", "*12", "C_101", "Unlabeled 7"} & set(names)
 
@@ -130,7 +128,7 @@ def test_two_subjects(tmp_path: Path) -> None:
     labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
     points = np.concatenate([POINTS, POINTS + 1000], axis=1)
     with pytest.warns(KinemeWarning, match="2 subjects: the body used is that of 'Ann'"):
-        motion = read(tmp_path, c3d_bytes(points, labels))
+        motion = read(tmp_path, to_c3d(points, labels))
     assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
     assert "Bob:LANK" in motion.skeleton.names
     other = kineme.read(tmp_path / "take.c3d", person="Bob")
@@ -142,35 +140,35 @@ def test_two_subjects(tmp_path: Path) -> None:
 
 
 def test_what_the_file_does_not_say_is_inferred_and_said(tmp_path: Path) -> None:
-    bare = c3d_bytes(POINTS, PLUG_IN_GAIT, unit=None, y_screen=None)
+    bare = to_c3d(POINTS, PLUG_IN_GAIT, unit=None, y_screen=None)
     motion = read(tmp_path, bare)
     assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
     notes = " ".join(motion.provenance.notes)
     assert "unit mm inferred" in notes
     assert "up axis z inferred" in notes
     with pytest.raises(ReadError, match="no frame rate: give fps="):
-        read(tmp_path, c3d_bytes(POINTS, PLUG_IN_GAIT, rate=0.0))
-    assert read(tmp_path, c3d_bytes(POINTS, PLUG_IN_GAIT, rate=0.0), fps=50).fps == 50
+        read(tmp_path, to_c3d(POINTS, PLUG_IN_GAIT, rate=0.0))
+    assert read(tmp_path, to_c3d(POINTS, PLUG_IN_GAIT, rate=0.0), fps=50).fps == 50
 
 
 def test_gaps(tmp_path: Path) -> None:
     points = POINTS.copy()
     c7, t10 = (PLUG_IN_GAIT.index(name) for name in ("C7", "T10"))
     points[10:30, c7] = np.nan  # 0.2 s: filled
-    filled = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
-    wanted = walking()[:, c7]
+    filled = read(tmp_path, to_c3d(points, PLUG_IN_GAIT))
+    wanted = make_walk()[:, c7]
     assert np.abs(filled.positions[:, filled.joint("C7")] - wanted).max() < 1e-4
     assert any("1 point, 20 positions in all" in note for note in filled.provenance.notes)
     points[10:31, t10] = np.nan  # longer: left out
     with pytest.warns(KinemeWarning, match=r"T10 \(frames 10 to 30\)"):
-        assert "T10" not in read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT)).skeleton.names
+        assert "T10" not in read(tmp_path, to_c3d(points, PLUG_IN_GAIT)).skeleton.names
 
 
 def test_markers_without_gaps_make_the_body_where_they_can(tmp_path: Path) -> None:
     points = POINTS.copy()
     points[10:40, PLUG_IN_GAIT.index("LWRB")] = np.nan
     with pytest.warns(KinemeWarning, match="left out for gaps above 0.2 s: LWRB"):
-        motion = read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
+        motion = read(tmp_path, to_c3d(points, PLUG_IN_GAIT))
     assert motion.gaps == ()
     assert any("left wrist from LWRA, right wrist from RWRA" in n for n in motion.provenance.notes)
 
@@ -182,18 +180,18 @@ def test_a_body_seen_in_no_frame(tmp_path: Path) -> None:
     with pytest.raises(
         ReadError, match="the body is never complete: LANK, RANK are never seen together"
     ):
-        read(tmp_path, c3d_bytes(points, PLUG_IN_GAIT))
+        read(tmp_path, to_c3d(points, PLUG_IN_GAIT))
 
 
 def test_a_point_at_the_origin_was_not_seen() -> None:
     points = POINTS.copy()
     points[5, 3] = 0.0
-    file = parse(c3d_bytes(points, PLUG_IN_GAIT))
+    file = parse(to_c3d(points, PLUG_IN_GAIT))
     assert np.argwhere(np.isnan(file.points[:, :, 0])).tolist() == [[5, 3]]
 
 
 def test_truncated_and_wrong_files(tmp_path: Path) -> None:
-    data = c3d_bytes(POINTS, PLUG_IN_GAIT)
+    data = to_c3d(POINTS, PLUG_IN_GAIT)
     with pytest.warns(KinemeWarning, match="60 frames declared, 59 found and kept"):
         assert read(tmp_path, data[:-10]).n_frames == 59
     with pytest.raises(ReadError, match="truncated"):
@@ -210,7 +208,7 @@ def test_truncated_and_wrong_files(tmp_path: Path) -> None:
 
 
 def test_memory_follows_the_file_and_not_what_it_declares() -> None:
-    data = c3d_bytes(POINTS, PLUG_IN_GAIT, more={("POINT", "FRAMES"): np.float32([1e9])})
+    data = to_c3d(POINTS, PLUG_IN_GAIT, more={("POINT", "FRAMES"): np.float32([1e9])})
     tracemalloc.start()
     assert len(parse(data).points) == 60
     _, peak = tracemalloc.get_traced_memory()
@@ -245,12 +243,12 @@ def test_the_same_take_in_three_encodings(data_dir: Path) -> None:
 ANALOG = np.random.default_rng(0).standard_normal((60, 4, 6))
 
 
-def laboratory(folder: Path, labels, **parameters) -> Path:
+def write_laboratory(folder: Path, labels, **parameters) -> Path:
     """A C3D with analog channels of these names."""
     more = {("ANALOG", "LABELS"): labels}
     more |= {tuple(name.split("__")): value for name, value in parameters.items()}
     channels = ANALOG[:, :, : len(labels)]
-    data = c3d_bytes(z_up_millimetres(walking()), PLUG_IN_GAIT, analog=channels, more=more)
+    data = to_c3d(to_millimetres(make_walk()), PLUG_IN_GAIT, analog=channels, more=more)
     path = folder / "laboratory.c3d"
     path.write_bytes(data)
     return path
@@ -272,7 +270,7 @@ def laboratory(folder: Path, labels, **parameters) -> Path:
     ],
 )
 def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
-    path = laboratory(tmp_path, labels, **more)
+    path = write_laboratory(tmp_path, labels, **more)
     signals = kineme.read(path, emg=True)
     assert list(signals.names) == muscles
     left = ", ".join(name for name in labels if name not in muscles)
@@ -283,7 +281,7 @@ def test_muscles_of_a_laboratory(tmp_path, labels, more, muscles) -> None:
 
 
 def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
-    path = laboratory(tmp_path, ["Fx1", "EMG1"])
+    path = write_laboratory(tmp_path, ["Fx1", "EMG1"])
     loaded = LoadedRecording(ListedRecording(path), RecordingCache())
     heads = loaded.curves().head().curves
     number = next(
@@ -298,6 +296,6 @@ def test_channels_beside_a_motion_are_curves_of_its_frames(tmp_path) -> None:
 def test_analog_channels_without_a_rate_of_their_own() -> None:
     """ezc3d#52: Xsens leaves out ANALOG:RATE."""
     analog = np.zeros((60, 4, 2))
-    file = parse(c3d_bytes(POINTS, PLUG_IN_GAIT, analog=analog))
+    file = parse(to_c3d(POINTS, PLUG_IN_GAIT, analog=analog))
     assert file.parameters.number("ANALOG", "RATE", default=-1.0) == -1.0
     assert file.analog_rate == 400

@@ -6,29 +6,29 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import PLUG_IN_GAIT, walking
+from marker_samples import PLUG_IN_GAIT, make_walk
 
 import kineme
 from kineme.errors import ReadError
 
-POINTS = walking()
+POINTS = make_walk()
 AXES = ",".join("XYZ" * len(PLUG_IN_GAIT))
 
 
-def row(*cells: object) -> str:
+def join_cells(*cells: object) -> str:
     return ",".join(map(str, cells)) + "\n"
 
 
-def nexus(before: str = "", names: list[str] | None = None) -> str:
+def to_nexus(before: str = "", names: list[str] | None = None) -> str:
     """Millimetres, z up, frames from 101 on."""
     given = names or [f"Ann:{name}" for name in PLUG_IN_GAIT]
     head = f"{before}Trajectories\n100\n,,{',,,'.join(given)},,\nFrame,Sub Frame,{AXES}\n"
     millimetres = (1000 * POINTS[..., [0, 2, 1]] * [1, -1, 1]).reshape(len(POINTS), -1)
-    rows = [row(101 + i, 0, *map(repr, line)) for i, line in enumerate(millimetres.tolist())]
-    return head + row("", "", *["mm"] * POINTS[0].size) + "".join(rows)
+    rows = [join_cells(101 + i, 0, *map(repr, line)) for i, line in enumerate(millimetres.tolist())]
+    return head + join_cells("", "", *["mm"] * POINTS[0].size) + "".join(rows)
 
 
-def motive(kinds: list[str] | None = None, *, told: bool = True) -> str:
+def to_motive(kinds: list[str] | None = None, *, told: bool = True) -> str:
     """Metres, y up; a rigid body with rotations before the markers."""
     kinds = kinds or ["Marker"] * len(PLUG_IN_GAIT)
     heads = [
@@ -37,11 +37,13 @@ def motive(kinds: list[str] | None = None, *, told: bool = True) -> str:
         ["", *["Rotation"] * 4, *["Position"] * (3 + POINTS[0].size)],
     ]
     values = POINTS.reshape(len(POINTS), -1).tolist()
-    rows = [row(i, i / 120, 0, 0, 0, 1, 5, 5, 5, *map(repr, v)) for i, v in enumerate(values)]
+    rows = [
+        join_cells(i, i / 120, 0, 0, 0, 1, 5, 5, 5, *map(repr, v)) for i, v in enumerate(values)
+    ]
     return (
         "Format Version,1.23,Take Name,Walk,Capture Frame Rate,240.0,Export Frame Rate,120.0,"
         "Length Units,Meters,Coordinate Space,Global\n\n"
-        + "".join(row("", cells[0] if told else "", *cells[1:]) for cells in heads)
+        + "".join(join_cells("", cells[0] if told else "", *cells[1:]) for cells in heads)
         + f"Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,{AXES}\n"
         + "".join(rows)
     )
@@ -55,12 +57,12 @@ def read(folder: Path, text: str, **options: object) -> kineme.Motion:
 @pytest.mark.parametrize(
     ("text", "fps", "program"),
     [
-        (nexus(), 100, "Nexus"),
-        (nexus("Devices\n1000\n,,EMG,\nFrame,Sub Frame,a\n,,V\n101,0,0.5\n\n"), 100, "Nexus"),
-        (nexus() + "\nModel Outputs\n100\n,,Ann:CoM,,\nFrame,Sub Frame,X,Y,Z\n", 100, "Nexus"),
-        (motive(), 120, "Motive"),
-        (motive(told=False), 120, "Motive"),
-        (motive(["Bone"] * len(PLUG_IN_GAIT)), 120, "Motive"),
+        (to_nexus(), 100, "Nexus"),
+        (to_nexus("Devices\n1000\n,,EMG,\nFrame,Sub Frame,a\n,,V\n101,0,0.5\n\n"), 100, "Nexus"),
+        (to_nexus() + "\nModel Outputs\n100\n,,Ann:CoM,,\nFrame,Sub Frame,X,Y,Z\n", 100, "Nexus"),
+        (to_motive(), 120, "Motive"),
+        (to_motive(told=False), 120, "Motive"),
+        (to_motive(["Bone"] * len(PLUG_IN_GAIT)), 120, "Motive"),
     ],
     ids=["nexus", "devices", "model outputs", "motive", "older motive", "bones"],
 )
@@ -75,7 +77,7 @@ def test_markers_under_rows_of_names(tmp_path: Path, text: str, fps: float, prog
 
 
 def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
-    motion = read(tmp_path, nexus(names=[*(f"Ann:{name}" for name in PLUG_IN_GAIT[:-1]), "*12"]))
+    motion = read(tmp_path, to_nexus(names=[*(f"Ann:{name}" for name in PLUG_IN_GAIT[:-1]), "*12"]))
     assert PLUG_IN_GAIT[-1] not in motion.skeleton.names
     assert "1 point without a name left out" in motion.provenance.notes
 
@@ -84,13 +86,13 @@ def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
     ("text", "reason"),
     [
         (
-            nexus().replace("\n100\n", "\nfast\n"),
+            to_nexus().replace("\n100\n", "\nfast\n"),
             r"'fast' is not a frame rate: give fps= \(--fps\)",
         ),
-        (nexus().replace("mm", "m", 1), "line 5: markers are in m and mm: export all"),
-        (nexus().replace("X,Y,Z", "A,B,C"), "line 4: no name found above the axes"),
-        (motive().replace("Frame,Time", "Zeit"), "no line with 'Frame'"),
-        (nexus().replace("101,0,", "101,"), "line 6: 55 cells, but 56 columns"),
+        (to_nexus().replace("mm", "m", 1), "line 5: markers are in m and mm: export all"),
+        (to_nexus().replace("X,Y,Z", "A,B,C"), "line 4: no name found above the axes"),
+        (to_motive().replace("Frame,Time", "Zeit"), "no line with 'Frame'"),
+        (to_nexus().replace("101,0,", "101,"), "line 6: 55 cells, but 56 columns"),
     ],
 )
 def test_bad_tables(tmp_path: Path, text: str, reason: str) -> None:
@@ -99,10 +101,10 @@ def test_bad_tables(tmp_path: Path, text: str, reason: str) -> None:
 
 
 def test_devices_alone_are_channels(tmp_path: Path) -> None:
-    signals = read(tmp_path, nexus().replace("Trajectories", "Devices"), fps=100)
+    signals = read(tmp_path, to_nexus().replace("Trajectories", "Devices"), fps=100)
     assert isinstance(signals, kineme.Signals)
 
 
 def test_channels_of_such_a_table_are_still_there(tmp_path: Path) -> None:
-    signals = read(tmp_path, nexus(), fps=100, columns=["X"])
+    signals = read(tmp_path, to_nexus(), fps=100, columns=["X"])
     assert isinstance(signals, kineme.Signals)

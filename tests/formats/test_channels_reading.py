@@ -20,6 +20,7 @@ from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.dialects import hold_channels
 
+
 def write(folder: Path, name: str, text: str) -> Path:
     path = folder / name
     path.write_text(text, encoding="utf-8")
@@ -206,13 +207,13 @@ def test_dates_tell_the_rate(tmp_path, moment) -> None:
     assert read(tmp_path / "b.parquet").fps == 50
 
 
-def clocked(folder: Path, times: np.ndarray) -> Signals:
+def read_clock(folder: Path, times: np.ndarray) -> Signals:
     """Signals whose one channel counts the rows of the file."""
     rows = "".join(f"{float(t)!r},{i}\n" for i, t in enumerate(times))
     return read(write(folder, "clock.csv", f"time,a\n{rows}"))
 
 
-def notes(signals: Signals) -> tuple[str, ...]:
+def get_notes(signals: Signals) -> tuple[str, ...]:
     return signals.provenance.notes
 
 
@@ -230,9 +231,9 @@ EVEN = np.arange(400) / 100
     ],
 )
 def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) -> None:
-    signals = clocked(tmp_path, times)
+    signals = read_clock(tmp_path, times)
     assert (signals.fps, signals.n_frames, signals.gaps) == (100, n_frames, gaps)
-    assert any(note.startswith("times are uneven") and said in note for note in notes(signals))
+    assert any(note.startswith("times are uneven") and said in note for note in get_notes(signals))
 
 
 @pytest.mark.parametrize(
@@ -248,19 +249,19 @@ def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) 
 )
 def test_clocks_that_are_set_or_stand_still(tmp_path, times, n_frames, gaps, said) -> None:
     with pytest.warns(KinemeWarning, match=said):
-        signals = clocked(tmp_path, times)
+        signals = read_clock(tmp_path, times)
     assert (signals.fps, signals.n_frames, signals.gaps) == (100, n_frames, gaps)
     assert set(np.arange(400.0)) <= set(signals.values[:, 0])
 
 
 def test_midnight_is_no_end(tmp_path) -> None:
-    signals = clocked(tmp_path, (86398 + EVEN) % 86400)
-    assert (signals.n_frames, signals.gaps, notes(signals)) == (400, (), ())
+    signals = read_clock(tmp_path, (86398 + EVEN) % 86400)
+    assert (signals.n_frames, signals.gaps, get_notes(signals)) == (400, (), ())
     assert signals.provenance.clock.time([1.0, 3.0]).tolist() == [86399, 1]
 
 
 def test_clocks_that_count_milliseconds(tmp_path) -> None:
-    signals = clocked(tmp_path, np.floor(np.arange(2000) / 0.12) / 1000)
+    signals = read_clock(tmp_path, np.floor(np.arange(2000) / 0.12) / 1000)
     assert signals.fps == pytest.approx(120, rel=1e-3)
 
 
@@ -269,13 +270,13 @@ def test_rows_without_a_time_are_left_out(tmp_path) -> None:
     signals = read(write(tmp_path, "a.csv", "time,a\n" + rows))
     assert (signals.fps, signals.n_frames, signals.gaps) == (50, 60, ())
     assert signals.values[:, 0].tolist() == pytest.approx([*range(60)])
-    assert "4 rows without a time left out" in notes(signals)
+    assert "4 rows without a time left out" in get_notes(signals)
 
 
 def test_rows_in_no_order_of_time_are_sorted(tmp_path) -> None:
     order = np.random.default_rng(0).permutation(400)
     with pytest.warns(KinemeWarning, match="not in order of time: sorted"):
-        signals = clocked(tmp_path, EVEN[order])
+        signals = read_clock(tmp_path, EVEN[order])
     assert signals.values[:, 0].tolist() == np.argsort(order).tolist()
 
 
@@ -285,7 +286,7 @@ def test_any_clock_is_read_or_refused(tmp_path_factory, times, ascending) -> Non
     at = np.array(sorted(times) if ascending else times)
     with suppress(ReadError), warnings.catch_warnings():
         warnings.simplefilter("ignore", KinemeWarning)
-        signals = clocked(tmp_path_factory.getbasetemp(), at)
+        signals = read_clock(tmp_path_factory.getbasetemp(), at)
         assert 0 <= signals.values.min() <= signals.values.max() <= len(times) - 1
         assert np.isfinite(signals.duration)
 

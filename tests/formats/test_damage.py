@@ -17,20 +17,20 @@ from hypothesis import strategies as st
 from keypoint_samples import (
     COCO,
     as_json,
-    coco,
-    marks,
-    mmpose,
-    openpose,
-    pixels,
-    sleap_csv,
-    sleap_h5,
-    standing,
-    world_landmarks,
+    make_coco,
+    make_mmpose,
+    make_openpose,
+    make_person,
+    make_world_landmarks,
+    project,
+    to_marks,
+    to_sleap_csv,
+    to_sleap_h5,
 )
-from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking
-from test_gltf import changed
-from test_mat import as_hdf5, cells, mat, qtm
-from test_tables import JOINTS, TIMES, TRC, body, table
+from marker_samples import PLUG_IN_GAIT, make_walk, to_c3d
+from test_gltf import make_changed
+from test_mat import as_hdf5, to_cells, to_mat, to_qtm
+from test_tables import JOINTS, TIMES, TRC, make_body, tabulate
 
 import kineme
 from _damage import damage_bytes
@@ -43,65 +43,67 @@ POINTS = np.ones((4, 18, 3)) * np.arange(18)[:, None]
 SUFFIXES = sorted({suffix for known in supported_formats() for suffix in known.suffixes})
 
 
-def written(write, **arrays: object) -> bytes:
+def to_bytes(write, **arrays: object) -> bytes:
     file = io.BytesIO()
     write(file, **arrays)
     return file.getvalue()
 
 
-def parquet() -> bytes:
+def make_parquet() -> bytes:
     import pyarrow as pa
     from pyarrow import parquet
 
     table = pa.table({"a_x": [1.0], "a_y": [1.0], "a_z": [1.0]})
-    return written(lambda file: parquet.write_table(table, file))
+    return to_bytes(lambda file: parquet.write_table(table, file))
 
 
-def glb() -> bytes:
+def make_glb() -> bytes:
     with TemporaryDirectory() as folder:
-        return changed().save(Path(folder) / "a.glb").read_bytes()
+        return make_changed().save(Path(folder) / "a.glb").read_bytes()
 
 
-def hdf5() -> bytes:
+def make_hdf5() -> bytes:
     with TemporaryDirectory() as folder:
-        return as_hdf5({"take": qtm(POINTS)}, Path(folder))
+        return as_hdf5({"take": to_qtm(POINTS)}, Path(folder))
 
 
 NEXUS = "Trajectories\n100\n,,A,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,4\n"
-MEDIAPIPE = [{"landmarks": marks(pose), "frame": i} for i, pose in enumerate(world_landmarks(3))]
+MEDIAPIPE = [
+    {"landmarks": to_marks(pose), "frame": i} for i, pose in enumerate(make_world_landmarks(3))
+]
 SOUND = {
     "a.bvh": BVH.encode(),
     "a.amc": AMC.encode(),
     "b.asf": ASF.encode(),  # beside a sound AMC
-    "table.csv": table(body(4), time=TIMES).encode(),
+    "table.csv": tabulate(make_body(4), time=TIMES).encode(),
     "nexus.csv": NEXUS.encode(),
-    "sleap.csv": sleap_csv({"a": pixels(standing(COCO, 3))}, COCO).encode(),
+    "sleap.csv": to_sleap_csv({"a": project(make_person(COCO, 3))}, COCO).encode(),
     "a.mot": b"Coordinates\nendheader\ntime a b\n0 1 2\n",
     "a.trc": TRC.encode(),
-    "a.npy": written(lambda file: np.save(file, body(4))),
-    "a.npz": written(np.savez, positions=body(4), fps=30.0, names=np.array(JOINTS)),
-    "poses.npz": written(
+    "a.npy": to_bytes(lambda file: np.save(file, make_body(4))),
+    "a.npz": to_bytes(np.savez, positions=make_body(4), fps=30.0, names=np.array(JOINTS)),
+    "poses.npz": to_bytes(
         np.savez_compressed, poses=np.zeros((3, 72)), trans=np.zeros((3, 3)), fps=30.0
     ),
-    "a.mat": mat(False, positions=POINTS, names=cells([f"m{i}" for i in range(18)]), fps=30),
-    "packed.mat": mat(True, take={"a": POINTS[:, 0], "b": POINTS[:, 1], "fps": 30}),
-    "qtm.mat": mat(False, take=qtm(POINTS)),
-    "a.c3d": c3d_bytes(walking()[:5, :8], PLUG_IN_GAIT[:8]),
+    "a.mat": to_mat(False, positions=POINTS, names=to_cells([f"m{i}" for i in range(18)]), fps=30),
+    "packed.mat": to_mat(True, take={"a": POINTS[:, 0], "b": POINTS[:, 1], "fps": 30}),
+    "qtm.mat": to_mat(False, take=to_qtm(POINTS)),
+    "a.c3d": to_c3d(make_walk()[:5, :8], PLUG_IN_GAIT[:8]),
     "a.fbx": make_walker().binary(),
     "plain.fbx": make_walker().binary(7700, packed=False),
     "text.fbx": make_walker().text(),
-    "a.glb": glb(),
-    "openpose.json": as_json(openpose(18, 3)),
-    "coco.json": as_json(coco(3)),
-    "results.json": as_json(coco(3, results=True, track_id=1)),
-    "mmpose.json": as_json(mmpose()["instance_info"][:3]),
+    "a.glb": make_glb(),
+    "openpose.json": as_json(make_openpose(18, 3)),
+    "coco.json": as_json(make_coco(3)),
+    "results.json": as_json(make_coco(3, results=True, track_id=1)),
+    "mmpose.json": as_json(make_mmpose()["instance_info"][:3]),
     "mediapipe.json": as_json(MEDIAPIPE),
 }
 if find_spec("h5py"):
-    SOUND["a.h5"] = sleap_h5(pixels(standing(COCO, 4))[None], COCO, ["a"], new=False)
-    SOUND["hdf5.mat"] = hdf5()
+    SOUND["a.h5"] = to_sleap_h5(project(make_person(COCO, 4))[None], COCO, ["a"], new=False)
+    SOUND["hdf5.mat"] = make_hdf5()
 if find_spec("pyarrow"):
-    SOUND["a.parquet"] = parquet()
+    SOUND["a.parquet"] = make_parquet()
 
 
 @pytest.fixture(scope="module")
@@ -112,7 +114,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def survives(folder: Path, name: str, data: bytes) -> None:
+def check_survival(folder: Path, name: str, data: bytes) -> None:
     (folder / name).write_bytes(data)
     path = folder / ("b.amc" if name == "b.asf" else name)
     with warnings.catch_warnings():
@@ -132,12 +134,12 @@ def test_damage_to_bytes_and_to_what_they_mean(
 ) -> None:
     sound = SOUND[name]
     data = change_structure(Path(name), sound, seed) if meaning else damage_bytes(sound, seed)
-    survives(folder, name, data)
+    check_survival(folder, name, data)
 
 
 @given(st.binary(max_size=300), st.sampled_from(SUFFIXES))
 def test_any_bytes(folder: Path, data: bytes, suffix: str) -> None:
-    survives(folder, f"any{suffix}", data)
+    check_survival(folder, f"any{suffix}", data)
 
 
 def test_cells_that_claim_to_be_many(folder: Path) -> None:
@@ -145,7 +147,7 @@ def test_cells_that_claim_to_be_many(folder: Path) -> None:
     data = SOUND["a.mat"].replace(few, many)
     assert data != SOUND["a.mat"]
     tracemalloc.start()
-    survives(folder, "many.mat", data)
+    check_survival(folder, "many.mat", data)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 5_000_000

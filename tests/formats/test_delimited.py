@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_capture_tables import nexus
+from test_capture_tables import to_nexus
 
 import kineme
 
 ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
 
 
-def text(*head: str, separator: str = ",", comma: bool = False) -> str:
+def join_rows(*head: str, separator: str = ",", comma: bool = False) -> str:
     rows = [separator.join(map(str, row)) for row in ROWS]
     rows = [row.replace(".", ",") for row in rows] if comma else rows
     return "\n".join([*head, *rows, ""])
@@ -39,7 +39,7 @@ def test_joints_and_channels_may_stand_in_the_same_layouts(
     separator, comma, above = LAYOUTS[layout]
     names = separator.join(["time", *(f"{joint}_{axis}" for axis in "xyz")])
     path = tmp_path / "a.csv"
-    path.write_text(text(*above, names, separator=separator, comma=comma), encoding=encoding)
+    path.write_text(join_rows(*above, names, separator=separator, comma=comma), encoding=encoding)
     found = kineme.read(path, **({} if joint == "acc" else {"unit": "m", "up": "y"}))
     expected = np.array(ROWS)[:, 1:]
     if isinstance(found, kineme.Signals):
@@ -53,7 +53,7 @@ def test_joints_and_channels_may_stand_in_the_same_layouts(
 
 def test_a_separator_between_quotes_is_part_of_a_name(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
-    path.write_text(text('time,"force, left",b,c'))
+    path.write_text(join_rows('time,"force, left",b,c'))
     signals = kineme.read(path)
     assert signals.names == ("force, left", "b", "c")
     kineme.write(signals, tmp_path / "b.tsv")
@@ -73,7 +73,7 @@ def test_keypoints_of_deeplabcut_may_stand_between_anything(tmp_path: Path, sepa
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
 def test_capture_tables_may_be_saved_again_by_a_spreadsheet(tmp_path: Path, encoding: str) -> None:
     path = tmp_path / "a.csv"
-    path.write_text(nexus(), encoding=encoding)
+    path.write_text(to_nexus(), encoding=encoding)
     motion = kineme.read(path)
     assert motion.provenance.format == "Nexus table"
     assert "head" in motion.skeleton.names

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking, z_up_millimetres
+from marker_samples import PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
@@ -30,7 +30,7 @@ GENEACTIV = (
 )
 
 
-def rows(separator: str, *first: object, end: str = "") -> str:
+def join_rows(separator: str, *first: object, end: str = "") -> str:
     """A line per row; ``first`` are the formats of the cells before the values."""
     lines = []
     for i, values in enumerate(VALUES.tolist()):
@@ -40,11 +40,11 @@ def rows(separator: str, *first: object, end: str = "") -> str:
     return "\n".join(lines) + "\n"
 
 
-def dated(pattern: str):
+def to_dates(pattern: str):
     return lambda _, at: at.strftime(pattern).replace("%3f", f"{at.microsecond // 1000:03}")
 
 
-def counted(step: float, start: float = 0):
+def to_counts(step: float, start: float = 0):
     return lambda i, _: f"{start + step * i:.10g}" if step < 1 else int(start + step * i)
 
 
@@ -55,51 +55,51 @@ HEADER = {
     "sampling rate": FPS,
 }
 FILES = {
-    "ActiGraph": ACTIGRAPH + "Accelerometer X,Accelerometer Y,Accelerometer Z\n" + rows(","),
-    "ActiGraph without names": ACTIGRAPH + rows(","),
+    "ActiGraph": ACTIGRAPH + "Accelerometer X,Accelerometer Y,Accelerometer Z\n" + join_rows(","),
+    "ActiGraph without names": ACTIGRAPH + join_rows(","),
     "ActiGraph with times": ACTIGRAPH
     + "Timestamp,X,Y,Z\n"
-    + rows(",", dated("%m/%d/%Y %H:%M:%S.%3f")),
-    "GENEActiv": GENEACTIV + rows(",", dated("%Y-%m-%d %H:%M:%S:%3f")),
-    "Axivity": rows(",", dated("%Y-%m-%d %H:%M:%S.%3f")),
+    + join_rows(",", to_dates("%m/%d/%Y %H:%M:%S.%3f")),
+    "GENEActiv": GENEACTIV + join_rows(",", to_dates("%Y-%m-%d %H:%M:%S:%3f")),
+    "Axivity": join_rows(",", to_dates("%Y-%m-%d %H:%M:%S.%3f")),
     "Shimmer": '"sep=\t"\nS_Timestamp_Unix_CAL\tS_X_CAL\tS_Y_CAL\tS_Z_CAL\t\nms\tg\tg\tg\t\n'
-    + rows("\t", counted(20, 1.6e12), end="\t"),
+    + join_rows("\t", to_counts(20, 1.6e12), end="\t"),
     "Shimmer in four lines": "Shimmer\tShimmer\tShimmer\tShimmer\nTimestamp\tX\tY\tZ\n"
-    "CAL\tCAL\tCAL\tCAL\nms\tg\tg\tg\n" + rows("\t", counted(20)),
+    "CAL\tCAL\tCAL\tCAL\nms\tg\tg\tg\n" + join_rows("\t", to_counts(20)),
     "Xsens DOT": "sep=,\nDeviceTag:,left\nOutputRate:,50Hz\n\nPacketCounter,SampleTimeFine,X,Y,Z\n"
-    + rows(",", counted(1), counted(20_000, 2**31)),
+    + join_rows(",", to_counts(1), to_counts(20_000, 2**31)),
     "Xsens MTw": "// Start Time: Unknown\n// Update Rate: 50.0Hz\n// Option Flags: none\n"
-    "PacketCounter\tSampleTimeFine\tX\tY\tZ\n" + rows("\t", counted(1), "", end="\t"),
+    "PacketCounter\tSampleTimeFine\tX\tY\tZ\n" + join_rows("\t", to_counts(1), "", end="\t"),
     "Empatica": ", ".join(["1419261264.000000"] * 3)
     + "\n"
     + ", ".join(["50.000000"] * 3)
     + "\n"
-    + rows(","),
+    + join_rows(","),
     "OpenSignals": "# OpenSignals Text File Format. Version 1\n# "
     + json.dumps({"98:D3:31": HEADER})
     + "\n# EndOfHeader\n"
-    + rows("\t", lambda i, _: i % 16, lambda *_: 1, end="\t"),
+    + join_rows("\t", lambda i, _: i % 16, lambda *_: 1, end="\t"),
     "Sensor Logger": "time,seconds_elapsed,X,Y,Z\n"
-    + rows(",", counted(20_000_000, 1_670_000_000_000_000_000), counted(0.02)),
+    + join_rows(",", to_counts(20_000_000, 1_670_000_000_000_000_000), to_counts(0.02)),
     "phyphox": '"Time (s)";"X (m/s^2)";"Y (m/s^2)";"Z (m/s^2)"\n'
-    + rows(";", counted(0.02)).replace(".", ","),
+    + join_rows(";", to_counts(0.02)).replace(".", ","),
     "BioStamp": "Timestamp (microseconds),Accel X (g),Accel Y (g),Accel Z (g)\n"
-    + rows(",", counted(20_000, 1_500_000_000_000_000)),
+    + join_rows(",", to_counts(20_000, 1_500_000_000_000_000)),
     "MetaMotion": "epoc (ms),timestamp (+0100),elapsed (s),x-axis (g),y-axis (g),z-axis (g)\n"
-    + rows(",", counted(20, 1.5e12), dated("%Y-%m-%dT%H.%M.%S.%3f"), counted(0.02)),
+    + join_rows(",", to_counts(20, 1.5e12), to_dates("%Y-%m-%dT%H.%M.%S.%3f"), to_counts(0.02)),
     "Movella DOT": "DeviceTag:,left\nOutputRate:,50Hz\n\n"
     "PacketCounter,SampleTimeFine,X,Y,Z,Status\n"
-    + rows(",", counted(1), counted(20_000, 2**31), end=",0"),
+    + join_rows(",", to_counts(1), to_counts(20_000, 2**31), end=",0"),
     "Delsys": "X[s],biceps: EMG 1 [Volts],triceps: EMG 2 [Volts],ACC X 1 [g]\n"
-    + rows(",", counted(0.02)),
+    + join_rows(",", to_counts(0.02)),
     "SensorLog": "loggingTime(txt);loggingSample(N);X(G);Y(G);Z(G)\n"
-    + rows(";", dated("%Y-%m-%dT%H:%M:%S.%3f+01:00"), counted(1)),
+    + join_rows(";", to_dates("%Y-%m-%dT%H:%M:%S.%3f+01:00"), to_counts(1)),
     "a clock under its own name": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
-    + rows(",", counted(0.02)),
-    "German dates": "Zeit\tX\tY\tZ\n" + rows("\t", dated("%d.%m.%Y %H:%M:%S.%3f")),
-    "months by name": "Timestamp,X,Y,Z\n" + rows(",", dated("%d-%b-%Y %H:%M:%S.%3f")),
-    "twelve hours": "Timestamp,X,Y,Z\n" + rows(",", dated("%m/%d/%Y %I:%M:%S.%3f %p")),
-    "units below": "time\tX\tY\tZ\nms\tg\tg\tg\n" + rows("\t", counted(20)),
+    + join_rows(",", to_counts(0.02)),
+    "German dates": "Zeit\tX\tY\tZ\n" + join_rows("\t", to_dates("%d.%m.%Y %H:%M:%S.%3f")),
+    "months by name": "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%d-%b-%Y %H:%M:%S.%3f")),
+    "twelve hours": "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%m/%d/%Y %I:%M:%S.%3f %p")),
+    "units below": "time\tX\tY\tZ\nms\tg\tg\tg\n" + join_rows("\t", to_counts(20)),
 }
 
 
@@ -168,7 +168,7 @@ def test_two_devices_of_opensignals_keep_their_sensors(tmp_path: Path) -> None:
 
 def test_counts_of_actigraph_have_the_rate_of_their_epochs(tmp_path: Path) -> None:
     header = ACTIGRAPH.replace("00:00:00\n--", "00:00:05\n--")
-    assert read(tmp_path, header + "Axis1,Axis2,Axis3\n" + rows(",")).fps == 0.2
+    assert read(tmp_path, header + "Axis1,Axis2,Axis3\n" + join_rows(",")).fps == 0.2
 
 
 def test_signals_of_two_shimmers_are_told_apart(tmp_path: Path) -> None:
@@ -250,16 +250,16 @@ def test_the_file_of_a_wristband_tells_what_its_columns_are(tmp_path: Path) -> N
 
 def test_a_rate_is_not_guessed_from_several(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="it does not state its frame rate"):
-        read(tmp_path, "EMG rate: 2000 Hz\nAcc rate: 100 Hz\nX,Y,Z\n" + rows(","))
+        read(tmp_path, "EMG rate: 2000 Hz\nAcc rate: 100 Hz\nX,Y,Z\n" + join_rows(","))
 
 
 def test_the_frequency_of_a_filter_is_no_rate(tmp_path: Path) -> None:
-    text = "Low-pass: 6 Hz\nSampling frequency (Hz): 50\nX,Y,Z\n" + rows(",")
+    text = "Low-pass: 6 Hz\nSampling frequency (Hz): 50\nX,Y,Z\n" + join_rows(",")
     assert read(tmp_path, text).fps == FPS
 
 
 def test_a_day_that_could_be_a_month_is_said(tmp_path: Path) -> None:
-    text = "Timestamp,X,Y,Z\n" + rows(",", dated("%d/%m/%Y %H:%M:%S.%3f"))
+    text = "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%d/%m/%Y %H:%M:%S.%3f"))
     with pytest.warns(KinemeWarning, match="1 pause, the first of 2.592e"):  # a month, so read
         signals = read(tmp_path, text)
     (said,) = [note for note in signals.provenance.notes if "taken for" in note]
@@ -276,8 +276,8 @@ def test_one_day_beyond_the_twelfth_tells_the_order(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("titled", [False, True])
 def test_markers_of_qualisys(tmp_path: Path, titled: bool) -> None:
-    points = walking()
-    millimetres = np.round(z_up_millimetres(points), 3)
+    points = make_walk()
+    millimetres = np.round(to_millimetres(points), 3)
     millimetres[10:14, 0] = 0
     head = [
         f"NO_OF_FRAMES\t{len(points)}",
@@ -313,7 +313,7 @@ def test_markers_of_qualisys(tmp_path: Path, titled: bool) -> None:
 
 def test_a_c3d_without_points_holds_channels(tmp_path: Path) -> None:
     analog = np.random.default_rng(0).standard_normal((60, 4, 3))
-    (tmp_path / "a.c3d").write_bytes(c3d_bytes(np.empty((60, 0, 3)), [], analog=analog))
+    (tmp_path / "a.c3d").write_bytes(to_c3d(np.empty((60, 0, 3)), [], analog=analog))
     signals = kineme.read(tmp_path / "a.c3d")
     assert isinstance(signals, kineme.Signals)
     assert (signals.names, signals.fps) == (("emg0", "emg1", "emg2"), 400)

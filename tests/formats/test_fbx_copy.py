@@ -21,7 +21,7 @@ from kineme.recordings.posing import add_root
 NEW = {"AnimationStack", "AnimationLayer", "AnimationCurveNode", "AnimationCurve"}
 
 
-def stored(path: Path) -> dict[int, bytes]:
+def read_stored(path: Path) -> dict[int, bytes]:
     """Return the bytes of each object that is no animation, with ends counted from its start."""
     content = load(path)
     version, root = parse_fbx(content)
@@ -39,7 +39,7 @@ def stored(path: Path) -> dict[int, bytes]:
     return objects
 
 
-def counts(path: Path) -> tuple[dict[str, int], dict[str, int]]:
+def count_objects(path: Path) -> tuple[dict[str, int], dict[str, int]]:
     """Return how many objects of each kind there are, and how many the file says."""
     _, root = parse_fbx(load(path))
     group, table = root.child("Objects"), root.child("Definitions")
@@ -50,7 +50,7 @@ def counts(path: Path) -> tuple[dict[str, int], dict[str, int]]:
     return {kind: kinds.count(kind) for kind in kinds}, told
 
 
-def turned(scale: float, rng: np.random.Generator, **more: object) -> dict[str, object]:
+def make_transform(scale: float, rng: np.random.Generator, **more: object) -> dict[str, object]:
     """Return what a model may have between its parent and its keys."""
     turns = ("LclRotation", "PreRotation", "PostRotation")
     shifts = ("RotationPivot", "ScalingPivot", "RotationOffset", "ScalingOffset", "LclTranslation")
@@ -66,8 +66,9 @@ def turned(scale: float, rng: np.random.Generator, **more: object) -> dict[str, 
 def test_joints_are_where_the_clip_has_them(tmp_path, inherit, order, version, rooted) -> None:
     rng = np.random.default_rng(order)
     more = {"InheritType": inherit, "RotationOrder": order}
+    scales = zip(("top", *"abc"), (2, 0.5, 3, 1))
     scene = Bones(
-        {name: turned(scale, rng, **more) for name, scale in zip(("top", *"abc"), (2, 0.5, 3, 1))},
+        {name: make_transform(scale, rng, **more) for name, scale in scales},
         UnitScaleFactor=2.54, UpAxis=2, FrontAxis=1, FrontAxisSign=-1,
     )  # fmt: skip
     layer = scene.layer(scene.take("old", 0, 1))
@@ -80,10 +81,10 @@ def test_joints_are_where_the_clip_has_them(tmp_path, inherit, order, version, r
     motion = kineme.read(source)
     clip = (add_root(motion) if rooted else motion)[5:25]
     copy_takes({"one": clip, "two": clip[3:]}, source, path)
-    before, after = stored(source), stored(path)
+    before, after = read_stored(source), read_stored(path)
     assert {number: after[number] for number in before} == before
     assert len(after) - len(before) == 2 * rooted
-    found, told = counts(path)
+    found, told = count_objects(path)
     assert {kind: told[kind] for kind in NEW & found.keys()} == {
         kind: found[kind] for kind in NEW & found.keys()
     }
@@ -126,7 +127,7 @@ def test_mesh_and_skin_of_a_character_stay_byte_for_byte(data_dir: Path, tmp_pat
     clip = kineme.read(source, take="mixamo.com")[:9]
     for motion in (clip, add_root(clip)):
         copy_takes({"clip": motion}, source, path)
-        before, after = stored(source), stored(path)
+        before, after = read_stored(source), read_stored(path)
         changed = [number for number in before if after[number] != before[number]]
         # Both bind poses have the new root, too.
         assert len(changed) == (2 if motion is not clip else 0)

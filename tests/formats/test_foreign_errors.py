@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from format_samples import AMC, ASF, BVH
-from keypoint_samples import as_json, marks, world_landmarks
+from keypoint_samples import as_json, make_world_landmarks, to_marks
 
 import kineme
 from kineme.errors import ReadError
@@ -33,7 +33,7 @@ ROW = {
 }  # fmt: skip
 
 
-def lzma_member() -> bytes:
+def make_lzma() -> bytes:
     """An archive whose member claims LZMA and is not."""
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w", zipfile.ZIP_LZMA) as archive:
@@ -43,24 +43,24 @@ def lzma_member() -> bytes:
     return bytes(data)
 
 
-def mat_flags() -> bytes:
+def make_mat() -> bytes:
     """A MATLAB array whose flags are floats, and no numbers."""
     flags = (9).to_bytes(4, "little") + (8).to_bytes(4, "little") + np.array([np.nan]).tobytes()
     element = (14).to_bytes(4, "little") + len(flags).to_bytes(4, "little") + flags
     return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + element
 
 
-def mediapipe(fps: float) -> bytes:
-    frames = [{"pose_world_landmarks": marks(pose)} for pose in world_landmarks(5)]
+def make_poses(fps: float) -> bytes:
+    frames = [{"pose_world_landmarks": to_marks(pose)} for pose in make_world_landmarks(5)]
     return as_json({"fps": fps, "frames": frames})
 
 
-def far_apart() -> bytes:
+def make_gap() -> bytes:
     rows = [f"{i / 30:.4f},{(HUGE if i < 9 else -HUGE) if i in (8, 11) else ''}" for i in range(30)]
     return "\n".join(["time_s,gyro_x", *rows]).encode()
 
 
-def arrow(**columns: object) -> bytes:
+def to_arrow(**columns: object) -> bytes:
     pa = pytest.importorskip("pyarrow")
     from pyarrow import parquet
 
@@ -69,38 +69,38 @@ def arrow(**columns: object) -> bytes:
     return file.getvalue()
 
 
-def graph(**changed: object) -> bytes:
+def to_graph(**changed: object) -> bytes:
     return json.dumps(GRAPH | changed).encode()
 
 
-def table(**changed: object) -> bytes:
+def to_table(**changed: object) -> bytes:
     head = {"schema": "kineme.segments/2", "fps": 30.0, "n_frames": 9}
     return json.dumps(head | {"segments": [ROW | {"label": "a"} | changed]}).encode()
 
 
-def knowledge(head: object) -> bytes:
+def to_base(head: object) -> bytes:
     file = io.BytesIO()
     np.savez(file, head=np.array(json.dumps(head)), features=np.zeros((2, 3)))
     return file.getvalue()
 
 
-def bvh(old: str, new: str) -> Callable[[], bytes]:
+def edit_bvh(old: str, new: str) -> Callable[[], bytes]:
     return lambda: BVH.replace(old, new).encode()
 
 
 RECORDINGS: dict[str, tuple[str, Callable[[], bytes]]] = {
-    "npz with damaged LZMA": ("a.npz", lzma_member),
-    "digits in a frame of BVH": ("a.bvh", bvh("1 91 1 11", f"1 {DIGITS} 1 1")),
-    "digits in the frames of BVH": ("a.bvh", bvh("Frames: ", f"Frames: {DIGITS}")),
-    "digits in the channels of BVH": ("a.bvh", bvh("CHANNELS 6", f"CHANNELS {DIGITS}")),
+    "npz with damaged LZMA": ("a.npz", make_lzma),
+    "digits in a frame of BVH": ("a.bvh", edit_bvh("1 91 1 11", f"1 {DIGITS} 1 1")),
+    "digits in the frames of BVH": ("a.bvh", edit_bvh("Frames: ", f"Frames: {DIGITS}")),
+    "digits in the channels of BVH": ("a.bvh", edit_bvh("CHANNELS 6", f"CHANNELS {DIGITS}")),
     "digits in a frame of AMC": ("a.amc", lambda: AMC.replace("\n1\n", f"\n{DIGITS}\n").encode()),
     "digits in TRC": ("a.trc", lambda: f"PathFileType\t4\nDataRate\n{DIGITS}\t1\n".encode()),
-    "MAT with flags of NaN": ("a.mat", mat_flags),
-    "MediaPipe at 2**64 Hz": ("a.json", lambda: mediapipe(2**64)),
-    "MediaPipe at no number of Hz": ("a.json", lambda: mediapipe(float("nan"))),
-    "a gap between 1.7e308 and -1.7e308": ("a.csv", far_apart),
-    "Parquet of texts": ("a.parquet", lambda: arrow(time_s=["a", "b"], gyro_x=["c", "d"])),
-    "Parquet of lists": ("a.parquet", lambda: arrow(gyro_x=[[1.0], [2.0]], gyro_y=[[1.0], []])),
+    "MAT with flags of NaN": ("a.mat", make_mat),
+    "MediaPipe at 2**64 Hz": ("a.json", lambda: make_poses(2**64)),
+    "MediaPipe at no number of Hz": ("a.json", lambda: make_poses(float("nan"))),
+    "a gap between 1.7e308 and -1.7e308": ("a.csv", make_gap),
+    "Parquet of texts": ("a.parquet", lambda: to_arrow(time_s=["a", "b"], gyro_x=["c", "d"])),
+    "Parquet of lists": ("a.parquet", lambda: to_arrow(gyro_x=[[1.0], [2.0]], gyro_y=[[1.0], []])),
     "a header of 140,000 characters": ("a.csv", lambda: b"time_s," + b"x" * 140_000 + b"\n0,1"),
     "a header of an open quote": ("a.csv", lambda: b'time_s,"' + b"x,\n" * 70_000),
 }
@@ -110,17 +110,21 @@ TRUTH = f"start_frame,stop_frame,label\n0,{DIGITS},a\n".encode()
 FAST = {"schema": "kineme.knowledge/2", "fps": 2**64}
 OTHERS: dict[str, tuple[str, Callable[[], bytes], Read]] = {
     "digits in a truth": ("a.csv", lambda: TRUTH, read_table),
-    "a dict for a label": ("a.json", lambda: table(label={}), read_table),
-    "a cluster of 2**63": ("a.json", lambda: table(cluster=2**63), read_table),
-    "a table of 1e300 frames": ("a.json", lambda: table(stop_frame=1e300), read_table),
-    "a graph of texts": ("a.json", lambda: graph(fps="fast"), read_graph),
-    "a graph at 2**64 Hz": ("a.json", lambda: graph(fps=2**64), read_graph),
-    "a graph of digits": ("a.json", lambda: graph().replace(b"60.0", DIGITS.encode()), read_graph),
-    "nodes that are no list": ("a.json", lambda: graph(nodes=3), read_graph),
-    "a node that is none": ("a.json", lambda: graph(nodes=[None]), read_graph),
-    "a node of 2**63": ("a.json", lambda: graph(nodes=[NODE | {"stop": 2**63}]), read_graph),
-    "knowledge that is a list": ("a.npz", lambda: knowledge([]), read_knowledge),
-    "knowledge at 2**64 Hz": ("a.npz", lambda: knowledge(FAST), read_knowledge),
+    "a dict for a label": ("a.json", lambda: to_table(label={}), read_table),
+    "a cluster of 2**63": ("a.json", lambda: to_table(cluster=2**63), read_table),
+    "a table of 1e300 frames": ("a.json", lambda: to_table(stop_frame=1e300), read_table),
+    "a graph of texts": ("a.json", lambda: to_graph(fps="fast"), read_graph),
+    "a graph at 2**64 Hz": ("a.json", lambda: to_graph(fps=2**64), read_graph),
+    "a graph of digits": (
+        "a.json",
+        lambda: to_graph().replace(b"60.0", DIGITS.encode()),
+        read_graph,
+    ),
+    "nodes that are no list": ("a.json", lambda: to_graph(nodes=3), read_graph),
+    "a node that is none": ("a.json", lambda: to_graph(nodes=[None]), read_graph),
+    "a node of 2**63": ("a.json", lambda: to_graph(nodes=[NODE | {"stop": 2**63}]), read_graph),
+    "knowledge that is a list": ("a.npz", lambda: to_base([]), read_knowledge),
+    "knowledge at 2**64 Hz": ("a.npz", lambda: to_base(FAST), read_knowledge),
 }
 
 
@@ -129,17 +133,17 @@ OTHERS: dict[str, tuple[str, Callable[[], bytes], Read]] = {
 def test_recordings(tmp_path: Path, kind: str) -> None:
     name, content = RECORDINGS[kind]
     (tmp_path / "a.asf").write_text(ASF)
-    refused(tmp_path / name, content(), kineme.read)
+    check_refusal(tmp_path / name, content(), kineme.read)
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 @pytest.mark.parametrize("kind", OTHERS)
 def test_labels_graphs_and_knowledge(tmp_path: Path, kind: str) -> None:
     name, content, read = OTHERS[kind]
-    refused(tmp_path / name, content(), read)
+    check_refusal(tmp_path / name, content(), read)
 
 
-def refused(path: Path, content: bytes, read: Callable[[Path], object]) -> None:
+def check_refusal(path: Path, content: bytes, read: Callable[[Path], object]) -> None:
     path.write_bytes(content)
     with pytest.raises(ReadError) as caught:
         read(path)

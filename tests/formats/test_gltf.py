@@ -92,11 +92,11 @@ NONE = [0, 0, 0, 1]
 TENTHS = np.arange(11) / 10
 
 
-def leg() -> File:
+def make_leg() -> File:
     return File(LEG, (1, 2, 3))
 
 
-def degrees(motion: Motion, name: str = "Knee") -> np.ndarray:
+def measure_turn(motion: Motion, name: str = "Knee") -> np.ndarray:
     turns = compute_world_rotations(motion.skeleton, motion.rotations)[:, motion.joint(name)]
     return np.degrees(2 * np.arctan2(turns[:, 3], turns[:, 0]))
 
@@ -162,11 +162,11 @@ def test_keys_in_a_line_held_and_cubic(tmp_path: Path) -> None:
         ("LINEAR", [NONE, [-x for x in TURN]], 90 * TENTHS),  # the same turn, the shorter arc
         ("STEP", [NONE, TURN], np.r_[np.zeros(10), 90]),
     ):
-        file = leg().animate("a", (2, "rotation", [0, 1], values, how))
+        file = make_leg().animate("a", (2, "rotation", [0, 1], values, how))
         motion = read_motion(file.save(tmp_path / "a.glb"), fps=10)
-        assert degrees(motion) == pytest.approx(expected, abs=1e-4)
+        assert measure_turn(motion) == pytest.approx(expected, abs=1e-4)
     values = [[0, 0, 0], [0, 90, 0], [0, 0, 0], [0, 30, 0], [0, 190, 0], [0, 0, 0]]
-    file = leg().animate("a", (1, "translation", [0, 2], values, "CUBICSPLINE"))
+    file = make_leg().animate("a", (1, "translation", [0, 2], values, "CUBICSPLINE"))
     height = read_motion(file.save(tmp_path / "a.glb"), fps=5).positions[:, 0, 1]
     s = TENTHS
     expected = 90 + (3 * s**2 - 2 * s**3) * 100 + (s**3 - s**2) * 2 * 30
@@ -175,7 +175,7 @@ def test_keys_in_a_line_held_and_cubic(tmp_path: Path) -> None:
 
 def test_scales_ends_and_the_rate_of_keys(tmp_path: Path) -> None:
     turns = Rotation.from_euler("z", 90 * TENTHS[:, None], degrees=True).as_quat()
-    file = leg().animate("a", (2, "rotation", TENTHS, turns, "LINEAR"))
+    file = make_leg().animate("a", (2, "rotation", TENTHS, turns, "LINEAR"))
     motion = read_motion(file.save(tmp_path / "a.glb"))
     assert (motion.fps, motion.n_frames) == (10, 11)
     assert motion.skeleton.names == ("Hips", "Knee", "Toe_end")
@@ -184,10 +184,10 @@ def test_scales_ends_and_the_rate_of_keys(tmp_path: Path) -> None:
     assert motion.positions[-1, 2] == pytest.approx([0.4, 0.5, 0.1], abs=1e-6)
     assert "frame rate 10 Hz, from its keys" in motion.provenance.notes
     ntsc = np.arange(900) * 1.001 / 30
-    file = leg().animate("a", (2, "rotation", ntsc, [TURN] * 900, "LINEAR"))
+    file = make_leg().animate("a", (2, "rotation", ntsc, [TURN] * 900, "LINEAR"))
     motion = read_motion(file.save(tmp_path / "a.glb"))
     assert (motion.fps, motion.n_frames) == (29.97, 900)
-    file = leg().animate("a", (2, "rotation", [0, 0.4, 1], [TURN] * 3, "LINEAR"))
+    file = make_leg().animate("a", (2, "rotation", [0, 0.4, 1], [TURN] * 3, "LINEAR"))
     with pytest.warns(KinemeWarning, match="not evenly spaced: 30 Hz assumed; give fps="):
         assert kineme.read(file.save(tmp_path / "a.glb")).n_frames == 31
 
@@ -202,7 +202,7 @@ def test_whole_numbers_matrices_and_buffers_beside(tmp_path: Path) -> None:
     packed = file.array(np.round(32767 * np.array([NONE, TURN])), "<i2", normalized=True)
     file.animate("a", (1, "rotation", [0, 1], packed, "LINEAR"))
     motion = read_motion(file.save(tmp_path / "a.glb"), fps=10)
-    assert degrees(motion, "Hips")[-1] == pytest.approx(90, abs=0.01)
+    assert measure_turn(motion, "Hips")[-1] == pytest.approx(90, abs=0.01)
     toe = [0, 90, 0] + matrix[:3, 3] + matrix[:3, :3] @ [0, -40, 10]
     assert motion.positions[0, 2] == pytest.approx(0.01 * toe)
     tree = {**file.tree, "buffers": [{"uri": "a%20b.bin"}]}
@@ -243,34 +243,34 @@ def test_bones_of_one_name_are_told(tmp_path: Path) -> None:
     assert motion.skeleton.names == ("Hips", "Hips_2", "Toe_end")
 
 
-def beyond() -> File:
-    file = leg().turn(2)
+def make_overrun() -> File:
+    file = make_leg().turn(2)
     file.tree["accessors"][0]["count"] = 10**9
     return file
 
 
-def changed(**more: Any) -> File:
-    file = leg().turn(2)
+def make_changed(**more: Any) -> File:
+    file = make_leg().turn(2)
     file.tree |= more
     return file
 
 
-def endless() -> File:
-    return leg().animate("a", (2, "rotation", [0, 1e9], [NONE, TURN], "LINEAR"))
+def make_endless() -> File:
+    return make_leg().animate("a", (2, "rotation", [0, 1e9], [NONE, TURN], "LINEAR"))
 
 
 @pytest.mark.parametrize(
     ("file", "reason"),
     [
-        (leg(), "holds no animation of its skeleton"),
-        (beyond(), "accessor 0 is longer than its buffer: truncated"),
-        (changed(asset={"version": "1.0"}), "is glTF of version 1.0: export glTF 2.0"),
-        (changed(asset={"version": "1.0"}, nodes={"a": {}}), "is glTF of version 1.0: export"),
-        (changed(asset={"version": 1}, accessors={"a": {}}), "is glTF of version 1: export"),
-        (changed(asset={}, accessors={"a": {}}), "is glTF of version 1.0: export"),
-        (changed(accessors=[]), "accessor 1 is not in the file|accessor 0 is not in the file"),
-        (changed(nodes=[{"children": [0]}]), "has no skeleton"),
-        (endless(), "claims 3 joints in"),
+        (make_leg(), "holds no animation of its skeleton"),
+        (make_overrun(), "accessor 0 is longer than its buffer: truncated"),
+        (make_changed(asset={"version": "1.0"}), "is glTF of version 1.0: export glTF 2.0"),
+        (make_changed(asset={"version": "1.0"}, nodes={"a": {}}), "is glTF of version 1.0: export"),
+        (make_changed(asset={"version": 1}, accessors={"a": {}}), "is glTF of version 1: export"),
+        (make_changed(asset={}, accessors={"a": {}}), "is glTF of version 1.0: export"),
+        (make_changed(accessors=[]), "accessor 1 is not in the file|accessor 0 is not in the file"),
+        (make_changed(nodes=[{"children": [0]}]), "has no skeleton"),
+        (make_endless(), "claims 3 joints in"),
     ],
 )
 def test_what_cannot_be_read_says_why(tmp_path: Path, file: File, reason: str) -> None:
@@ -280,11 +280,11 @@ def test_what_cannot_be_read_says_why(tmp_path: Path, file: File, reason: str) -
 
 def test_buffers_elsewhere_are_not_opened(tmp_path: Path) -> None:
     for place in ("../a.bin", "/etc/a.bin", "https://a.b/c.bin"):
-        tree = changed(buffers=[{"uri": place}]).tree
+        tree = make_changed(buffers=[{"uri": place}]).tree
         (tmp_path / "a.gltf").write_text(json.dumps(tree))
         with pytest.raises(ReadError, match=f"has a buffer in '{place}': put that file next to it"):
             read_quietly(tmp_path / "a.gltf")
-    (tmp_path / "a.gltf").write_text(json.dumps(changed(buffers=[{"uri": "a.bin"}]).tree))
+    (tmp_path / "a.gltf").write_text(json.dumps(make_changed(buffers=[{"uri": "a.bin"}]).tree))
     with pytest.raises(ReadError, match=r"a\.bin: cannot be opened"):
         read_quietly(tmp_path / "a.gltf")
 
@@ -292,7 +292,7 @@ def test_buffers_elsewhere_are_not_opened(tmp_path: Path) -> None:
 def test_buffers_that_are_links_or_pipes_are_not_opened(tmp_path: Path) -> None:
     folder = tmp_path / "scene"
     folder.mkdir()
-    file = leg().animate("a", (2, "rotation", TENTHS, [TURN] * 11, "LINEAR"))
+    file = make_leg().animate("a", (2, "rotation", TENTHS, [TURN] * 11, "LINEAR"))
     (tmp_path / "a.bin").write_bytes(file.data)
     (folder / "a.bin").symlink_to(tmp_path / "a.bin")
     (folder / "a.gltf").write_text(json.dumps({**file.tree, "buffers": [{"uri": "a.bin"}]}))
@@ -310,7 +310,7 @@ def test_buffers_that_are_links_or_pipes_are_not_opened(tmp_path: Path) -> None:
 
 
 def test_accessors_without_a_view_are_zeros(tmp_path: Path) -> None:
-    file = leg().animate("a", (1, "translation", TENTHS, [[0, 90, 0]] * 11, "LINEAR"))
+    file = make_leg().animate("a", (1, "translation", TENTHS, [[0, 90, 0]] * 11, "LINEAR"))
     output = file.tree["accessors"][file.tree["animations"][0]["samplers"][0]["output"]]
     dense = read_quietly(file.save(tmp_path / "a.glb"))
     del output["bufferView"]
@@ -346,7 +346,7 @@ def test_accessors_without_a_view_are_zeros(tmp_path: Path) -> None:
 
 
 def test_truncated_files(tmp_path: Path) -> None:
-    whole = changed().save(tmp_path / "a.glb").read_bytes()
+    whole = make_changed().save(tmp_path / "a.glb").read_bytes()
     for data, reason in (
         (whole[:8], "ends in its header"),
         (whole[:-9], f"has {len(whole) - 9} bytes instead of {len(whole)}: it is truncated"),

@@ -2,30 +2,17 @@
 
 from __future__ import annotations
 
-from itertools import count
 from pathlib import Path
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
 
 import kineme
 from growth import LINEAR, times_longer
-from kineme._util.checks import make_unique
 from kineme.features.effectors import find_by_shape
 from kineme.formats.files import FileContent
 from kineme.formats.skeletons.asf import read_asf
 
 N = 20_000
-
-
-@given(st.lists(st.sampled_from(["a", "b", "a_2", "a_3", "", "_2", "a_2_2", "_3"]), max_size=14))
-def test_names_made_unique_are_those_of_the_plain_way(names: list[str]) -> None:
-    given_: list[str] = []
-    for name in names:
-        tries = (name if i == 1 else f"{name}_{i}" for i in count(1))
-        given_.append(next(new for new in tries if new and new not in given_))
-    assert make_unique(names) == given_
 
 
 def test_many_bones(tmp_path: Path) -> None:

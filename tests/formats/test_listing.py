@@ -20,7 +20,7 @@ from kineme.transfer.knowledge import holds_knowledge
 BVH = kineme.bundled_recording().read_text(encoding="utf-8")
 
 
-def archive(path: Path, *names: str) -> Path:
+def save_archive(path: Path, *names: str) -> Path:
     np.savez(path, **{name: np.zeros(3) for name in names})
     return path
 
@@ -80,7 +80,7 @@ def test_a_coco_set_that_begins_with_its_images(tmp_path: Path, *, known: bool) 
     ],
 )
 def test_archives(tmp_path: Path, names: tuple[str, ...], expected: bool) -> None:
-    path = archive(tmp_path / "a.npz", *names)
+    path = save_archive(tmp_path / "a.npz", *names)
     assert holds_recording(path) is expected
     assert holds_knowledge(path) is ("lengths" in names)
 
@@ -95,7 +95,7 @@ def test_one_bad_file_never_ends_a_listing(tmp_path: Path, monkeypatch) -> None:
     (tmp_path / "walk.bvh").write_text(BVH, encoding="utf-8")
     for name in ("gone.csv", "locked.csv", "strange.csv"):
         (tmp_path / name).write_text("time,a\n", encoding="utf-8")
-    data = bytearray(archive(tmp_path / "newer.npz", "poses").read_bytes())
+    data = bytearray(save_archive(tmp_path / "newer.npz", "poses").read_bytes())
     data[data.index(b"PK\x01\x02") + 6] = 255  # version needed to extract, in the directory
     (tmp_path / "newer.npz").write_bytes(data)
     (tmp_path / "torn.npz").write_bytes(b"PK\x03\x04")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from marker_samples import PLUG_IN_GAIT, walking, z_up_millimetres
+from marker_samples import PLUG_IN_GAIT, make_walk, to_millimetres
 from scipy.io import loadmat, savemat
 
 import kineme
@@ -18,7 +18,7 @@ from kineme.formats.arrays.mat import parse_mat
 from kineme.formats.files import FileContent
 
 
-def mat(compressed: bool = True, **variables: object) -> bytes:
+def to_mat(compressed: bool = True, **variables: object) -> bytes:
     file = io.BytesIO()
     savemat(file, variables, do_compression=compressed)
     return file.getvalue()
@@ -30,13 +30,13 @@ def read(folder: Path, data: bytes, **options):
     return kineme.read(path, **options)
 
 
-def cells(names: list[str]) -> np.ndarray:
+def to_cells(names: list[str]) -> np.ndarray:
     out = np.empty(len(names), object)
     out[:] = names
     return out
 
 
-MARKERS = walking()
+MARKERS = make_walk()
 PELVIS = MARKERS[:, :4].mean(axis=1)
 
 
@@ -47,44 +47,44 @@ def has_the_walk(motion: kineme.Motion) -> bool:
 
 @pytest.mark.parametrize("compressed", [False, True])
 def test_positions_by_variables(tmp_path: Path, compressed: bool) -> None:
-    names = cells(PLUG_IN_GAIT)
-    data = mat(compressed, positions=MARKERS, names=names, fps=100)
+    names = to_cells(PLUG_IN_GAIT)
+    data = to_mat(compressed, positions=MARKERS, names=names, fps=100)
     assert has_the_walk(read(tmp_path, data))
-    inside = mat(compressed, take={"positions": MARKERS, "names": names, "fps": 100})
+    inside = to_mat(compressed, take={"positions": MARKERS, "names": names, "fps": 100})
     assert has_the_walk(read(tmp_path, inside))
-    rows = mat(compressed, positions=MARKERS, names=np.array(PLUG_IN_GAIT), fps=100)
+    rows = to_mat(compressed, positions=MARKERS, names=np.array(PLUG_IN_GAIT), fps=100)
     assert has_the_walk(read(tmp_path, rows))  # a matrix of characters
 
 
 def test_a_variable_for_each_marker(tmp_path: Path) -> None:
     tracks = {name: MARKERS[:, i] for i, name in enumerate(PLUG_IN_GAIT)}
-    assert has_the_walk(read(tmp_path, mat(fps=100.0, **tracks)))
-    assert has_the_walk(read(tmp_path, mat(markers=tracks, fps=100.0, info="a take")))
+    assert has_the_walk(read(tmp_path, to_mat(fps=100.0, **tracks)))
+    assert has_the_walk(read(tmp_path, to_mat(markers=tracks, fps=100.0, info="a take")))
     time = np.arange(60) / 100
-    assert has_the_walk(read(tmp_path, mat(markers={**tracks, "time": time})))
+    assert has_the_walk(read(tmp_path, to_mat(markers={**tracks, "time": time})))
     columns = {
         f"{n}_{a}": MARKERS[:, i, k]
         for i, n in enumerate(PLUG_IN_GAIT)
         for k, a in enumerate("xyz")
     }
-    assert has_the_walk(read(tmp_path, mat(**columns, time=time)))
+    assert has_the_walk(read(tmp_path, to_mat(**columns, time=time)))
 
 
-def qtm(points: np.ndarray) -> dict:
+def to_qtm(points: np.ndarray) -> dict:
     data = np.concatenate([points, np.zeros((*points.shape[:2], 1))], axis=2)
-    labels = cells(PLUG_IN_GAIT)
+    labels = to_cells(PLUG_IN_GAIT)
     labeled = {"Count": 18, "Labels": labels, "Data": data.transpose(1, 2, 0)}
     return {"File": "x", "FrameRate": 100, "Trajectories": {"Labeled": labeled}}
 
 
 def test_exports_of_qtm(tmp_path: Path) -> None:
-    points = z_up_millimetres(MARKERS)
-    motion = read(tmp_path, mat(take_01=qtm(points)))
+    points = to_millimetres(MARKERS)
+    motion = read(tmp_path, to_mat(take_01=to_qtm(points)))
     assert motion.provenance.format == "MAT of QTM"
     assert has_the_walk(motion)
-    wrong = qtm(points[:, :5])
+    wrong = to_qtm(points[:, :5])
     with pytest.raises(ReadError, match=r"18 Labels for Data of shape \(5, 4, 60\)"):
-        read(tmp_path, mat(take=wrong))
+        read(tmp_path, to_mat(take=wrong))
 
 
 def as_hdf5(variables: dict, folder: Path) -> bytes:
@@ -123,12 +123,12 @@ def as_hdf5(variables: dict, folder: Path) -> bytes:
 
 
 def test_version_73(tmp_path: Path) -> None:
-    names = cells(PLUG_IN_GAIT)
+    names = to_cells(PLUG_IN_GAIT)
     data = as_hdf5({"positions": MARKERS, "names": names, "fps": 100}, tmp_path)
     assert has_the_walk(read(tmp_path, data))
     rows = {"positions": MARKERS, "names": "\n".join(PLUG_IN_GAIT), "fps": 100}
     assert has_the_walk(read(tmp_path, as_hdf5(rows, tmp_path)))
-    motion = read(tmp_path, as_hdf5({"take": qtm(z_up_millimetres(MARKERS))}, tmp_path))
+    motion = read(tmp_path, as_hdf5({"take": to_qtm(to_millimetres(MARKERS))}, tmp_path))
     assert motion.provenance.format == "MAT of QTM"
     assert has_the_walk(motion)
     with pytest.raises(ReadError, match="is not a complete HDF5 file"):
@@ -138,7 +138,7 @@ def test_version_73(tmp_path: Path) -> None:
 def test_channels_are_signals(tmp_path: Path) -> None:
     emg = np.sin(np.arange(500)[:, None] * (0.1, 0.2, 0.3))
     (tmp_path / "a.mat").write_bytes(
-        mat(emg=emg, force=emg[:, 0], subject="ann", Fs=1000, x=[1, 2])
+        to_mat(emg=emg, force=emg[:, 0], subject="ann", Fs=1000, x=[1, 2])
     )
     signals = kineme.read(tmp_path / "a.mat")
     assert signals.names == ("emg_1", "emg_2", "emg_3", "force")
@@ -146,7 +146,7 @@ def test_channels_are_signals(tmp_path: Path) -> None:
     assert np.array_equal(signals.values[:, :3], emg)
     some = kineme.read(tmp_path / "a.mat", columns=["force"], fps=500)
     assert (some.names, some.fps) == (("force",), 500)
-    (tmp_path / "a.mat").write_bytes(mat(emg=emg.T, time=np.arange(500) / 200))
+    (tmp_path / "a.mat").write_bytes(to_mat(emg=emg.T, time=np.arange(500) / 200))
     assert kineme.read(tmp_path / "a.mat").fps == 200
 
 
@@ -154,12 +154,15 @@ def test_channels_are_signals(tmp_path: Path) -> None:
     ("data", "reason"),
     [
         (b"MATLAB 5.0 MAT-file", "not a MAT file of version 5"),
-        (mat(positions=MARKERS, fps=100)[:900], "not a complete MAT file"),
-        (mat(), "no readable variable"),
-        (mat(positions=MARKERS), "no 'fps' in it: give fps="),
-        (mat(emg=np.arange(9.0)), r"it does not state its frame rate: give fps \(--fps\)"),
-        (mat(False, positions=np.zeros((3, 3, 3)), names=cells(["a"]), fps=1), "1 names for 3"),
-        (mat(positions=np.zeros((10**5, 3, 3)), fps=30), "claims to unpack far more than it"),
+        (to_mat(positions=MARKERS, fps=100)[:900], "not a complete MAT file"),
+        (to_mat(), "no readable variable"),
+        (to_mat(positions=MARKERS), "no 'fps' in it: give fps="),
+        (to_mat(emg=np.arange(9.0)), r"it does not state its frame rate: give fps \(--fps\)"),
+        (
+            to_mat(False, positions=np.zeros((3, 3, 3)), names=to_cells(["a"]), fps=1),
+            "1 names for 3",
+        ),
+        (to_mat(positions=np.zeros((10**5, 3, 3)), fps=30), "claims to unpack far more than it"),
     ],
 )
 def test_bad_files(tmp_path: Path, data: bytes, reason: str) -> None:
@@ -179,11 +182,11 @@ VALUES = st.one_of(
 )
 
 
-def same(ours: object, theirs: object) -> bool:
+def are_same(ours: object, theirs: object) -> bool:
     if isinstance(ours, dict):
-        return all(same(ours[key], theirs[key][0, 0]) for key in theirs.dtype.names)
+        return all(are_same(ours[key], theirs[key][0, 0]) for key in theirs.dtype.names)
     if isinstance(ours, list):
-        return len(ours) == theirs.size and all(map(same, ours, theirs.ravel(order="F")))
+        return len(ours) == theirs.size and all(map(are_same, ours, theirs.ravel(order="F")))
     if isinstance(ours, str):
         return ours == "".join(theirs.ravel())
     return ours.dtype.kind == theirs.dtype.kind and np.array_equal(ours, theirs)
@@ -204,8 +207,8 @@ def same(ours: object, theirs: object) -> bool:
     st.booleans(),
 )
 def test_we_find_what_scipy_finds(variables: dict, compressed: bool) -> None:
-    data = mat(compressed, **variables)
+    data = to_mat(compressed, **variables)
     ours, theirs = parse_mat(FileContent(Path("a.mat"), data)), loadmat(io.BytesIO(data))
     assert ours.keys() == {key for key in theirs if not key.startswith("__")}
     for name, value in ours.items():
-        assert same(value, theirs[name]), name
+        assert are_same(value, theirs[name]), name

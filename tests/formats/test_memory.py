@@ -23,7 +23,7 @@ MOST = 4 << 30
 """Bytes of address space for all of Python; reading each of these files once took more."""
 
 
-def parquet_of_repeated_texts(path: Path) -> None:
+def write_repeated_texts(path: Path) -> None:
     pa = pytest.importorskip("pyarrow")
     from pyarrow import parquet
 
@@ -35,7 +35,7 @@ def parquet_of_repeated_texts(path: Path) -> None:
     parquet.write_table(pa.table(columns), path, compression="brotli")
 
 
-def bvh_without_channels(path: Path) -> None:
+def write_channelless_bvh(path: Path) -> None:
     joints = "".join(f"JOINT j{i} {{ OFFSET 0 1 0 }}\n" for i in range(4000))
     frames = "1\n" * 20_000
     path.write_text(
@@ -44,7 +44,7 @@ def bvh_without_channels(path: Path) -> None:
     )
 
 
-def archive_of_zeros(path: Path) -> None:
+def write_zeros(path: Path) -> None:
     head = io.BytesIO()
     np.lib.format.write_array_header_1_0(
         head, {"descr": "<f4", "fortran_order": False, "shape": (3_000_000, 75)}
@@ -59,7 +59,7 @@ def archive_of_zeros(path: Path) -> None:
                 file.write(bytes(3_000_000))
 
 
-def groups_in_groups(path: Path) -> None:
+def nest_groups(path: Path) -> None:
     h5py = pytest.importorskip("h5py")
     with h5py.File(path, "w") as file:
         groups = [file.create_group(f"g{i}") for i in range(25)]
@@ -68,7 +68,7 @@ def groups_in_groups(path: Path) -> None:
                 outer[name] = inner
 
 
-def group_in_itself(path: Path) -> None:
+def link_to_itself(path: Path) -> None:
     h5py = pytest.importorskip("h5py")
     with h5py.File(path, "w") as file:
         inner = file.create_group("outer/inner")
@@ -76,13 +76,13 @@ def group_in_itself(path: Path) -> None:
             inner[name] = file["outer"]
 
 
-def landmarks_row_by_row(path: Path) -> None:
+def write_landmarks(path: Path) -> None:
     with path.open("w") as file:
         file.write("frame,landmark,x,y\n")
         file.writelines(f"{i},0,1,1\n" for i in range(400_000))
 
 
-def long_bvh(folder: Path) -> Path:
+def write_long_bvh(folder: Path) -> Path:
     channels = "CHANNELS 3 Zrotation Yrotation Xrotation"
     path = folder / "long.bvh"
     path.write_text(
@@ -95,7 +95,7 @@ def long_bvh(folder: Path) -> Path:
 
 
 def test_a_long_recording_holds_little_more_than_itself(tmp_path: Path) -> None:
-    path = long_bvh(tmp_path)
+    path = write_long_bvh(tmp_path)
     kineme.read(path)  # which imports
     tracemalloc.start()
     motion = kineme.read(path)
@@ -109,13 +109,13 @@ def test_a_long_recording_holds_little_more_than_itself(tmp_path: Path) -> None:
 
 RECORDING, KNOWLEDGE = "kineme.read(path, fps=30)", "kineme.KnowledgeBase.load(path)"
 FILES: list[tuple[Callable[[Path], None], str, str]] = [
-    (parquet_of_repeated_texts, "a.parquet", "claims texts that repeat"),
-    (bvh_without_channels, "a.bvh", "claims 4001 joints in 20000 frames"),
-    (archive_of_zeros, "a.npz", "claims to unpack to 900 MB"),
-    (archive_of_zeros, "base.npz", "claims to unpack to 900 MB"),
-    (groups_in_groups, "a.h5", "claims to unpack far more than it contains"),
-    (group_in_itself, "a.h5", "contains a link to itself"),
-    (landmarks_row_by_row, "a.csv", "claims 33 landmarks in 400000 frames"),
+    (write_repeated_texts, "a.parquet", "claims texts that repeat"),
+    (write_channelless_bvh, "a.bvh", "claims 4001 joints in 20000 frames"),
+    (write_zeros, "a.npz", "claims to unpack to 900 MB"),
+    (write_zeros, "base.npz", "claims to unpack to 900 MB"),
+    (nest_groups, "a.h5", "claims to unpack far more than it contains"),
+    (link_to_itself, "a.h5", "contains a link to itself"),
+    (write_landmarks, "a.csv", "claims 33 landmarks in 400000 frames"),
 ]
 
 

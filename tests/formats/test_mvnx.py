@@ -23,7 +23,7 @@ HEIGHTS = {
 }  # fmt: skip
 
 
-def suit(frames: int = 12) -> Motion:
+def make_suit(frames: int = 12) -> Motion:
     """Somebody in a suit who bends all joints a little, y up."""
     rng = np.random.default_rng(3)
     parents = [NAMES.index(PARENTS[name]) if PARENTS[name] else -1 for name in NAMES]
@@ -40,7 +40,7 @@ def suit(frames: int = 12) -> Motion:
     return Motion.from_rotations(skeleton, rotations, 60, translations=places)
 
 
-def mvnx(motion: Motion, *, more: str = "", name: str = "Anna", positions: bool = True) -> str:
+def to_mvnx(motion: Motion, *, more: str = "", name: str = "Anna", positions: bool = True) -> str:
     """As MVN writes it: z up, world orientations, a frame of calibration first."""
     up = Rotation.from_euler("x", 90, degrees=True)
     world = np.empty((motion.n_frames, len(NAMES), 4))
@@ -71,8 +71,8 @@ def read(folder: Path, text: str, **options: object) -> Motion:
 
 
 def test_a_suit_comes_back(tmp_path: Path) -> None:
-    motion = suit()
-    found = read(tmp_path, mvnx(motion))
+    motion = make_suit()
+    found = read(tmp_path, to_mvnx(motion))
     assert (found.fps, found.n_frames, found.skeleton.names) == (60, 12, NAMES)
     assert found.provenance.format == "MVNX"
     assert found.rotations is not None
@@ -85,8 +85,8 @@ def test_a_suit_comes_back(tmp_path: Path) -> None:
 
 
 def test_positions_without_orientations(tmp_path: Path) -> None:
-    motion = suit()
-    text = re.sub(r'(type="normal">)<orientation>.*?</orientation>', r"\1", mvnx(motion))
+    motion = make_suit()
+    text = re.sub(r'(type="normal">)<orientation>.*?</orientation>', r"\1", to_mvnx(motion))
     found = read(tmp_path, text)
     assert (found.fps, found.skeleton.names, found.rotations) == (60, NAMES, None)
     assert found.skeleton.parents == motion.skeleton.parents
@@ -95,7 +95,7 @@ def test_positions_without_orientations(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="some frames have no orientations"):
         read(
             tmp_path,
-            mvnx(motion).replace("<orientation>", "<x>", 3).replace("</orientation>", "</x>", 3),
+            to_mvnx(motion).replace("<orientation>", "<x>", 3).replace("</orientation>", "</x>", 3),
         )
 
 
@@ -107,8 +107,8 @@ def test_a_layout_without_orientations(data_dir: Path) -> None:
 
 
 def test_a_prop_and_a_missing_segment(tmp_path: Path) -> None:
-    motion = suit()
-    text = mvnx(motion)
+    motion = make_suit()
+    text = to_mvnx(motion)
     renamed = text.replace('label="L3"', 'label="Prop1"')
     found = read(tmp_path, renamed)
     assert found.provenance.notes == ("segments left out: Prop1",)
@@ -116,8 +116,8 @@ def test_a_prop_and_a_missing_segment(tmp_path: Path) -> None:
 
 
 def test_one_of_several_subjects(tmp_path: Path) -> None:
-    one = mvnx(suit(), name="Anna")
-    other = mvnx(replace(suit(), positions=suit().positions + 1), name="Bob")
+    one = to_mvnx(make_suit(), name="Anna")
+    other = to_mvnx(replace(make_suit(), positions=make_suit().positions + 1), name="Bob")
     text = one.replace("</mvnx>", other[other.index("<subject") :])
     with pytest.raises(SeveralPeopleError, match="Anna, Bob"):
         read(tmp_path, text)
@@ -138,12 +138,12 @@ def test_one_of_several_subjects(tmp_path: Path) -> None:
         (lambda text: text.replace("</position>", " 1</position>", 2), r"does not have \d+ values"),
         (lambda text: text.replace("<position>", "<position>x ", 2), "that is not a number"),
         (lambda text: text.replace("<position>", "<position>nan ", 2), r"does not have \d+ values"),
-        (lambda _: mvnx(suit(), positions=False), "no frame has a position"),
+        (lambda _: to_mvnx(make_suit(), positions=False), "no frame has a position"),
     ],
 )
 def test_wrong_files(tmp_path: Path, spoil, reason: str) -> None:
     with pytest.raises(ReadError, match=reason):
-        read(tmp_path, spoil(mvnx(suit(2))))
+        read(tmp_path, spoil(to_mvnx(make_suit(2))))
 
 
 def test_entities_do_not_grow(tmp_path: Path) -> None:

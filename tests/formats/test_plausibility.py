@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from keypoint_samples import write_trc
-from marker_samples import PLUG_IN_GAIT, c3d_bytes, walking
+from marker_samples import PLUG_IN_GAIT, make_walk, to_c3d
 
 import kineme
 from kineme.errors import KinemeWarning
@@ -20,9 +20,9 @@ TURNS = {"y": [0, 1, 2], "z": [2, 0, 1], "x": [1, 2, 0]}
 """For each axis that is up, the axes of y-up positions in its order."""
 
 
-def walker(*, head: bool = True) -> np.ndarray:
+def make_walker(*, head: bool = True) -> np.ndarray:
     """Return markers of somebody who walks along z with swinging arms, metres with y up."""
-    points = walking(FRAMES, FPS)
+    points = make_walk(FRAMES, FPS)
     return points if head else points[:, [i for i, n in enumerate(NAMES) if "HD" not in n]]
 
 
@@ -44,7 +44,7 @@ def write_millimetres(path: Path, points: np.ndarray, names: list[str] = NAMES) 
 
 def write_c3d(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
     y_screen = f"+{up.upper()}" if up else None
-    path.write_bytes(c3d_bytes(1000 * points, names, rate=FPS, y_screen=y_screen))
+    path.write_bytes(to_c3d(1000 * points, names, rate=FPS, y_screen=y_screen))
     return path
 
 
@@ -55,7 +55,7 @@ WRITERS = {
 }
 
 
-def height(motion: Any, upper: str) -> float:
+def measure_height(motion: Any, upper: str) -> float:
     """Return how far a marker is above the ankles, in the middle of the recording."""
     names = motion.skeleton.names
     marker = upper if upper in names else next(n for n in names if n.startswith(upper))
@@ -70,30 +70,30 @@ def height(motion: Any, upper: str) -> float:
 @pytest.mark.parametrize("up", TURNS)
 @pytest.mark.parametrize("suffix", WRITERS)
 def test_the_up_axis_is_that_of_the_body(tmp_path: Path, suffix: str, up: str, head: bool) -> None:
-    points = walker(head=head)
+    points = make_walker(head=head)
     names = NAMES if head else [name for name in NAMES if "HD" not in name]
     turned = points[:, :, TURNS[up]]
     motion = read_quietly(WRITERS[suffix](tmp_path / f"a{suffix}", turned, names))
     part, expected = ("head", 1.55) if head else ("pelvis", 0.9)
-    assert height(motion, part) == pytest.approx(expected, abs=0.02)
+    assert measure_height(motion, part) == pytest.approx(expected, abs=0.02)
 
 
 @pytest.mark.parametrize("stated", ["x", "y", "z"])
 def test_a_c3d_that_names_another_up_axis_is_warned_of(tmp_path: Path, stated: str) -> None:
-    path = write_c3d(tmp_path / "a.c3d", walker()[:, :, TURNS["z"]], NAMES, up=stated)
+    path = write_c3d(tmp_path / "a.c3d", make_walker()[:, :, TURNS["z"]], NAMES, up=stated)
     motion = read_quietly(path)
-    assert height(motion, "head") == pytest.approx(1.55, abs=0.02)
+    assert measure_height(motion, "head") == pytest.approx(1.55, abs=0.02)
     assert [f"the file names {stated}" in each for each in motion.provenance.warnings] == (
         [] if stated == "z" else [True]
     )
     kept = read_quietly(path, ReadOptions(up="x"))
-    assert height(kept, "head") == pytest.approx(0, abs=0.2)
+    assert measure_height(kept, "head") == pytest.approx(0, abs=0.2)
     assert not any("lies" in each for each in kept.provenance.warnings)
 
 
 @pytest.mark.parametrize("marker", ["LASI", "LWRA"])
 def test_a_marker_that_jumps_and_comes_back_is_not_seen_there(tmp_path: Path, marker: str) -> None:
-    points = walker()
+    points = make_walker()
     sound = read_quietly(write_millimetres(tmp_path / "sound.trc", points))
     assert sound.provenance.warnings == ()
     points[200:206, NAMES.index(marker)] += (0.2, 0.55, 0.1)  # 58 m/s
@@ -105,7 +105,7 @@ def test_a_marker_that_jumps_and_comes_back_is_not_seen_there(tmp_path: Path, ma
 
 
 def test_a_jump_without_return_is_warned_of_and_kept(tmp_path: Path) -> None:
-    points = walker()
+    points = make_walker()
     points[200:, NAMES.index("LWRA"), 1] += 0.6
     motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert motion.provenance.warnings == ("points that jump: LWRA (first in frame 200)",)
@@ -113,14 +113,14 @@ def test_a_jump_without_return_is_warned_of_and_kept(tmp_path: Path) -> None:
 
 
 def test_a_moved_origin_is_no_jump_of_each_marker(tmp_path: Path) -> None:
-    points = walker()
+    points = make_walker()
     points[200:] += (1.0, 0, 2.0)
     motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert motion.provenance.warnings == ()
 
 
 def test_markers_at_the_origin_are_not_seen_there(tmp_path: Path) -> None:
-    points = walker()
+    points = make_walker()
     sound = read_quietly(write_millimetres(tmp_path / "sound.trc", points))
     points[100:110, NAMES.index("LWRA")] = 0
     motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
@@ -131,7 +131,7 @@ def test_markers_at_the_origin_are_not_seen_there(tmp_path: Path) -> None:
 
 
 def test_frames_of_zeros_are_a_gap(tmp_path: Path) -> None:
-    points = walker()
+    points = make_walker()
     points[100:160] = 0
     motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
     assert motion.gaps == ((100, 160),)
@@ -139,7 +139,7 @@ def test_frames_of_zeros_are_a_gap(tmp_path: Path) -> None:
 
 
 def test_a_point_that_never_leaves_the_origin_stays(tmp_path: Path) -> None:
-    points = walker()
+    points = make_walker()
     points -= points[:, :1]
     motion = read_quietly(write_csv(tmp_path / "a.csv", points, NAMES))
     assert not motion.provenance.warnings
@@ -147,7 +147,7 @@ def test_a_point_that_never_leaves_the_origin_stays(tmp_path: Path) -> None:
 
 
 def test_markers_of_one_bone_that_are_exchanged_are_warned_of(tmp_path: Path) -> None:
-    points = walker()
+    points = make_walker()
     left, right = NAMES.index("LASI"), NAMES.index("RPSI")
     points[150:250, [left, right]] = points[150:250, [right, left]]
     motion = read_quietly(write_millimetres(tmp_path / "a.trc", points))
@@ -156,18 +156,18 @@ def test_markers_of_one_bone_that_are_exchanged_are_warned_of(tmp_path: Path) ->
 
 
 def test_a_body_of_a_kilometre_is_of_another_unit(tmp_path: Path) -> None:
-    path = write_trc(tmp_path / "a.trc", 1000 * walker(), NAMES, "m", FPS)
+    path = write_trc(tmp_path / "a.trc", 1000 * make_walker(), NAMES, "m", FPS)
     with pytest.warns(
         KinemeWarning, match=r"unit m, the points spread over 1550 m: mm assumed \(1\.55 m\)"
     ):
         motion = kineme.read(path)
-    assert height(motion, "head") == pytest.approx(1.55, abs=0.02)
-    assert height(kineme.read(path, unit="m"), "head") == pytest.approx(1550, abs=20)
-    assert height(kineme.read(path, unit="mm"), "head") == pytest.approx(1.55, abs=0.02)
+    assert measure_height(motion, "head") == pytest.approx(1.55, abs=0.02)
+    assert measure_height(kineme.read(path, unit="m"), "head") == pytest.approx(1550, abs=20)
+    assert measure_height(kineme.read(path, unit="mm"), "head") == pytest.approx(1.55, abs=0.02)
 
 
 def test_a_body_that_lies_is_warned_of(tmp_path: Path) -> None:
-    motion = read_quietly(write_millimetres(tmp_path / "a.trc", walker()))
+    motion = read_quietly(write_millimetres(tmp_path / "a.trc", make_walker()))
     lying = motion.positions[:, :, [1, 2, 0]]
     path = tmp_path / "a.npz"
     np.savez(

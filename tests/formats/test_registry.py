@@ -24,19 +24,19 @@ from kineme.formats import (
 CUT_SHORT = kineme.bundled_recording().read_text(encoding="utf-8").replace("Frames: ", "Frames: 9")
 
 
-def toy_read(content, options):
+def read_toy(content, options):
     content.warn("read as a toy", 3)
     values = np.array(content.text.split()[1:], float)
     return kineme.Signals(values, options.fps or 10, provenance=content.provenance("toy", ["fun"]))
 
 
-def toy_write(signals, path: Path) -> None:
+def write_toy(signals, path: Path) -> None:
     path.write_text(f"TOY {' '.join(map(str, signals.values[:, 0]))}", encoding="utf-8")
 
 
 TOY = Format(
-    "toy", (".toy",), lambda head: head.startswith(b"TOY"), toy_read,
-    write_signals=toy_write, channels=True,
+    "toy", (".toy",), lambda head: head.startswith(b"TOY"), read_toy,
+    write_signals=write_toy, channels=True,
 )  # fmt: skip
 
 

@@ -32,7 +32,7 @@ def read(data_dir: Path, name: str) -> Motion:
     return motion[: min(motion.n_frames, 40)]
 
 
-def shared(one: Motion, other: Motion) -> tuple[list[int], list[int]]:
+def match_joints(one: Motion, other: Motion) -> tuple[list[int], list[int]]:
     names = other.skeleton.names
     pairs = [(j, names.index(n)) for j, n in enumerate(one.skeleton.names) if n in names]
     return [j for j, _ in pairs], [j for _, j in pairs]
@@ -46,7 +46,7 @@ def test_places_and_rest_pose_come_back(data_dir, tmp_path, name, suffix) -> Non
         pytest.importorskip("pxr")
     kineme.write(motion, tmp_path / f"clip{suffix}")
     again = read_motion(tmp_path / f"clip{suffix}")
-    here, there = shared(motion, again)
+    here, there = match_joints(motion, again)
     # Ends of limbs have other names in a BVH.
     assert len(here) >= motion.skeleton.n_joints - 5 * (suffix == ".bvh")
     assert again.fps == pytest.approx(motion.fps)

@@ -19,7 +19,7 @@ from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import compute_world_rotations
 
 
-def written_and_read(motion: Motion, suffix: str) -> Motion:
+def write_and_read(motion: Motion, suffix: str) -> Motion:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"motion{suffix}"
         write(motion, path)
@@ -42,7 +42,7 @@ def assert_same_joints(one: Motion, other: Motion, names: list[str]) -> None:
 @pytest.mark.filterwarnings("ignore:.* bones have no length")
 @given(motions())
 def test_bvh(motion: Motion) -> None:
-    again = written_and_read(motion, ".bvh")
+    again = write_and_read(motion, ".bvh")
     skeleton = motion.skeleton
     assert again.skeleton.n_joints == skeleton.n_joints
     assert len(again.skeleton.end_sites) == len(skeleton.end_sites)
@@ -55,7 +55,7 @@ def test_bvh(motion: Motion) -> None:
 @pytest.mark.filterwarnings("ignore:.* bones have no length")
 @given(motions(names=PLAIN))
 def test_amc(motion: Motion) -> None:
-    again = written_and_read(motion, ".amc")
+    again = write_and_read(motion, ".amc")
     skeleton = motion.skeleton
     inner = [n for i, n in enumerate(skeleton.names) if i not in skeleton.end_sites]
     assert_same_joints(motion, again, inner)

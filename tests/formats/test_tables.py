@@ -22,7 +22,7 @@ JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head"
 JOINTS += ["right_wrist", "nose"]
 
 
-def body(frames: int = 20) -> np.ndarray:
+def make_body(frames: int = 20) -> np.ndarray:
     rest = [(0, 1, 0), (0.1, 0.9, 0), (-0.1, 0.9, 0), (0.1, 0.1, 0), (-0.1, 0.1, 0)]
     rest += [(0, 1.6, 0), (0.3, 0.9, 0), (-0.3, 0.9, 0), (0, 1.55, 0.1)]
     points = np.repeat(np.array(rest)[None], frames, axis=0)
@@ -30,7 +30,7 @@ def body(frames: int = 20) -> np.ndarray:
     return points
 
 
-def table(points: np.ndarray, pattern: str = "{joint}_{axis}", sep: str = ",", **columns) -> str:
+def tabulate(points: np.ndarray, pattern: str = "{joint}_{axis}", sep: str = ",", **columns) -> str:
     """A table with these columns besides the positions."""
     names = [pattern.format(joint=joint, axis=axis) for joint in JOINTS for axis in "xyz"]
     rows = points.reshape(len(points), -1)
@@ -51,19 +51,19 @@ TIMES = [f"{i / 25:.3f}" for i in range(20)]
 @pytest.mark.parametrize("pattern", ["{joint}_{axis}", "{joint}.{axis}", "{joint} {axis}"])
 @pytest.mark.parametrize(("suffix", "sep"), [("csv", ","), ("csv", ";"), ("tsv", "\t")])
 def test_tables(tmp_path: Path, pattern: str, suffix: str, sep: str) -> None:
-    text = table(body(), pattern, sep, label=["walk"] * 20, time=TIMES)
+    text = tabulate(make_body(), pattern, sep, label=["walk"] * 20, time=TIMES)
     motion = read(tmp_path, f"a.{suffix}", text)
     assert motion.fps == 25
     assert motion.skeleton.names[:8] == tuple(JOINTS[:8])
-    assert np.allclose(motion.positions, body())
+    assert np.allclose(motion.positions, make_body())
     assert kineme.pose_features(motion).shape == (20, 15)
 
 
 def test_rates_of_tables(tmp_path: Path) -> None:
-    assert read(tmp_path, "a.csv", table(body(), fps=[29.97] * 20)).fps == 29.97
-    milliseconds = table(body(), time_ms=[i * 40 for i in range(20)])
+    assert read(tmp_path, "a.csv", tabulate(make_body(), fps=[29.97] * 20)).fps == 29.97
+    milliseconds = tabulate(make_body(), time_ms=[i * 40 for i in range(20)])
     assert read(tmp_path, "a.csv", milliseconds).fps == 25
-    assert read(tmp_path, "a.csv", table(body()), fps=60).fps == 60
+    assert read(tmp_path, "a.csv", tabulate(make_body()), fps=60).fps == 60
     for columns, reason in [
         ({}, "no column 'time' or 'fps' found: give fps="),
         ({"time": [0] * 20}, "times do not increase: row 2"),
@@ -71,55 +71,55 @@ def test_rates_of_tables(tmp_path: Path) -> None:
         ({"time": [*range(19), 1e9]}, "its times are 1 apart"),
     ]:
         with pytest.raises(ReadError, match=reason):
-            read(tmp_path, "a.csv", table(body(), **columns))
+            read(tmp_path, "a.csv", tabulate(make_body(), **columns))
 
 
 def test_a_pause_is_a_gap_of_a_motion(tmp_path: Path) -> None:
     at = np.arange(40) / 25 + 2.0 * (np.arange(40) >= 15)
-    motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
+    motion = read(tmp_path, "a.csv", tabulate(make_body(40), time=at.tolist()))
     assert (motion.n_frames, motion.fps, motion.gaps) == (90, 25, ((15, 65),))
-    assert np.allclose(motion.positions[65:], body(40)[15:])
+    assert np.allclose(motion.positions[65:], make_body(40)[15:])
 
 
 @pytest.mark.parametrize("jump", [7e5, -2.0])
 def test_a_jump_of_the_clock_splits_a_motion(tmp_path: Path, jump: float) -> None:
     at = np.arange(40) / 25 + jump * (np.arange(40) >= 15)
     with pytest.warns(KinemeWarning, match="the recording is split there"):
-        motion = read(tmp_path, "a.csv", table(body(40), time=at.tolist()))
+        motion = read(tmp_path, "a.csv", tabulate(make_body(40), time=at.tolist()))
     assert (motion.n_frames, motion.fps, motion.gaps) == (41, 25, ((15, 16),))
-    assert np.allclose(np.delete(motion.positions, 15, axis=0), body(40))
+    assert np.allclose(np.delete(motion.positions, 15, axis=0), make_body(40))
 
 
 def test_dates_tell_the_rate_of_a_motion(tmp_path: Path) -> None:
     at = np.datetime64("2026-03-29T00:59:59.500") + np.arange(20) * np.timedelta64(40, "ms")
-    motion = read(tmp_path, "a.csv", table(body(), timestamp=[f"{t}Z" for t in at]))
+    motion = read(tmp_path, "a.csv", tabulate(make_body(), timestamp=[f"{t}Z" for t in at]))
     assert (motion.n_frames, motion.fps) == (20, 25)
     with pytest.raises(ReadError, match=r"line 3: 'noon-ish' is not an ISO date"):
-        read(tmp_path, "a.csv", table(body(), timestamp=[str(at[0]), "noon-ish", *at[2:]]))
+        read(tmp_path, "a.csv", tabulate(make_body(), timestamp=[str(at[0]), "noon-ish", *at[2:]]))
 
 
 def test_times_that_nobody_can_read(tmp_path: Path) -> None:
-    text = table(body(), time=[f"half past {i}" for i in range(20)])
+    text = tabulate(make_body(), time=[f"half past {i}" for i in range(20)])
     with pytest.raises(ReadError, match=r"line 2: column 'time' holds neither .* \(--fps\)"):
         read(tmp_path, "a.csv", text)
     assert read(tmp_path, "a.csv", text, fps=25).fps == 25
 
 
 def test_units_in_the_names_of_columns(tmp_path: Path) -> None:
-    millimetres = 1000 * body()
-    plain = read(tmp_path, "a.csv", table(millimetres, time=TIMES), unit="mm")
-    named = read(tmp_path, "b.csv", table(millimetres, "{joint} {axis} [mm]", time=TIMES))
+    millimetres = 1000 * make_body()
+    plain = read(tmp_path, "a.csv", tabulate(millimetres, time=TIMES), unit="mm")
+    named = read(tmp_path, "b.csv", tabulate(millimetres, "{joint} {axis} [mm]", time=TIMES))
     assert named.positions.tolist() == plain.positions.tolist()
     assert named.skeleton.names == plain.skeleton.names
     assert not any("unit" in note for note in named.provenance.notes)
 
 
-def in_units(units: dict[str, float], **columns) -> str:
+def to_units(units: dict[str, float], **columns) -> str:
     """A table in which the joints are in these units in turn, by the metres in each."""
-    points, names = body(), list(units)
+    points, names = make_body(), list(units)
     told = [names[i % len(names)] for i in range(len(JOINTS))]
     points /= np.array([units[unit] for unit in told])[:, None]
-    text = table(points, time=TIMES, **columns)
+    text = tabulate(points, time=TIMES, **columns)
     for joint, unit in zip(JOINTS, told, strict=True):
         for axis in "xyz":
             text = text.replace(f"{joint}_{axis}", f"{joint}_{axis}{unit}", 1)
@@ -127,45 +127,45 @@ def in_units(units: dict[str, float], **columns) -> str:
 
 
 def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path: Path) -> None:
-    plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="m")
-    mixed = in_units({" [m]": 1, " [mm]": 0.001, " (cm)": 0.01})
+    plain = read(tmp_path, "a.csv", tabulate(make_body(), time=TIMES), unit="m")
+    mixed = to_units({" [m]": 1, " [mm]": 0.001, " (cm)": 0.01})
     found = read(tmp_path, "b.csv", mixed)
     assert np.abs(found.positions - plain.positions).max() < 1e-12
     assert any(
         "cm and m and mm, each read in its own unit" in note for note in found.provenance.notes
     )
     with pytest.raises(ReadError, match=r"'left_hip_x' states no unit: add it .* \[m\]"):
-        read(tmp_path, "c.csv", in_units({" [m]": 1, "": 1, " [mm]": 0.001}))
+        read(tmp_path, "c.csv", to_units({" [m]": 1, "": 1, " [mm]": 0.001}))
 
 
 def test_columns_without_a_unit_are_in_that_of_the_others(tmp_path: Path) -> None:
-    plain = read(tmp_path, "a.csv", table(body(), time=TIMES), unit="m")
+    plain = read(tmp_path, "a.csv", tabulate(make_body(), time=TIMES), unit="m")
     with pytest.warns(KinemeWarning, match="columns of 4 points state no unit"):
-        found = read(tmp_path, "b.csv", in_units({" [mm]": 0.001, "": 0.001}))
+        found = read(tmp_path, "b.csv", to_units({" [mm]": 0.001, "": 0.001}))
     assert np.abs(found.positions - plain.positions).max() < 1e-12
-    once = table(1000 * body(), time=TIMES).replace("_x", "_x [mm]")
+    once = tabulate(1000 * make_body(), time=TIMES).replace("_x", "_x [mm]")
     found = read(tmp_path, "c.csv", once)
     assert np.abs(found.positions - plain.positions).max() < 1e-12
 
 
 def test_positions_beside_other_columns_of_joints(tmp_path: Path) -> None:
-    plain = read(tmp_path, "a.csv", table(body(), time=TIMES))
+    plain = read(tmp_path, "a.csv", tabulate(make_body(), time=TIMES))
     more = {f"head_{what}_{axis}": [90.0] * 20 for what in ("rotation", "vel") for axis in "xyz"}
-    text = table(body(), "{joint}_position_{axis}", time=TIMES, **more)
+    text = tabulate(make_body(), "{joint}_position_{axis}", time=TIMES, **more)
     beside = read(tmp_path, "b.csv", text)
     assert beside.skeleton.names == plain.skeleton.names
     assert beside.positions.tolist() == plain.positions.tolist()
 
 
 def test_a_subject_may_be_called_by_a_letter(tmp_path: Path) -> None:
-    motion = read(tmp_path, "a.csv", table(body(), "A:{joint}_{axis}", time=TIMES))
+    motion = read(tmp_path, "a.csv", tabulate(make_body(), "A:{joint}_{axis}", time=TIMES))
     assert motion.skeleton.names[:8] == tuple(JOINTS[:8])
 
 
 def test_units_and_axes_of_tables(tmp_path: Path) -> None:
-    centimetres_z_up = 100 * body()[:, :, [0, 2, 1]] * [1, -1, 1]
-    motion = read(tmp_path, "a.csv", table(centimetres_z_up, time=TIMES))
-    assert np.allclose(motion.positions, body())
+    centimetres_z_up = 100 * make_body()[:, :, [0, 2, 1]] * [1, -1, 1]
+    motion = read(tmp_path, "a.csv", tabulate(centimetres_z_up, time=TIMES))
+    assert np.allclose(motion.positions, make_body())
     notes = " ".join(motion.provenance.notes)
     assert "unit cm inferred" in notes
     assert "up axis z inferred" in notes
@@ -174,16 +174,16 @@ def test_units_and_axes_of_tables(tmp_path: Path) -> None:
 def test_keypoints_that_are_not_sure_count_as_gaps(tmp_path: Path) -> None:
     sure = ["0.9"] * 20
     sure[7] = "0.1"
-    points = body()
+    points = make_body()
     points[7, 0] = 99.0
-    motion = read(tmp_path, "a.csv", table(points, time=TIMES, pelvis_confidence=sure))
-    assert np.allclose(motion.positions[:, 0], body()[:, 0])
+    motion = read(tmp_path, "a.csv", tabulate(points, time=TIMES, pelvis_confidence=sure))
+    assert np.allclose(motion.positions[:, 0], make_body()[:, 0])
     assert any("1 position below confidence 0.5" in note for note in motion.provenance.notes)
 
 
 def test_what_is_hidden_is_used(tmp_path: Path) -> None:
-    text = table(body(), time=TIMES, pelvis_visibility=["0.1"] * 20)
-    assert np.allclose(read(tmp_path, "a.csv", text).positions[:, 0], body()[:, 0])
+    text = tabulate(make_body(), time=TIMES, pelvis_visibility=["0.1"] * 20)
+    assert np.allclose(read(tmp_path, "a.csv", text).positions[:, 0], make_body()[:, 0])
     notes = read(tmp_path, "a.csv", text, confidence=0.5).provenance.notes
     assert any("20 positions below confidence 0.5" in note for note in notes)
 
@@ -191,7 +191,7 @@ def test_what_is_hidden_is_used(tmp_path: Path) -> None:
 def test_deeplabcut(tmp_path: Path) -> None:
     names = ["left_hip", "right_hip", "left_ankle", "right_ankle", "nose", "left_wrist"]
     names += ["right_wrist"]
-    pixels = 200 * body()[:, [JOINTS.index(name) for name in names]]
+    pixels = 200 * make_body()[:, [JOINTS.index(name) for name in names]]
     pixels[:, :, 1] = 400 - pixels[:, :, 1]
     head = ["scorer" + ",net" * 21, "bodyparts"]
     head[1] += "".join(f",{name}" * 3 for name in names)
@@ -216,13 +216,13 @@ def test_parquet(tmp_path: Path) -> None:
     from pyarrow import parquet
 
     columns = {
-        f"{j}_{a}": body()[:, i, k] for i, j in enumerate(JOINTS) for k, a in enumerate("xyz")
+        f"{j}_{a}": make_body()[:, i, k] for i, j in enumerate(JOINTS) for k, a in enumerate("xyz")
     }
     columns["time"] = np.arange(20) / 50
     parquet.write_table(pa.table(columns), tmp_path / "a.parquet")
     motion = kineme.read(tmp_path / "a.parquet")
     assert motion.fps == 50
-    assert np.allclose(motion.positions, body())
+    assert np.allclose(motion.positions, make_body())
     parquet.write_table(pa.table({"a_x": np.zeros(10**7)}), tmp_path / "big.parquet")
     with pytest.raises(ReadError, match="claims 10000000 rows of 1 columns"):
         kineme.read(tmp_path / "big.parquet")
@@ -341,10 +341,10 @@ def test_archives_that_claim_too_much(tmp_path: Path) -> None:
 
 
 def test_npy_without_names(tmp_path: Path) -> None:
-    np.save(tmp_path / "a.npy", body())
+    np.save(tmp_path / "a.npy", make_body())
     motion = kineme.read(tmp_path / "a.npy", fps=30)
     assert motion.skeleton.names[:2] == ("joint0", "joint1")
-    assert np.allclose(motion.positions, body())
+    assert np.allclose(motion.positions, make_body())
 
 
 def test_who_needs_a_body_is_told_that_there_is_none(tmp_path: Path) -> None:
@@ -377,7 +377,7 @@ def test_npz_round_trip(motion: kineme.Motion) -> None:
 )
 def test_positions_round_trip(suffix: str, fps: float, frames: int) -> None:
     skeleton = kineme.Skeleton(tuple(JOINTS), (-1,) + (0,) * 8, np.zeros((9, 3)))
-    motion = kineme.Motion(skeleton, body(frames), fps)
+    motion = kineme.Motion(skeleton, make_body(frames), fps)
     with tempfile.TemporaryDirectory() as folder:
         kineme.write(motion, Path(folder) / f"a{suffix}")
         again = kineme.read(Path(folder) / f"a{suffix}")

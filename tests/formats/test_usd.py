@@ -54,7 +54,7 @@ def test_names_that_paths_cannot_have_and_other_rates(tmp_path: Path) -> None:
         write(Motion(skeleton, motion.positions, 30), tmp_path / "b.usda")
 
 
-def skeleton_on(stage: Usd.Stage, place: str) -> UsdSkel.Skeleton:
+def add_skeleton(stage: Usd.Stage, place: str) -> UsdSkel.Skeleton:
     """Hips and a leg of 40, under a root that is 100 aside."""
     root = UsdSkel.Root.Define(stage, place)
     UsdGeom.XformCommonAPI(root).SetTranslate((100.0, 0.0, 0.0))
@@ -89,7 +89,7 @@ def new_stage(path: Path) -> Usd.Stage:
 
 def test_units_axes_carriers_and_joints_that_rest(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
-    skeleton = skeleton_on(stage, "/Ann")
+    skeleton = add_skeleton(stage, "/Ann")
     animate(stage, skeleton, "wave", [10.0, 12.0, 14.0, 16.0])
     stage.Save()
     motion = read_motion(tmp_path / "a.usda")
@@ -106,14 +106,14 @@ def test_units_axes_carriers_and_joints_that_rest(tmp_path: Path) -> None:
 
 def test_several_animations_and_characters(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
-    ann = skeleton_on(stage, "/Ann")
+    ann = add_skeleton(stage, "/Ann")
     animate(stage, ann, "wave", [0.0, 1.0, 2.0])
     animate(stage, ann, "bow", [0.0, 1.0, 2.0, 3.0, 4.0])
     stage.Save()
     with pytest.warns(kineme.KinemeWarning, match="2 takes are in it and 'wave' is read"):
         assert kineme.read(tmp_path / "a.usda").n_frames == 3
     assert kineme.read(tmp_path / "a.usda", take="bow").n_frames == 5
-    animate(stage, skeleton_on(stage, "/Bob"), "run", [0.0, 1.0])
+    animate(stage, add_skeleton(stage, "/Bob"), "run", [0.0, 1.0])
     stage.Save()
     with pytest.raises(SeveralPeopleError, match=r"Ann \(3 joints\), Bob"):
         read_quietly(tmp_path / "a.usda")
@@ -124,7 +124,7 @@ def test_stages_without_a_skeleton_and_damaged_ones(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="has no skeleton"):
         read_quietly(tmp_path / "a.usda")
     stage = new_stage(tmp_path / "b.usda")
-    skeleton_on(stage, "/Ann")
+    add_skeleton(stage, "/Ann")
     stage.Save()
     with pytest.raises(ReadError, match="holds no animation of its skeleton"):
         read_quietly(tmp_path / "b.usda")
@@ -159,15 +159,15 @@ def character(tmp_path: Path) -> Path:
     return path
 
 
-def reference(place: str | Path) -> str:
+def refer_to(place: str | Path) -> str:
     return f'{HEAD}def "A" (references = @{place}@</char>) {{}}\n'
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        reference("./parts/char.usda"),
-        reference("parts/char.usda"),
+        refer_to("./parts/char.usda"),
+        refer_to("parts/char.usda"),
         f'{HEAD}def "A" (payload = @parts/char.usda@</char>) {{}}\n',
         f"{HEAD}(subLayers = [@parts/char.usda@])\n",
     ],
@@ -187,7 +187,7 @@ def test_layers_from_elsewhere_are_refused(character: Path, tmp_path: Path) -> N
     (folder / "folder").symlink_to(tmp_path)
     places = [outside, "../char.usda", "parts/../../char.usda", "link.usda", "folder/char.usda"]
     for place in places:
-        (folder / "scene.usda").write_text(reference(place))
+        (folder / "scene.usda").write_text(refer_to(place))
         with pytest.raises(ReadError, match="which is outside its folder"):
             read_quietly(folder / "scene.usda")
     # What a layer in the folder names is held to the same folder.
@@ -200,7 +200,7 @@ def test_layers_from_elsewhere_are_refused(character: Path, tmp_path: Path) -> N
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Windows has no pipes in folders")
 def test_a_layer_that_is_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.usda")
-    (tmp_path / "a.usda").write_text(reference("pipe.usda"))
+    (tmp_path / "a.usda").write_text(refer_to("pipe.usda"))
     with pytest.raises(ReadError, match="is a pipe or a device"):
         read_quietly(tmp_path / "a.usda")
     stage = Usd.Stage.CreateNew(str(tmp_path / "b.usda"))
@@ -229,7 +229,7 @@ def test_missing_layers_are_left_out_with_a_warning(
     assert motion.provenance.warnings == (
         "the layer 'char.usda' is missing or not USD, so it is left out",
     )
-    scene.write_text(reference("char.usda"))
+    scene.write_text(refer_to("char.usda"))
     with pytest.raises(ReadError, match=r"has no skeleton.*'char\.usda' is missing"):
         read_quietly(scene)
 
@@ -248,7 +248,7 @@ def test_what_the_library_prints_becomes_a_warning(
     assert capfd.readouterr() == ("", "")
 
 
-def nested(depth: int) -> str:
+def nest(depth: int) -> str:
     """Each level holds the next one four times."""
     inner = [f'def "c{k}" (references = </L%d>) {{}}' for k in range(4)]
     lines = [
@@ -258,7 +258,7 @@ def nested(depth: int) -> str:
     return "\n".join([HEAD, *lines, f'def "L{depth}" {{}}'])
 
 
-def doubled(depth: int) -> str:
+def double(depth: int) -> str:
     """Each prim of a level is made of both of the next one."""
     lines = [
         f'def "P{d}{k}" (references = [</P{d + 1}a>, </P{d + 1}b>]) {{}}'
@@ -273,7 +273,7 @@ def chain(depth: int) -> str:
     return "\n".join([HEAD, *lines, f'def "P{depth}" {{}}'])
 
 
-@pytest.mark.parametrize("text", [nested(30), doubled(30), chain(3000)])
+@pytest.mark.parametrize("text", [nest(30), double(30), chain(3000)])
 def test_references_that_multiply_are_refused(tmp_path: Path, text: str) -> None:
     (tmp_path / "a.usda").write_text(text)
     with pytest.raises(ReadError, match="its references expand to more than 100000 prims"):
@@ -298,7 +298,7 @@ def test_a_file_that_crashes_the_library_is_an_error(tmp_path: Path) -> None:
 
 def test_clips_of_values_which_are_files_are_refused(tmp_path: Path) -> None:
     stage = new_stage(tmp_path / "a.usda")
-    animate(stage, skeleton_on(stage, "/Ann"), "wave", [0.0, 1.0])
+    animate(stage, add_skeleton(stage, "/Ann"), "wave", [0.0, 1.0])
     Usd.ClipsAPI(stage.GetPrimAtPath("/Ann")).SetClipAssetPaths(["/elsewhere.usda"])
     stage.Save()
     with pytest.raises(ReadError, match="has its animation in value clips"):

@@ -18,21 +18,22 @@ VALUES = np.random.default_rng(0).normal(size=(30, 2))
 TIMES = [f"{i / 50}" for i in range(30)]
 
 
-def lines(mark: str = ",", *, timed: bool) -> str:
+def to_lines(mark: str = ",", *, timed: bool) -> str:
     rows = ([*([time] if timed else []), *map(repr, row)]
             for time, row in zip(TIMES, VALUES.tolist(), strict=True))  # fmt: skip
     return "".join(mark.join(row) + "\n" for row in rows)
 
 
 FILES = {
-    "times.csv": "time,a,b\n" + lines(timed=True),
-    "units.csv": "Logger 5\n\ntime,a,b\ns,g,g\n" + lines(timed=True),
-    "rates.csv": "rate,a,b\n" + "".join(f"50,{row}\n" for row in lines(timed=False).splitlines()),
-    "no_times.csv": "a,b\n" + lines(timed=False),
-    "no_names.csv": lines(timed=False),
-    "tabs.tsv": "a\tb\n" + lines("\t", timed=False),
+    "times.csv": "time,a,b\n" + to_lines(timed=True),
+    "units.csv": "Logger 5\n\ntime,a,b\ns,g,g\n" + to_lines(timed=True),
+    "rates.csv": "rate,a,b\n"
+    + "".join(f"50,{row}\n" for row in to_lines(timed=False).splitlines()),
+    "no_times.csv": "a,b\n" + to_lines(timed=False),
+    "no_names.csv": to_lines(timed=False),
+    "tabs.tsv": "a\tb\n" + to_lines("\t", timed=False),
     "angles.mot": "x\nversion=1\nnRows=30\nnColumns=3\nendheader\ntime\ta\tb\n"
-    + lines("\t", timed=True),
+    + to_lines("\t", timed=True),
 }
 
 
