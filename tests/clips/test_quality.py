@@ -19,7 +19,6 @@ from kineme.clips.loops import (
     find_carry,
     make_loop,
     measure_loop,
-    measure_usual_steps,
 )
 from kineme.clips.root_motion import measure_root_motion, remove_root_motion, straighten
 from kineme.clips.split import split
@@ -52,26 +51,6 @@ def test_speed_and_acceleration_meet_at_the_seam(repetitions) -> None:
             twice, n = play_rounds(closed, carry, 2), closed.n_frames
             changes = np.linalg.norm(np.diff(twice, 2, axis=0), axis=-1).mean(axis=1)
             assert changes[n - 2 : n].max() <= 1.05 * changes[: n - 2].max()
-
-
-def test_a_cycle_that_is_one_costs_next_to_nothing_and_a_cut_in_the_wrong_place_more() -> None:
-    frames = np.arange(120)
-    angle = 2 * np.pi * frames / 60
-    body = np.stack([np.cos(angle), 1 + 0.1 * np.sin(angle), frames / 60], axis=-1)[:, None]
-    body = np.concatenate([body, body + [0.3, 0.2, 0.1]], axis=1)
-
-    def cost(stop: int) -> float:
-        clip = Motion(kineme.Skeleton(("a", "b"), (-1, -1), np.zeros((2, 3))), body[:stop], 60)
-        closed, carry = make_loop(clip)
-        found = measure_loop(
-            clip.positions, closed.positions, carry, 60, usual=measure_usual_steps(body)
-        )
-        assert np.isnan(found.slide_m_s)
-        assert found.step < 1.5
-        return found.pose_m + found.speed_m_s
-
-    assert cost(60) < 0.1  # of some 6 m/s
-    assert cost(50) > 10 * cost(60)
 
 
 def test_planted_feet_that_are_dragged_slide(motion) -> None:
