@@ -176,7 +176,8 @@ def measure_preferences(view: NDArray[np.float32], borders: Frames, labels: Fram
     Examples
     --------
     >>> view = np.repeat(np.float32([0, 1, 5, 6]), 2)[:, None]
-    >>> measure_preferences(view, np.array([0, 2, 4, 6, 8]), np.array([0, 0, 1, 1])).round(2).tolist()
+    >>> borders, labels = np.array([0, 2, 4, 6, 8]), np.array([0, 0, 1, 1])
+    >>> measure_preferences(view, borders, labels).round(2).tolist()
     [0.91, 0.89, 0.89, 0.91]
     """
     own = np.flatnonzero(labels >= 0)
