@@ -208,15 +208,11 @@ RESULTS = (
         "confidence",
         "Confidence",
         {
-            f"{kind} of {group}": f"{title}, {group}"
+            f"{kind} of {group}": f"{kind}, {group}"
             for group in ("bodies", "signals")
-            for kind, title in {
-                "cluster": "cluster",
-                "border": "border",
-                "count": "count",
-                "cut": "start of a repetition",
-            }.items()
-        },
+            for kind in ("cluster", "border", "count")
+        }
+        | {"cut of bodies": "start of a repetition, bodies"},
         {
             "right": "right, all",
             "sure": "share that is sure",
