@@ -36,9 +36,9 @@ WIDTH = 100
 TYPES = {str: "text", int: "whole number", float: "number"}
 SCHEMA_DESCRIPTION = (
     "The segments of a recording. The confidence of a row is the probability that what its kind "
-    "claims is right: of an activity its cluster, of a primitive the number of repetitions of its "
-    "activity; transitions and events have none. The border_confidence is the probability that it "
-    "starts where it says. With the published presets, and for labels from a knowledge base, the "
+    "claims is right: the cluster of an activity; transitions and primitives have none. The "
+    "border_confidence is the probability that it starts where it says; signals have none. With "
+    "the published presets, and for labels from a knowledge base, the "
     "confidence is a share and no probability."
 )
 
@@ -93,8 +93,11 @@ RESULTS = (
         "sources",
         "Motion capture",
         {
-            "subject_86.kineme": "CMU subject 86",
-            "hdm05.kineme": "HDM05",
+            "mocap6.kineme": "CMU exercises, uncut",
+            "takes.kineme": "game studio, uncut",
+            "tug.kineme": "timed up and go, uncut",
+            "subject_86.kineme": "CMU subject 86, uncut",
+            "hdm05.kineme": "HDM05, joined",
             "synthetic.kineme": "synthetic",
         },
         {
@@ -112,9 +115,21 @@ RESULTS = (
             "uiprmd_incorrect.kineme": "UI-PRMD, done incorrectly",
             "msrc12.kineme": "MSRC-12, Kinect",
             "barbell.sensors": "barbell, sensors",
+            "ptex.sensors": "PTEx, sensors",
+            "gym_watch.sensors": "gym watch",
+            "moca.kineme": "MoCA",
             "countix.kineme": "Countix, keypoints of video",
         },
         {"exact": "exact", "within_one": "within one"},
+    ),
+    FigureTable(
+        "sources",
+        "Sensors, uncut",
+        {
+            "swimming.sensors": "swimming watch",
+            "hugadb_by_person.sensors": "HuGaDB, joined by person",
+        },
+        SHARES,
     ),
     FigureTable(
         "sources",
@@ -192,11 +207,21 @@ RESULTS = (
     FigureTable(
         "confidence",
         "Confidence",
-        {"link": "cluster", "border": "border", "count": "count", "cut": "start of a repetition"},
+        {
+            f"{kind} of {group}": f"{title}, {group}"
+            for group in ("bodies", "signals")
+            for kind, title in {
+                "cluster": "cluster",
+                "border": "border",
+                "count": "count",
+                "cut": "start of a repetition",
+            }.items()
+        },
         {
             "right": "right, all",
             "sure": "share that is sure",
             "sure_right": "right, of the sure",
+            "auc": "AUC",
             "brier": "Brier score",
             "base": "Brier score of one probability for all",
         },
@@ -256,6 +281,18 @@ RESULTS = (
         "Time series that are no movement",
         {"tssb": "TSSB, 38 series", "utsa": "UTSA, 16 series"},
         {"covering": "covering", "ami": "AMI of states"},
+    ),
+    FigureTable(
+        "stream",
+        "Streams",
+        {
+            "subject_86.one_to_one": "CMU subject 86, one to one",
+            "subject_86.border_f1": "CMU subject 86, border F1",
+            "hugadb.mof": "HuGaDB, MoF",
+            "hugadb.border_f1": "HuGaDB, border F1",
+            "uiprmd.exact": "UI-PRMD, counted exactly",
+        },
+        {"stream": "as a stream", "file": "as a file"},
     ),
     FigureTable(
         "loops",

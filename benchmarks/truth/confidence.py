@@ -2,10 +2,11 @@
 
     python -m benchmarks confidence [--every N] [--near S] [--record]
 
-The truth says whether a cluster (link), a border, a count and a cut between two repetitions is
-right. A logistic function of one statistic (``methods/kineme/confidence.py``) predicts the
-probability. Each source is predicted from all others, with equal weight for each source. The last
-lines are the constants learnt from all sources, which the preset contains.
+The truth says whether a cluster, a border, a count and a cut between two repetitions is right. A
+logistic function of statistics (``methods/kineme/confidence.py``) predicts the probability, for
+bodies and for signals separately. Each source is predicted from all others, with equal weight for
+each source. What does not beat one probability for all is not shown to users. The last lines are
+the constants learnt from all sources, which ``methods/kineme/confidence.py`` contains.
 """
 
 from __future__ import annotations
@@ -48,11 +49,11 @@ from sets import read_sensors
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-Numbers = tuple[float, float]
+Numbers = tuple[float, ...]
 
-PROMISED = {"count": 0.85, "border": 0.80}
+PROMISED = {"border of bodies": 0.80, "border of signals": 0.80}
 """Minimum area under the ROC curve (AUC)."""
-MOST_BRIER, SURE = 0.07, 0.9
+SURE = 0.9
 CUT_TOLERANCE = 0.25
 """Tolerance of a cut, as a share of the longer adjacent repetition."""
 RIDGE = 1.0
@@ -82,19 +83,19 @@ class Truth:
 
 
 class Row(NamedTuple):
-    """Statistic of a found link, border, count or cut, and whether it is right."""
+    """Statistics of a found cluster, border, count or cut, and whether it is right."""
 
     kind: str
     source: str
-    statistic: float
+    statistics: tuple[float, ...]
     right: bool
 
 
 class Table(NamedTuple):
-    """All rows of one kind."""
+    """All rows of one kind; ``statistics`` (rows, statistics)."""
 
     sources: NDArray[np.str_]
-    statistic: Floats
+    statistics: Floats
     right: Bools
 
 
@@ -259,7 +260,7 @@ def convert_columns(columns: Columns, fps: float) -> Segments:
 
 
 def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float) -> list[Row]:
-    """Segment a recording and judge its links, borders, counts and cuts."""
+    """Segment a recording and judge its clusters, borders, counts and cuts."""
     _, found = segment_and_found(recording)
     assert isinstance(found, KinemeFound)
     segments = convert_columns(found.columns(), found.preset.working_fps)
@@ -267,20 +268,23 @@ def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float)
     # One repetition is not a count.
     of_counts = np.where(segments.counts < 2, np.nan, shown.repeated)
     judged = (
-        ("link", shown.preferred, judge_links(truth, segments)),
-        ("border", shown.sharpness, judge_borders(truth, segments, near_s)),
-        ("count", of_counts, judge_counts(truth, segments)),
-        ("cut", shown.repeated[shown.parents], judge_cuts(truth, segments)),
+        ("cluster", (shown.preferred, shown.agreement), judge_clusters(truth, segments)),
+        ("border", (shown.sharpness,), judge_borders(truth, segments, near_s)),
+        ("count", (of_counts,), judge_counts(truth, segments)),
+        ("cut", (shown.repeated[shown.parents],), judge_cuts(truth, segments)),
     )
+    group = "signals" if isinstance(recording, Signals) else "bodies"
     return [
-        Row(kind, source, float(statistic[at]), bool(right))
-        for kind, statistic, of_kind in judged
+        Row(
+            f"{kind} of {group}", source, tuple(float(each[at]) for each in statistics), bool(right)
+        )
+        for kind, statistics, of_kind in judged
         for at, right in of_kind
-        if np.isfinite(statistic[at])
+        if np.isfinite(statistics[0][at])
     ]
 
 
-def judge_links(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
+def judge_clusters(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
     """Yield each activity, and whether its cluster is matched to its main action.
 
     Clusters are matched to actions one to one so that they share the most time.
@@ -334,13 +338,14 @@ def judge_cuts(truth: Truth, found: Segments) -> Iterator[tuple[int, bool]]:
         yield p, np.abs(truth.cuts - found.cuts[p]).min() <= near
 
 
-def fit_logistic(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> Numbers:
-    """Fit constant and weight by logistic regression, with equal weight for each source."""
+def fit_logistic(statistics: Floats, right: Bools, sources: NDArray[np.str_]) -> Numbers:
+    """Fit constant and weights by logistic regression, with equal weight for each source."""
     _, at, counts = np.unique(sources, return_inverse=True, return_counts=True)
     share = (len(right) / len(counts) / counts)[at]
-    middle, spread = statistic.mean(), max(float(statistic.std()), 1e-9)
-    rows = np.column_stack([np.ones(len(right)), (statistic - middle) / spread])
-    weights, ridge = np.zeros(2), np.diag([1e-6, RIDGE])
+    middles, spreads = statistics.mean(axis=0), np.maximum(statistics.std(axis=0), 1e-9)
+    rows = np.column_stack([np.ones(len(right)), (statistics - middles) / spreads])
+    count = statistics.shape[1]
+    weights, ridge = np.zeros(1 + count), np.diag([1e-6, *[RIDGE] * count])
     for _ in range(100):  # Newton's method
         p = expit(rows @ weights)
         slope = rows.T @ (share * (right - p)) - ridge @ weights
@@ -348,8 +353,8 @@ def fit_logistic(statistic: Floats, right: Bools, sources: NDArray[np.str_]) -> 
         weights += (step := np.linalg.solve(bend, slope))
         if np.abs(step).max() < 1e-9:
             break
-    weight = float(weights[1] / spread)
-    return float(weights[0] - weight * middle), weight
+    factors = weights[1:] / spreads
+    return float(weights[0] - factors @ middles), *factors.tolist()
 
 
 def predict_left_out(table: Table) -> Floats:
@@ -358,9 +363,9 @@ def predict_left_out(table: Table) -> Floats:
     for source in np.unique(table.sources):
         own = table.sources == source
         if not own.all():
-            others = table.statistic[~own], table.right[~own], table.sources[~own]
-            constant, weight = fit_logistic(*others)
-            found[own] = expit(constant + weight * table.statistic[own])
+            others = table.statistics[~own], table.right[~own], table.sources[~own]
+            constant, *weights = fit_logistic(*others)
+            found[own] = expit(constant + table.statistics[own] @ weights)
     return found
 
 
@@ -389,12 +394,9 @@ def print_report(kind: str, table: Table, found: Floats) -> None:
         for name, value in row.items():
             if not source and np.isfinite(value):
                 record(f"confidence.{kind}.{name}", value)
-    least, row = PROMISED.get(kind), compute_scores(found, table.right)
-    if least:
-        print(
-            f"{kind}: AUC {row['auc']:.3f}, {least:.2f} promised; Brier {row['brier']:.3f}, "
-            f"{MOST_BRIER:.2f} promised; of what is sure {row['sure_right']:.3f}, {SURE} promised"
-        )
+    if least := PROMISED.get(kind):
+        auc = compute_scores(found, table.right)["auc"]
+        print(f"{kind}: AUC {auc:.3f}, {least:.2f} promised")
 
 
 def judge_source(source: str, every: int, near_s: float) -> list[Row]:
@@ -414,7 +416,7 @@ def make_tables(rows: Sequence[Row]) -> dict[str, Table]:
     return {
         kind: Table(
             np.array([row.source for row in of]),
-            np.array([row.statistic for row in of]),
+            np.array([row.statistics for row in of]),
             np.array([row.right for row in of]),
         )
         for kind, of in of_kinds.items()
@@ -436,8 +438,8 @@ def main() -> None:
     lines = []
     for kind, table in make_tables(rows).items():
         print_report(kind, table, predict_left_out(table))
-        constant, weight = fit_logistic(table.statistic, table.right, table.sources)
-        lines.append(f"{kind}_weights = ({constant:.4g}, {weight:.4g})")
+        weights = fit_logistic(table.statistics, table.right, table.sources)
+        lines.append(f"{kind}: ({', '.join(f'{weight:.4g}' for weight in weights)})")
     print("\n" + "\n".join(lines))
 
 

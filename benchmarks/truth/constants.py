@@ -66,8 +66,8 @@ NUDGES = {"x 0.8": 0.8, "x 1.25": 1.25}
 HOW = ("off", *NUDGES, "the other's")
 OWN = OF_SENSORS.keys() - ONE_VIEW.keys() - {"unit"}
 """Constants with different values for bodies and sensors."""
-TOLD = ("offsets", "link_weights", "border_weights", "count_weights", "cut_weights")
-"""Constants left out: the method does not read them, or `confidence` learns them."""
+TOLD = ("offsets",)
+"""Constants left out: the method does not read them."""
 OF_EVENTS = ("min_recurrence",)
 UNREAD = {
     KINEME.name: ("smoothing", "velocity_weight"),

@@ -6,7 +6,6 @@ import json
 import shutil
 from pathlib import Path
 
-import numpy as np
 from matplotlib.image import imread
 
 import kineme as package
@@ -31,18 +30,6 @@ def test_the_table_counts_repetitions(kineme, recording: Path) -> None:
         ]
     assert f"{len(result.repetitions())} clusters." in done.stdout
     assert "note: unit cm inferred" in done.stdout
-
-
-def test_the_table_tells_how_sure_each_count_is(kineme, recording: Path) -> None:
-    done = kineme("segment", recording)
-    rows = [line.split() for line in done.stdout.splitlines() if line.split()[1:2] == ["activity"]]
-    segments = package.segment(package.read(recording))
-    for number, cells in enumerate(rows):
-        inside = segments.primitives.activity == number
-        assert cells[6] == f"{100 * np.nanmin(segments.primitives.confidence[inside]):.0f}"
-    assert "sure %: probability" in done.stdout
-    others = kineme("segment", recording, "--preset", "krueger2017")  # which tells no probability
-    assert "sure %" not in others.stdout
 
 
 def test_a_warning_is_said_once(kineme_process, recording: Path) -> None:

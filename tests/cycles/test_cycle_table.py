@@ -174,6 +174,9 @@ def test_borders_that_are_not_sure_are_left_out_by_rule(cycles) -> None:
     confidence = np.where(np.arange(len(cycles)) == 3, 0.2, np.nan)
     unsure = replace(cycles, columns={**cycles.columns, "border_confidence": confidence})
     assert np.flatnonzero(unsure.exclude_unsure().columns["excluded"] != "").tolist() == [3]
+    unknown = replace(cycles, columns={**cycles.columns, "border_confidence": confidence * np.nan})
+    with pytest.raises(ParameterError, match="no start of a cycle has a confidence"):
+        unknown.exclude_unsure()
 
 
 def test_a_pause_is_part_of_no_repetition() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,22 +16,12 @@ from kineme.datasets import random_recording
 from kineme.methods.kineme.confidence import (
     compute_changes,
     compute_mean_correlation,
-    compute_probability,
     compute_sharpness,
 )
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.segments import list_doubts
 from loops import make_swings
-
-
-def once(seconds: float, seed: int) -> np.ndarray:
-    """Make a smooth movement that never repeats: a random walk, averaged over a second."""
-    steps = np.random.default_rng(seed).standard_normal((round(30 * seconds) + 60, 6))
-    path = np.cumsum(steps, axis=0) * 0.02
-    sums = np.cumsum(path, axis=0)
-    return (sums[30:] - sums[:-30])[: round(30 * seconds)] / 30
-
 
 # --- what is sure and what is not -------------------------------------------------------------
 
@@ -41,23 +32,9 @@ def test_a_clearly_periodic_activity_is_sure(period: float) -> None:
     found = analyze(rows, KINEME)
     assert found.segments.labels.tolist() == [0, 1]
     sure = found.confidence
-    assert (sure.counts > 0.8).all()
-    assert (sure.links > 0.8).all()
+    assert (sure.clusters > 0.8).all()
     assert sure.borders[1] > 0.7
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_what_happens_once_is_never_a_sure_repetition(seed: int) -> None:
-    found = analyze(once(40, seed), KINEME)
-    counts = found.confidence.counts
-    assert not (counts >= 0.9).any()
-    whole = np.bincount(found.evidence.parents) == 1
-    assert not (counts[whole] >= 0.5).any()
-
-
-def test_one_repetition_has_nothing_that_speaks_for_it() -> None:
-    alone = compute_mean_correlation(np.ones((1, 16, 6)))
-    assert compute_probability(np.array([alone]), KINEME.count_weights)[0] < 0.5
+    assert (sure.cuts[1:] > 0.7).all()
 
 
 @given(st.integers(2, 8), st.floats(0.0, 0.5), st.integers(0, 99))
@@ -91,8 +68,8 @@ def test_a_border_at_a_step_is_surer_than_one_in_a_slow_change() -> None:
 def test_borders_have_a_confidence_at_the_slowest_rate() -> None:
     rows = np.random.default_rng(0).standard_normal((6000, 3)).cumsum(axis=0)
     with np.errstate(all="raise"):
-        found = kineme.segment(rows, fps=10, rate=0.1).activities
-    assert np.isfinite(found.border_confidence[1:]).all()
+        found = analyze(rows, KINEME.replace(working_fps=10.0, rate=0.1)).confidence
+    assert np.isfinite(found.borders[1:]).all()
 
 
 # --- the columns ------------------------------------------------------------------------------
@@ -100,17 +77,26 @@ def test_borders_have_a_confidence_at_the_slowest_rate() -> None:
 
 def test_every_score_and_border_confidence_is_a_probability() -> None:
     motion = random_recording(3).motion
-    gapped = kineme.Signals(motion.positions[:, ::5, 1], motion.fps, gaps=[(500, 560)])
-    for segments in (kineme.segment(motion), kineme.segment(gapped)):
-        table = segments.table
-        activity = table.kind != "transition"
-        assert np.isfinite(table.confidence).tolist() == activity.tolist()
+    signals = kineme.Signals(motion.positions[:, ::5, 1], motion.fps)
+    for recording in (motion, signals):
+        table = kineme.segment(recording).table
+        has_cluster = (table.level == "activity") & (table.kind == "activity")
+        assert np.isfinite(table.confidence).tolist() == has_cluster.tolist()
         for column in (table.confidence, table.border_confidence):
             known = column[np.isfinite(column)]
-            assert known.size
             assert ((known >= 0) & (known <= 1)).all()
-        assert np.isnan(table.border_confidence[table.start_frame == 0]).all()
+        inner = (table.level == "activity") & (table.start_frame > 0)
+        has_border = inner & isinstance(recording, kineme.Motion)  # signals have none
+        of_activities = table.border_confidence[table.level == "activity"]
+        assert np.isfinite(of_activities).tolist() == has_border[table.level == "activity"].tolist()
+
+
+def test_a_border_at_a_gap_has_no_confidence() -> None:
+    motion = random_recording(3).motion
+    gapped = replace(motion, gaps=[(500, 560)])
+    table = kineme.segment(gapped).table
     assert np.isnan(table.border_confidence[np.isin(table.start_frame, (500, 560))]).all()
+    assert np.isfinite(table.border_confidence).any()
 
 
 def test_the_first_repetition_begins_as_surely_as_its_activity() -> None:
@@ -131,9 +117,9 @@ def test_the_first_repetition_begins_as_surely_as_its_activity() -> None:
 # --- notes ------------------------------------------------------------------------------------
 
 
-def columns(links: list[float], borders: list[float], counts: list[float]) -> dict[str, np.ndarray]:
+def columns(clusters: list[float], borders: list[float]) -> dict[str, np.ndarray]:
     """Make activities of ten frames with two repetitions each."""
-    n = len(links)
+    n = len(clusters)
     starts, halves = 10 * np.arange(n), 5 * np.arange(2 * n)
     return {
         "level": np.repeat(["activity", "primitive"], [n, 2 * n]),
@@ -141,7 +127,7 @@ def columns(links: list[float], borders: list[float], counts: list[float]) -> di
         "start_frame": np.append(starts, halves),
         "stop_frame": np.append(starts + 10, halves + 5),
         "cluster": np.zeros(3 * n, np.int64),
-        "confidence": np.append(links, np.repeat(counts, 2)),
+        "confidence": np.append(clusters, np.full(2 * n, np.nan)),
         "border_confidence": np.append(borders, np.full(2 * n, 0.01)),
     }
 
@@ -149,28 +135,18 @@ def columns(links: list[float], borders: list[float], counts: list[float]) -> di
 shares = st.lists(st.floats(0, 1), min_size=12, max_size=12)
 
 
-@given(shares, shares, shares)
-def test_notes_are_five_at_most_and_the_worst_comes_first(links, borders, counts) -> None:
+@given(shares, shares)
+def test_notes_are_five_at_most_and_the_worst_comes_first(clusters, borders) -> None:
     borders[0] = np.nan
-    said = list_doubts(columns(links, borders, counts), 10.0)
+    said = list_doubts(columns(clusters, borders), 10.0)
     told = [int(re.search(r"\((\d+) % sure\)", note)[1]) for note in said]
-    below = sorted(each for each in (*links, *borders[1:], *counts) if each < 0.5)
+    below = sorted(each for each in (*clusters, *borders[1:]) if each < 0.5)
     assert told == [round(100 * each) for each in below[:5]]
 
 
 def test_notes_say_what_to_look_at_and_where() -> None:
-    known = columns([0.9, 0.4], [np.nan, 0.3], [0.2, 0.9])
+    known = columns([0.9, 0.4], [np.nan, 0.3])
     assert list_doubts(known, 10.0) == [
-        "check the number of repetitions at 0.00 to 1.00 s (20 % sure)",
         "check the border at 1.00 s (30 % sure)",
         "check the cluster of the activity at 1.00 to 2.00 s (40 % sure)",
     ]
-
-
-def test_of_what_happens_once_no_count_is_doubted() -> None:
-    known = columns([0.9], [np.nan], [0.1])
-    once = {name: values[:2] for name, values in known.items()}
-    assert list_doubts(known, 10.0) == [
-        "check the number of repetitions at 0.00 to 1.00 s (10 % sure)"
-    ]
-    assert list_doubts(once, 10.0) == []

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -49,13 +48,6 @@ def test_it_has_the_numbers_of_the_table(squats: tuple[Cycles, Cycles], tmp_path
     assert f"<td>knee_l range (°)</td><td>{mean} ± {sd}</td>" in page
     assert f"<td>{difference}</td><td>{low} to {high}</td><td>less</td>" in page
     assert "Left beside right" in page
-
-
-def test_it_says_how_sure_counts_are(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
-    told = {"confidence": np.full(6, 0.78), "border_confidence": np.full(6, 0.9)}
-    before = replace(squats[0], columns={**squats[0].columns, **told})
-    write_sessions(before, squats[1], tmp_path / "sheet.html")
-    assert "squat: 6 (78 % sure) → 6 repetitions" in text_of(tmp_path / "sheet.html")
 
 
 def test_it_says_what_was_left_out_and_where(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:

@@ -313,7 +313,6 @@ def _show(
     """Print a line per group (per session and group for two sessions), and the notes."""
     from rich.text import Text
 
-    from kineme.cli.tables import CONFIDENCE, CONFIDENCE_NOTE, keep_if_filled
     from kineme.cli.terminal import Console
 
     console = Console(highlight=False)
@@ -321,10 +320,7 @@ def _show(
     if not has_channels:
         channels = _choose_shown_channels(cycles, ends=ends)
     table, without_inner = _tabulate_groups(cycles, sessions, channels, ends=ends)
-    has_confidence = keep_if_filled(table, CONFIDENCE)
     console.print(table)
-    if has_confidence:
-        console.print(f"{CONFIDENCE_NOTE}, of the least sure activity.")
     inner = "inner repetitions: the first and last of each are left out"
     console.print(f"n, means: over {'all repetitions' if ends else inner}.")
     if len(cycles.channels) > len(channels) > 0:
@@ -348,11 +344,11 @@ def _tabulate_groups(
     cycles: Cycles, sessions: list[Cycles], channels: list[str], *, ends: bool
 ) -> tuple[Table, list[str]]:
     """Return the table of the groups, and the groups without inner repetitions."""
-    from kineme.cli.tables import CONFIDENCE, format_per_cent, make_table
+    from kineme.cli.tables import make_table
 
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in channels]
-    names = "label", "cycles", CONFIDENCE, "n", "duration s", "sd", "cv %", "per min"
+    names = "label", "cycles", "n", "duration s", "sd", "cv %", "per min"
     table = make_table(*["recording"] * bool(sessions), *names, *ranges)
     without_inner: dict[str, None] = {}
     for session in sessions or [cycles]:
@@ -364,7 +360,7 @@ def _tabulate_groups(
             cells = [f"{mean:.3f}", f"{sd:.3f}", f"{100 * cv:.1f}", f"{per_min:.1f}"]
             cells += [_format_mean(*values[group, f"{each}.range"][1:3]) for each in channels]
             count = int((session.columns["group"] == group).sum())
-            head = group, str(count), format_per_cent(session.count_confidence(group)), str(n)
+            head = group, str(count), str(n)
             table.add_row(*name, *head, *(_format_cell(cell) for cell in cells))
             if n == 0:
                 without_inner[group] = None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +20,6 @@ from kineme.segments.table import Level, Segment
 Section = tuple[str, Sequence[tuple[str, Sequence[str]]]]
 """Title and rows; a row is a name and its cells."""
 
-CONFIDENCE = "sure %"
-CONFIDENCE_NOTE = "sure %: probability that the number of repetitions is right"
 TEXT_COLUMNS = ("kind", "cluster", "label", "recording", "example")
 """Columns without numbers, aligned left."""
 _NOTHING_FOUND = (
@@ -119,33 +116,20 @@ def show_table(
 
 def _tabulate_activities(segmentation: Segmentation) -> Table:
     """Return a table of activities and transitions with their number of repetitions."""
-    from kineme.cycles.table import compute_count_confidence
-
-    table = make_table(
-        "#", "kind", "start s", "stop s", "frames", "repetitions", CONFIDENCE, "cluster", "label"
-    )
-    primitives, captions = segmentation.primitives, []
+    names = "#", "kind", "start s", "stop s", "frames", "repetitions", "cluster", "label"
+    table = make_table(*names)
+    primitives = segmentation.primitives
     for number, row in enumerate(segmentation.activities):
         repeated = (primitives.activity == number) & (primitives.kind == "primitive")
         inside = primitives.cluster[repeated].tolist()
         count = _format_repetitions(inside, row.cluster) if row.kind == "activity" else ""
-        probability = compute_count_confidence(
-            primitives.confidence[repeated], primitives.border_confidence[repeated]
-        )
-        cells = count, format_per_cent(probability), format_cluster(row.cluster), row.label
+        cells = count, format_cluster(row.cluster), row.label
         table.add_row(*_format_span(number, row), *cells, style=_choose_style(row))
     if any("+" in str(cell) for cell in table.columns[5].cells):
-        captions.append("(+n): primitives of the activity in other clusters or in none")
-    if keep_if_filled(table, CONFIDENCE):
-        captions.append(CONFIDENCE_NOTE)
-    table.caption, table.caption_justify = "\n".join(captions) or None, "left"
-    keep_if_filled(table, "label")
+        table.caption = "(+n): primitives of the activity in other clusters or in none"
+        table.caption_justify = "left"
+    remove_if_empty(table, "label")
     return table
-
-
-def format_per_cent(probability: float) -> str:
-    """Return a probability in per cent; empty for nan."""
-    return "" if isnan(probability) else f"{100 * probability:.0f}"
 
 
 def _format_repetitions(clusters: list[int], main: int) -> str:
@@ -163,7 +147,7 @@ def _tabulate_primitives(segmentation: Segmentation) -> Table:
     for number, row in enumerate(segmentation.primitives):
         cells = str(row.activity), format_cluster(row.cluster), row.label
         table.add_row(*_format_span(number, row), *cells, style=_choose_style(row))
-    keep_if_filled(table, "label")
+    remove_if_empty(table, "label")
     return table
 
 
@@ -184,13 +168,11 @@ def make_table(*names: str) -> Table:
     return table
 
 
-def keep_if_filled(table: Table, name: str) -> bool:
-    """Remove the column with this name if it is empty; return whether it was kept."""
+def remove_if_empty(table: Table, name: str) -> None:
+    """Remove the column with this name if all its cells are empty."""
     index = [column.header for column in table.columns].index(name)
-    is_filled = any(table.columns[index].cells)
-    if not is_filled:
+    if not any(table.columns[index].cells):
         del table.columns[index]
-    return is_filled
 
 
 def _format_span(number: int, row: Segment) -> tuple[str, ...]:

@@ -215,22 +215,19 @@ class Cycles:
         ----------
         least : float
             From 0 to 1; cycles with unknown probability are kept.
+
+        Raises
+        ------
+        ParameterError
+            No start has a probability, as in results of signals and of published presets.
         """
         _check_number(least, "least")
-        return self.exclude(np.flatnonzero(self.columns["border_confidence"] < least), UNSURE)
-
-    def count_confidence(self, group: str) -> float:
-        """Return the probability that the least certain count of repetitions in a group is correct.
-
-        Returns
-        -------
-        float
-            nan if unknown, or if nothing is repeated.
-        """
-        # A single repetition is not counted.
-        rows = (self.columns["group"] == group) & (self.columns["place"] != "only")
-        names = "confidence", "border_confidence"
-        return compute_count_confidence(*(self.columns[name][rows] for name in names))
+        probabilities = self.columns["border_confidence"]
+        if len(self) and np.isnan(probabilities).all():
+            raise ParameterError(
+                "no start of a cycle has a confidence: signals and published presets give none"
+            )
+        return self.exclude(np.flatnonzero(probabilities < least), UNSURE)
 
     def summary(self, *, ends: bool = False) -> Columns:
         """Return number, mean and deviation of all measures for each group.
@@ -439,18 +436,6 @@ def as_columns(names: Sequence[str], lines: Sequence[Sequence[object]]) -> Colum
     """Transpose the lines of a table to columns by name."""
     columns = zip(*lines, strict=True) if lines else [()] * len(names)
     return {name: np.array(column) for name, column in zip(names, columns, strict=True)}
-
-
-def compute_count_confidence(confidence: Floats, borders: Floats) -> float:
-    """Return the least probability that a count of these repetitions is correct.
-
-    nan for fewer than two repetitions, and for published methods, which have no confidence of
-    ``borders`` and whose ``confidence`` is not a probability.
-    """
-    # One repetition is no count.
-    if len(confidence) < 2 or not np.isfinite(confidence * borders).any():
-        return np.nan
-    return float(np.nanmin(confidence))
 
 
 def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:

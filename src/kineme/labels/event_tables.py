@@ -65,7 +65,7 @@ COLUMNS = {
         },
     },
     "cluster": {"Description": "Equal numbers are equal movements; n/a: in no cluster"},
-    "confidence": {"Description": "Probability that its kind is right"},
+    "confidence": {"Description": "Probability that its cluster is right"},
     "start_frame": {"Description": "First frame, counted from 0"},
     "stop_frame": {"Description": "One past the last frame"},
     "action": {"Description": "Cluster of the activity that contains it; n/a: in no cluster"},

@@ -104,7 +104,7 @@ def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
 
 
 def list_doubts(columns: Columns, fps: float) -> list[str]:
-    """Return one sentence for each doubtful cluster, count or border: the five least certain.
+    """Return one sentence for each doubtful cluster or border: the five least certain.
 
     Parameters
     ----------
@@ -113,9 +113,8 @@ def list_doubts(columns: Columns, fps: float) -> list[str]:
     fps : float
         Frames per second of the table.
     """
-    is_activity, in_cluster = columns["level"] == "activity", columns["kind"] == "activity"
     doubts: list[Doubt] = []
-    for row in np.flatnonzero(is_activity):
+    for row in np.flatnonzero(columns["level"] == "activity"):
         border = float(columns["border_confidence"][row])
         cluster = float(columns["confidence"][row])
         if border < MIN_CONFIDENCE:
@@ -124,13 +123,6 @@ def list_doubts(columns: Columns, fps: float) -> list[str]:
         if cluster < MIN_CONFIDENCE:
             where = _format_span(columns, row, fps)
             doubts.append((cluster, f"check the cluster of the activity {where}"))
-    for row in np.flatnonzero(is_activity & in_cluster):
-        inside = ~is_activity & in_cluster & (columns["start_frame"] >= columns["start_frame"][row])
-        inside &= columns["stop_frame"] <= columns["stop_frame"][row]
-        count = float(columns["confidence"][inside].min(initial=1))
-        if count < MIN_CONFIDENCE and np.count_nonzero(inside) > 1:  # one primitive is no count
-            where = _format_span(columns, row, fps)
-            doubts.append((count, f"check the number of repetitions {where}"))
     worst = sorted(doubts, key=lambda each: each[0])[:MAX_SENTENCES]
     return [f"{text} ({100 * probability:.0f} % sure)" for probability, text in worst]
 

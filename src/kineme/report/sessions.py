@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from io import BytesIO
-from math import floor, isnan, log10
+from math import floor, log10
 from os import PathLike
 from pathlib import Path
 
@@ -167,12 +167,6 @@ def _count_cycles(cycles: Cycles, group: str) -> int:
     return int((cycles.columns["group"] == group).sum())
 
 
-def _format_group_count(cycles: Cycles, group: str) -> str:
-    probability = cycles.count_confidence(group)
-    sure = "" if isnan(probability) else f" ({100 * probability:.0f} % sure)"
-    return f"{_count_cycles(cycles, group)}{sure}"
-
-
 def _find_row(sheet: Sheet, group: str, measure: str) -> dict[str, float]:
     numbers = sheet.numbers
     at = np.flatnonzero((numbers["group"] == group) & (numbers["measure"] == measure))[0]
@@ -218,7 +212,7 @@ def _format_numbers(sheet: Sheet, group: str, channels: Sequence[str]) -> str:
         ]  # fmt: skip
         lines.append(f"<tr{' class=clear' if clear else ''}>{_format_cells(cells)}</tr>")
     heads = ["", *sheet.names, "difference", "95 %", "changed"]
-    counts = " → ".join(_format_group_count(cycles, group) for cycles in sheet.sessions)
+    counts = " → ".join(str(_count_cycles(cycles, group)) for cycles in sheet.sessions)
     duration = _find_row(sheet, group, "duration_s")
     used = " and ".join(f"{duration[f'{session}_n']:.0f}" for session in ("first", "second"))
     return (

@@ -94,7 +94,7 @@ class Segment:
     label: Annotated[str, Column("a name given by a person or a knowledge base, or empty")] = ""
     confidence: Annotated[
         float,
-        Column("probability that its kind is right; none if unknown"),
+        Column("probability that its cluster is right; none if unknown"),
     ] = math.nan
     action: Annotated[
         int,

@@ -30,9 +30,7 @@ def joined(left: np.ndarray, right: np.ndarray) -> Sets:
         find_repetitions(rows, 0, ends[1], KINEME),
         find_repetitions(rows, ends[1], ends[2], KINEME),
     ]
-    return join_sets(
-        rows, Sets(ends[:-1], ends[1:], np.arange(2), np.array([0.2, 0.6]), cuts), KINEME
-    )
+    return join_sets(rows, Sets(ends[:-1], ends[1:], np.arange(2), cuts), KINEME)
 
 
 @pytest.mark.parametrize("moved", [0.0, 0.5, 3.0])
@@ -41,7 +39,6 @@ def test_a_fast_set_is_one_wherever_the_hand_moves(moved: float) -> None:
     assert found.starts.tolist() == [0]
     assert found.stops.tolist() == [13 * PERIOD]
     assert found.labels.tolist() == [0]
-    assert found.preference.tolist() == [0.6]  # of the longer part
 
 
 @pytest.mark.parametrize(
@@ -56,7 +53,7 @@ def test_two_activities_stay_apart(other: np.ndarray) -> None:
 def test_a_single_activity_stays_as_it_is() -> None:
     rows = np.ascontiguousarray(swings(1), np.float32)
     cuts = [find_repetitions(rows, 0, HALF, KINEME)]
-    found = Sets(np.array([0]), np.array([HALF]), np.array([0]), np.array([1.0]), cuts)
+    found = Sets(np.array([0]), np.array([HALF]), np.array([0]), cuts)
     same = join_sets(rows, found, KINEME)
-    assert [values.tolist() for values in same[:4]] == [[0], [HALF], [0], [1]]
+    assert [values.tolist() for values in same[:3]] == [[0], [HALF], [0]]
     assert same.cuts[0].tolist() == cuts[0].tolist()

@@ -36,7 +36,7 @@ def assert_same(found: KinemeFound, expected: KinemeFound) -> None:
     for name in ("borders", "labels", "primitives", "clusters"):
         parts = (getattr(each.segments, name) for each in (found, expected))
         np.testing.assert_array_equal(*parts, name)
-    for name in ("links", "counts", "borders", "cuts"):
+    for name in ("clusters", "borders", "cuts"):
         probabilities = (getattr(each.confidence, name) for each in (found, expected))
         np.testing.assert_allclose(*probabilities, atol=1e-2)
 
@@ -139,8 +139,7 @@ def test_order_signs_and_zeros_of_the_features_change_nothing(seed, turn, shift)
 def test_threads_and_repetition_change_nothing(preset, set_threads) -> None:
     parts_of = attrgetter(
         *("features", "fine", "borders", "primitives", "segments.labels", "segments.clusters"),
-        *("segments.preference", "confidence.links", "confidence.counts"),
-        *("confidence.borders", "confidence.cuts"),
+        *("confidence.clusters", "evidence.sharpness", "evidence.repeated"),
     )
     found = []
     for threads in (1, 5, 5):
@@ -168,10 +167,9 @@ def assert_whole(found: KinemeFound, frames: int) -> None:
     assert set(labels) <= {-1, *known}
     moving, sure = found.segments.labels >= 0, found.confidence
     periodic = moving & ~np.isin(found.segments.labels, found.segments.not_periodic)
-    for probabilities, known in ((sure.links, moving), (sure.counts, periodic)):
-        assert np.isfinite(probabilities).tolist() == known.tolist()
+    assert np.isfinite(sure.clusters).tolist() == moving.tolist()
     assert np.isnan(sure.borders[0])
-    for probabilities in (sure.links, sure.counts, sure.borders, sure.cuts):
+    for probabilities in (sure.clusters, sure.borders, sure.cuts):
         given = probabilities[np.isfinite(probabilities)]
         assert ((given >= 0) & (given <= 1)).all()
     assert np.isfinite(sure.borders[1:]).all()

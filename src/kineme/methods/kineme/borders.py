@@ -284,7 +284,7 @@ def _find_begin(rows: Rows, start: int, cuts: Frames) -> tuple[int, int]:
 
 
 class Sets(NamedTuple):
-    """Activities in time order: frames, clusters, preferences as in `Segments`, and repetitions.
+    """Activities in time order: frames, clusters and repetitions.
 
     ``cuts`` are the starts of the second, third, ... repetition of each activity.
     """
@@ -292,7 +292,6 @@ class Sets(NamedTuple):
     starts: Frames
     stops: Frames
     labels: Frames
-    preference: Floats
     cuts: list[Frames]
 
 
@@ -309,7 +308,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         Frames between two of them are a transition.
     preset : KinemeConstants
     """
-    starts, stops, labels, preference = (values.tolist() for values in found[:4])
+    starts, stops, labels = (values.tolist() for values in found[:3])
     cuts = list(found.cuts)
 
     def evaluate(left: int) -> tuple[float, Frames]:
@@ -337,10 +336,10 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
         if similarity < preset.same_set:
             break
         longer = best + int(stops[best + 1] - starts[best + 1] > stops[best] - starts[best])
-        labels[best], preference[best] = labels[longer], preference[longer]
+        labels[best] = labels[longer]
         stops[best] = stops[best + 1]
         cuts[best] = joint_cuts
-        for values in (starts, stops, labels, preference, cuts):
+        for values in (starts, stops, labels, cuts):
             del values[best + 1]
         del candidates[best]
         # Only the merged activity has new neighbours.
@@ -348,7 +347,7 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
             if 0 <= left < len(candidates):
                 candidates[left] = evaluate(left)
     clusters = number_by_appearance(np.array(labels, np.int64))
-    return Sets(np.array(starts), np.array(stops), clusters, np.array(preference), cuts)
+    return Sets(np.array(starts), np.array(stops), clusters, cuts)
 
 
 def compare_sides(

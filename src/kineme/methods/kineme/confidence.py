@@ -1,24 +1,23 @@
 """Confidence: the probability that a result is right.
 
-Four kinds of results have a probability:
+Three kinds of results have statistics s:
 
-- the *link* of an activity: it is in the same cluster as equal movements,
-- a *border* of an activity: a true border is close by,
-- the *count* of an activity: it has this number of repetitions,
-- a *cut* between two repetitions: a true cut is close by.
+- the *cluster* of an activity: its length times its preference for the cluster over the next, and
+  how well all views agree with the cluster,
+- a *border* of an activity: how much more changes there than nearby (sharpness),
+- a *cut* between two repetitions: how much the repetitions of the activity correlate.
 
-The probabilities follow from three statistics s: the length of an activity times its preference
-for its cluster, in seconds; the sharpness of a border, which is the change at the border relative
-to the changes nearby; and the correlation of repetitions. Each probability is
-1 / (1 + exp(-(constant + weight s))). The constants and weights are fitted to recordings with a
-known truth and tested on left-out sources, by ``benchmarks/truth/confidence.py``. No stage of the
-method reads them.
+The probability is 1 / (1 + exp(-(constant + weights · s))). The numbers are fitted to recordings
+with a known truth, and tested on left-out sources, by ``benchmarks/truth/confidence.py``. What
+predicts left-out sources no better than one probability for all has no confidence: the number of
+repetitions, and borders and cuts of signals. No stage of the method reads the confidence.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,14 +25,29 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
+from kineme.methods.kineme.borders import convert_to_samples
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.kineme.repetitions import PLACES, trace_movement
+from kineme.methods.kineme.tree import sum_between_segments
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
 
 Frames = NDArray[np.int64]
+Weights = tuple[float, ...]
+"""Constant, and weight of each statistic, in the logistic function."""
 
+
+class Calibration(NamedTuple):
+    """Weights for each kind of result; None for results without confidence."""
+
+    clusters: Weights
+    borders: Weights | None = None
+    cuts: Weights | None = None
+
+
+OF_BODIES = Calibration((-0.387, 1.664, 2.849), (-0.477, 6.869), (-0.169, 1.591))
+OF_SIGNALS = Calibration((-3.11, 0.367, 5.205))
 MIN_PREFERENCE = 0.02
 """Smallest preference of a segment for its own cluster; smaller ones are raised to it."""
 MAX_CORRELATION = 0.995
@@ -46,6 +60,21 @@ MIN_SHARPNESS = 0.05
 """Smallest sharpness of a border; smaller ones are raised to it."""
 
 
+class Answers(NamedTuple):
+    """Clusters that each view of a part of the recording finds.
+
+    Attributes
+    ----------
+    frames : (samples,) array
+        Frames of the samples, at the working rate.
+    clusters : list of (samples,) array
+        Cluster of each sample, for each view.
+    """
+
+    frames: Frames
+    clusters: list[Frames]
+
+
 @dataclass(frozen=True, eq=False)
 class Evidence:
     """Statistics from which confidence is computed.
@@ -54,6 +83,8 @@ class Evidence:
     ----------
     preferred : (segments,) array
         Logarithm of length times preference for the own cluster, s; nan for transitions.
+    agreement : (segments,) array
+        Agreement of the views with the cluster (`measure_agreement`); nan for transitions.
     sharpness : (segments,) array
         Logarithm of the sharpness of the start border (`compute_sharpness`); nan for the first.
     repeated : (segments,) array
@@ -64,6 +95,7 @@ class Evidence:
     """
 
     preferred: Floats
+    agreement: Floats
     sharpness: Floats
     repeated: Floats
     parents: Frames
@@ -71,18 +103,17 @@ class Evidence:
 
 @dataclass(frozen=True, eq=False)
 class Confidence:
-    """Probabilities that results are right; nan without a cluster, count, border or cut.
+    """Probabilities that results are right; nan where there is none.
 
     Attributes
     ----------
-    links, counts, borders : (segments,) array
-        Probability of the cluster of each segment, of its repetition count, and of its start.
+    clusters, borders : (segments,) array
+        Probability of the cluster of each segment, and of its start.
     cuts : (primitives,) array
         Probability of the start of each primitive; for the first one that of the segment.
     """
 
-    links: Floats
-    counts: Floats
+    clusters: Floats
     borders: Floats
     cuts: Floats
 
@@ -91,6 +122,7 @@ def collect_evidence(
     rows: NDArray[np.float32],
     view: NDArray[np.float32],
     segments: Segments,
+    answers: Sequence[Answers],
     preset: KinemeConstants,
 ) -> Evidence:
     """Compute the statistics of activities and their repetitions.
@@ -102,11 +134,12 @@ def collect_evidence(
     view : (samples, dims) array
         The chosen view, at ``preset.rate``.
     segments : Segments
+    answers : sequence of Answers
+        For each part of the recording.
     preset : KinemeConstants
     """
     parents, repeats, ends = segments.parents, segments.repeats, segments.firsts
-    seconds = np.diff(segments.borders) / preset.working_fps
-    repeated = np.full(len(seconds), np.nan)
+    repeated = np.full(len(segments.labels), np.nan)
 
     def correlate(segment: int) -> None:
         first, last = ends[segment], ends[segment + 1]
@@ -116,15 +149,95 @@ def collect_evidence(
         repeated[segment] = compute_mean_correlation(samples[repeats[first:last]])
 
     map_threads(correlate, np.unique(parents[repeats]).tolist())
-    # Inner borders in samples of the view.
-    borders = np.rint(segments.borders[1:-1] / (preset.working_fps / preset.rate)).astype(np.int64)
-    sharpness = compute_sharpness(view, borders, max(1, round(preset.samples(SIDE))))
+    borders = convert_to_samples(segments.borders, preset, len(view))
+    sharpness = compute_sharpness(view, borders[1:-1], max(1, round(preset.samples(SIDE))))
+    seconds = np.diff(segments.borders) / preset.working_fps
+    preference = measure_preferences(view, borders, segments.labels)
     return Evidence(
-        np.log(seconds * np.maximum(segments.preference, MIN_PREFERENCE)),
+        np.log(seconds * np.maximum(preference, MIN_PREFERENCE)),
+        measure_agreement(segments.borders, segments.labels, answers),
         np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS))),
         repeated,
         parents,
     )
+
+
+def measure_preferences(view: NDArray[np.float32], borders: Frames, labels: Frames) -> Floats:
+    """Return how much nearer each segment is to its own cluster than to the next, 0 to 1.
+
+    Parameters
+    ----------
+    view : (samples, dims) array
+    borders : (segments + 1,) array
+        Samples.
+    labels : (segments,) array
+        Clusters; transitions have -1, and get nan.
+
+    Examples
+    --------
+    >>> view = np.repeat(np.float32([0, 1, 5, 6]), 2)[:, None]
+    >>> borders, labels = np.array([0, 2, 4, 6, 8]), np.array([0, 0, 1, 1])
+    >>> measure_preferences(view, borders, labels).round(2).tolist()
+    [0.91, 0.89, 0.89, 0.91]
+    """
+    own = np.flatnonzero(labels >= 0)
+    sums, lengths = (
+        sum_between_segments(view, borders, 1.0)[np.ix_(own, own)],
+        np.diff(borders)[own],
+    )
+    preferences = np.full(len(labels), np.nan)
+    if len(own):
+        members = np.eye(labels.max() + 1)[labels[own]]
+        means = (sums @ members) / np.outer(lengths, lengths @ members)
+        rows = np.arange(len(own))
+        inside = means[rows, labels[own]]
+        means[rows, labels[own]] = np.inf  # excludes the own cluster from the minimum
+        preferences[own] = np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1)
+    return preferences
+
+
+def measure_agreement(borders: Frames, labels: Frames, answers: Sequence[Answers]) -> Floats:
+    """Return how well the views agree with the cluster of each segment, 0 to 1.
+
+    A view has a cluster with which it covers most of the segment. Its agreement is twice the number
+    of samples that this cluster shares with the segment's cluster, over the sum of both sizes
+    (F1 score). Clusters of views hold for one part of the recording, so a segment is compared in
+    the part that holds its middle.
+
+    Parameters
+    ----------
+    borders : (segments + 1,) array
+        Frames.
+    labels : (segments,) array
+        Clusters; transitions have -1, and get nan.
+    answers : sequence of Answers
+
+    Examples
+    --------
+    >>> views = [np.array([0, 0, 1, 1]), np.array([0, 0, 0, 0])]
+    >>> answers = [Answers(np.arange(4), views)]
+    >>> measure_agreement(np.array([0, 2, 4]), np.array([0, 1]), answers).round(2).tolist()
+    [0.83, 0.83]
+    """
+    agreement = np.full(len(labels), np.nan)
+    middles = (borders[:-1] + borders[1:]) // 2
+    part_of = np.searchsorted([part.frames[0] for part in answers], middles, side="right") - 1
+    members = np.eye(labels.max(initial=-1) + 2)[labels, :-1]  # -1 has no column
+    for number, part in enumerate(answers):
+        own = np.flatnonzero((part_of == number) & (labels >= 0))
+        segment = np.searchsorted(borders, part.frames, side="right") - 1
+        scores = []
+        for clusters in part.clusters:
+            # Samples of each segment (row) in each cluster of the view (column).
+            shared = np.zeros((len(labels), clusters.max() + 1))
+            np.add.at(shared, (segment, clusters), 1)
+            both = members.T @ shared
+            sizes = np.add.outer(both.sum(axis=1), shared.sum(axis=0))
+            scores.append(
+                (2 * both / np.maximum(sizes, 1))[labels[own], shared[own].argmax(axis=1)]
+            )
+        agreement[own] = np.mean(scores, axis=0)
+    return agreement
 
 
 def compute_sharpness(view: NDArray[np.float32], at: Frames, side: int) -> Floats:
@@ -187,28 +300,31 @@ def compute_mean_correlation(repetitions: Floats) -> float:
     return float(np.arctanh(np.clip(pairs, -MAX_CORRELATION, MAX_CORRELATION)))
 
 
-def compute_confidence(evidence: Evidence, preset: KinemeConstants) -> Confidence:
-    """Compute probabilities from the statistics and the weights of the preset."""
-    borders = compute_probability(evidence.sharpness, preset.border_weights)
-    cuts = compute_probability(evidence.repeated, preset.cut_weights)[evidence.parents]
+def compute_confidence(evidence: Evidence, calibration: Calibration) -> Confidence:
+    """Compute probabilities from the statistics."""
+    borders = compute_probability(calibration.borders, evidence.sharpness)
+    cuts = compute_probability(calibration.cuts, evidence.repeated)[evidence.parents]
     # The first primitive of a segment starts at the border of the segment.
     first = np.diff(evidence.parents, prepend=-1) > 0
     return Confidence(
-        links=compute_probability(evidence.preferred, preset.link_weights),
-        counts=compute_probability(evidence.repeated, preset.count_weights),
-        borders=borders,
-        cuts=np.where(first, borders[evidence.parents], cuts),
+        compute_probability(calibration.clusters, evidence.preferred, evidence.agreement),
+        borders,
+        np.where(first, borders[evidence.parents], cuts),
     )
 
 
-def compute_probability(statistic: Floats, weights: tuple[float, float]) -> Floats:
-    """Return the logistic function of (constant, weight) and a statistic; nan stays nan.
+def compute_probability(weights: Weights | None, *statistics: Floats) -> Floats:
+    """Return the logistic function of constant + weights · statistics; nan without weights.
 
     Examples
     --------
-    >>> compute_probability(np.array([0.0, 2.0]), (0.0, 1.0)).round(2).tolist()
+    >>> compute_probability((0.0, 1.0), np.array([0.0, 2.0])).round(2).tolist()
     [0.5, 0.88]
     """
+    if weights is None:
+        return np.full(len(statistics[0]), np.nan)
+    constant, *factors = weights
+    exponent = constant + sum(map(np.multiply, factors, statistics))
     # The logistic function as a hyperbolic tangent, which does not overflow.
-    probability: Floats = 0.5 + 0.5 * np.tanh((weights[0] + weights[1] * statistic) / 2)
+    probability: Floats = 0.5 + 0.5 * np.tanh(exponent / 2)
     return probability

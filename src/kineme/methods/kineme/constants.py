@@ -28,13 +28,10 @@ from kineme.methods.base import (
     constant,
 )
 
-WEIGHT = Limits(-100.0, 100.0)
-"""Limits of a weight in a logistic function."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class KinemeConstants(Preset):
-    """Constants of views, segments, borders, repetitions, events and confidence."""
+    """Constants of views, segments, borders, repetitions and events."""
 
     method: ClassVar[str] = "kineme"
     units: ClassVar[tuple[Unit, ...]] = ("body sizes", "any")
@@ -221,24 +218,6 @@ class KinemeConstants(Preset):
         "least similarity times movement time of an event, so its shortest length; twice that for "
         "sets of two", unit="s",
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
-    )  # fmt: skip
-
-    # Confidence: constant term and weight of a statistic in a logistic function.
-    link_weights: tuple[float, float] = constant(
-        "confidence of a cluster by the seconds for which an activity prefers it", limits=WEIGHT,
-        fine=True, default=(1.441, 1.041),
-    )  # fmt: skip
-    border_weights: tuple[float, float] = constant(
-        "confidence of a border by how much more changes there than nearby", limits=WEIGHT,
-        fine=True, default=(-0.288, 4.554),
-    )  # fmt: skip
-    count_weights: tuple[float, float] = constant(
-        "confidence of a count by how much repetitions correlate", limits=WEIGHT, fine=True,
-        default=(-0.016, 1.619),
-    )  # fmt: skip
-    cut_weights: tuple[float, float] = constant(
-        "confidence of a border between repetitions by how much repetitions correlate",
-        limits=WEIGHT, fine=True, default=(-0.443, 1.882),
     )  # fmt: skip
 
     def __post_init__(self) -> None:

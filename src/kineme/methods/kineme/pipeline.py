@@ -36,6 +36,9 @@ from kineme.methods.base import Columns, Progress, time_stages
 from kineme.methods.kineme import tree
 from kineme.methods.kineme.borders import convert_to_samples, move_fine_borders, refine_borders
 from kineme.methods.kineme.confidence import (
+    OF_BODIES,
+    OF_SIGNALS,
+    Answers,
     Confidence,
     Evidence,
     collect_evidence,
@@ -124,21 +127,21 @@ class KinemeFound:
     def columns(self) -> Columns:
         """Return the segment table: activities, primitives, and their confidence."""
         segments, probabilities = self.segments, self.confidence
-        counts = np.where(segments.clusters >= 0, probabilities.counts[segments.parents], np.nan)
         return make_columns(
             segments.borders,
             segments.primitives,
             is_activity=segments.labels >= 0,
             is_primitive=segments.clusters >= 0,
             clusters=(segments.labels, segments.clusters),
-            confidence=(probabilities.links, counts),
+            confidence=(probabilities.clusters, np.full(len(segments.clusters), np.nan)),
             border_confidence=(probabilities.borders, probabilities.cuts),
         )
 
     @cached_property
     def confidence(self) -> Confidence:
         """Return the probability that each result is right."""
-        return compute_confidence(self.evidence, self.preset)
+        of_body = self.preset.unit == "body sizes"
+        return compute_confidence(self.evidence, OF_BODIES if of_body else OF_SIGNALS)
 
     def levels(
         self, columns: Columns, details: tuple[float, ...] | None = None
@@ -196,11 +199,22 @@ class KinemeFound:
 
 
 class Part(NamedTuple):
-    """Result for a part of a recording: number of the chosen view, the view, and its segments."""
+    """Result for a part of a recording.
+
+    Attributes
+    ----------
+    scale : int
+        Number of the chosen view.
+    view : (samples, dims) array
+    level : Level
+    answers : Answers
+        Clusters that all views find.
+    """
 
     scale: int
     view: Rows
     level: Level
+    answers: Answers
 
 
 def analyze(
@@ -275,26 +289,25 @@ def _analyze(
         starts, stops = refine_borders(rows, level.borders, preset)
         fine = move_fine_borders(level.fine, level.borders, np.append(starts, n))
     with stage("repetitions"):
-        segments = divide_into_repetitions(
-            poses, starts, stops, level.labels, level.preference, preset
-        )
+        segments = divide_into_repetitions(poses, starts, stops, level.labels, preset)
         if preset.min_similarity < 1:
             segments = merge_similar_clusters(poses, segments, preset)
     if preset.event_scale:
         with stage("events"):
             segments = find_events(poses, segments, preset)
     with stage("confidence"):
-        statistics = collect_evidence(poses, view, segments, preset)
+        answers = [part.answers for part in parts]
+        statistics = collect_evidence(poses, view, segments, answers, preset)
     return KinemeFound(view, preset, unit, segments, statistics, fine, timings)
 
 
 def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
     """Segment a part on its own. Its view is chosen without regard to repetitions."""
-    scale, fine_levels = 0, [find_fine_level(view, preset) for view in views.views]
-    if len(fine_levels) > 1:
-        halves = [find_fine_level(half, preset) for half in views.halves]
-        answers = [find_level(fine, preset).expand_to_samples() for fine in (*fine_levels, *halves)]
-        count = len(fine_levels)
-        scale = choose_view(answers[:count], answers[count:], margin=preset.view_margin)
-    level = find_level(fine_levels[scale], preset, Repeating(poses, preset))
-    return Part(scale, views.views[scale], level.to_frames(span, preset))
+    fine_levels = [find_fine_level(view, preset) for view in (*views.views, *views.halves)]
+    clusters = [find_level(fine, preset).expand_to_samples() for fine in fine_levels]
+    count = len(views.views)
+    scale = choose_view(clusters[:count], clusters[count:], margin=preset.view_margin)
+    level = find_level(fine_levels[scale], preset, Repeating(poses, preset)).to_frames(span, preset)
+    view = views.views[scale]
+    frames = span.start + choose_frames(span.stop - span.start, preset.working_fps, preset.rate)
+    return Part(scale, view, level, Answers(frames, clusters))

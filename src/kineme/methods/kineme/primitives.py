@@ -47,8 +47,6 @@ class Segments:
         Borders of activities and transitions.
     labels : (activities,) array
         Cluster of each activity; -1 for transitions.
-    preference : (activities,) array
-        How much nearer each is to its cluster than to the next, 0 to 1; nan for transitions.
     primitives : (primitives + 1,) array
         Borders of the primitives, including those of activities.
     clusters : (primitives,) array
@@ -60,7 +58,6 @@ class Segments:
 
     borders: Frames
     labels: Frames
-    preference: Floats
     primitives: Frames
     clusters: Frames
     not_periodic: Frames
@@ -93,7 +90,6 @@ def divide_into_repetitions(
     starts: Frames,
     stops: Frames,
     labels: Frames,
-    preference: Floats,
     preset: KinemeConstants,
 ) -> Segments:
     """Divide segments into repetitions, and merge neighbours that are one set.
@@ -104,25 +100,22 @@ def divide_into_repetitions(
         At the working rate.
     starts, stops : (segments,) array
         Frames between two segments are a transition.
-    labels, preference : (segments,) array
-        As in `Segments`.
+    labels : (segments,) array
+        Cluster of each.
     preset : KinemeConstants
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: find_repetitions(rows, *span, preset), spans)
     if preset.same_set <= 1:
-        sets = Sets(starts, stops, labels, preference, cuts)
-        starts, stops, labels, preference, cuts = join_sets(rows, sets, preset)
+        sets = Sets(starts, stops, labels, cuts)
+        starts, stops, labels, cuts = join_sets(rows, sets, preset)
     # Cuts of an activity do not depend on its neighbours; its ends do.
     ends = fit_ends(rows, starts, stops, labels, cuts, preset)
     borders, segment = _build_borders(len(rows), ends.starts, ends.stops)
     primitives, repeated = _build_borders(len(rows), ends.firsts, ends.lasts, [borders, *cuts])
-    # Appended values for index -1: transitions.
-    labels, preference = np.append(labels, -1), np.append(preference, np.nan)
+    labels = np.append(labels, -1)  # for index -1: transitions
     not_periodic = np.empty(0, np.int64)
-    return Segments(
-        borders, labels[segment], preference[segment], primitives, labels[repeated], not_periodic
-    )
+    return Segments(borders, labels[segment], primitives, labels[repeated], not_periodic)
 
 
 def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
@@ -149,10 +142,8 @@ def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstan
     # Neighbours that are now in one cluster become one segment, divided again.
     starts = segments.borders[:-1][activities[first]]
     stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
-    groups = np.split(segments.preference[activities], first[1:])
-    preference = np.array([group.mean() for group in groups])
     labels = number_by_appearance(labels[activities[first]])
-    return divide_into_repetitions(rows, starts, stops, labels, preference, preset)
+    return divide_into_repetitions(rows, starts, stops, labels, preset)
 
 
 def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) -> Frames:
@@ -308,7 +299,7 @@ def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) 
         first = actions + int(parts.max(initial=-1)) + 1
         clusters[inside] = first + found.clusters[before[inside]]
     not_periodic = np.unique(labels[free & (labels >= 0)])
-    return Segments(borders, labels, segments.preference[old], primitives, clusters, not_periodic)
+    return Segments(borders, labels, primitives, clusters, not_periodic)
 
 
 def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments:

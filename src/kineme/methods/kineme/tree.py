@@ -71,14 +71,11 @@ class Level:
     borders : (segments + 1,) array
     labels : (segments,) array
         Cluster of each, numbered by appearance.
-    preference : (segments,) array
-        How much nearer each is to its own cluster than to the next, 0 to 1.
     """
 
     fine: Samples
     borders: Samples
     labels: Samples
-    preference: Floats
 
     def expand_to_samples(self) -> Samples:
         """Return the cluster of each sample."""
@@ -168,9 +165,7 @@ def find_level(
                 cost -= min(savings.get(span, 0.0), alone)
         if cost < cheapest:
             best, cheapest = level, cost
-    first = np.searchsorted(borders, best.borders[:-1])
-    preference = measure_preferences(sum_runs(sums, first), np.diff(best.borders), best.labels)
-    return Level(borders, best.borders, best.labels, preference)
+    return Level(borders, best.borders, best.labels)
 
 
 class Grouped(NamedTuple):
@@ -351,24 +346,6 @@ def sum_runs(sums: Floats, first: Samples) -> Floats:
     return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
 
 
-def measure_preferences(sums: Floats, lengths: Samples, labels: Samples) -> Floats:
-    """Return how much nearer each segment is to its own cluster than to the next, 0 to 1.
-
-    Parameters
-    ----------
-    sums : (segments, segments) array
-        Summed distances of their samples.
-    lengths, labels : (segments,) array
-    """
-    members = np.eye(int(labels.max()) + 1)[labels]
-    means = (sums @ members) / np.outer(lengths, lengths @ members)
-    rows = np.arange(len(labels))
-    inside = means[rows, labels]
-    # Exclude the own cluster from the minimum.
-    means[rows, labels] = np.inf
-    return np.asarray(np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1), np.float64)
-
-
 def spread_samples(start: int, stop: int, most: int) -> Samples:
     """Choose at most `most` evenly spaced samples of a segment.
 
@@ -467,8 +444,7 @@ def link_parts(
         labels = match_clusters_across_parts(means, sizes, part_of, price)[labels]
     labels = number_by_appearance(labels)
     first = np.flatnonzero(np.diff(labels, prepend=-1))
-    preference = np.concatenate([part.preference for part in parts])
-    return Level(fine, np.append(ends[first], ends[-1]), labels[first], preference[first])
+    return Level(fine, np.append(ends[first], ends[-1]), labels[first])
 
 
 def match_clusters_across_parts(

@@ -1,7 +1,7 @@
 /**
  * Combine a segment's confidences into one number and explain it; list what to review first. Pure
- * functions. An activity's confidence is the product of those of its start, its cluster and its
- * number of repetitions. A primitive's confidence is that of its start.
+ * functions. An activity's confidence is the product of those of its start and its cluster. A
+ * primitive's confidence is that of its start.
  */
 import type { Segment, Segments, Level } from "./messages";
 import { memoize } from "./util";
@@ -22,7 +22,7 @@ export interface Confidence {
 /** One property of a segment and the confidence that it is right. */
 interface Part {
   value: number;
-  of: "start" | "cluster" | "count";
+  of: "start" | "cluster";
 }
 
 /** Return the confidence of a table's segment. */
@@ -35,23 +35,19 @@ const getStatistics = memoize((table: Segments) => new TableStatistics(table));
 /** Counts over the whole table that a segment's confidence depends on. */
 class TableStatistics {
   readonly members = new Map<string, number>();
-  /** Number of repetitions of each activity, and their lowest confidence. */
-  readonly counts = new Map<number, { times: number; value: number }>();
   /** Start frames of activities. */
   readonly starts = new Set<number>();
-  /** Whether confidences are probabilities: only tables with border confidences have these. */
-  readonly isProbability: boolean;
+  /** Whether confidences are shares: published methods give one to primitives, none to borders. */
+  readonly isShare: boolean;
 
   constructor({ segments }: Segments) {
-    this.isProbability = segments.some((row) => row.border_confidence !== null);
+    this.isShare =
+      segments.some((row) => row.level === "primitive" && row.confidence !== null) &&
+      segments.every((row) => row.border_confidence === null);
     for (const row of segments) {
       const key = getClusterKey(row);
       this.members.set(key, (this.members.get(key) ?? 0) + 1);
       if (row.level === "activity") this.starts.add(row.start_frame);
-      else if (row.confidence !== null) {
-        const { times, value } = this.counts.get(row.activity) ?? { times: 0, value: 1 };
-        this.counts.set(row.activity, { times: times + 1, value: Math.min(value, row.confidence) });
-      }
     }
   }
 }
@@ -81,9 +77,9 @@ class SegmentConfidence implements Confidence {
   get why(): string {
     const { segment, statistics, parts, short } = this;
     if (!parts.length) return explainMissing(segment, statistics);
-    if (!statistics.isProbability) return `Its confidence is ${short}, a share and no probability.`;
+    if (statistics.isShare) return `Its confidence is ${short}, a share and no probability.`;
     const least = parts.reduce((least, part) => (part.value < least.value ? part : least));
-    const that = describePart(least, segment, statistics);
+    const that = describePart(least, segment);
     return parts.length === 1
       ? `The confidence ${that} is ${short}.`
       : `The confidence that all of this is right is ${short}; the lowest is ${that}.`;
@@ -91,11 +87,9 @@ class SegmentConfidence implements Confidence {
 }
 
 /** Return a clause that follows "the confidence". */
-function describePart({ of }: Part, segment: Segment, around: TableStatistics): string {
+function describePart({ of }: Part, segment: Segment): string {
   if (of === "start") return `that a segment starts at ${formatTime(segment.start_s, 2)}`;
-  if (of === "cluster") return `that this is ${getSegmentName(segment)}`;
-  const times = around.counts.get(segment.activity)?.times ?? 1;
-  return `that this is done ${times === 1 ? "once" : `${times} times`}`;
+  return `that this is ${getSegmentName(segment)}`;
 }
 
 function listParts(segment: Segment, around: TableStatistics): Part[] {
@@ -104,16 +98,12 @@ function listParts(segment: Segment, around: TableStatistics): Part[] {
   const parts: Part[] = [];
   if (start_frame > 0 && border !== null && !(apart && around.starts.has(start_frame)))
     parts.push({ value: border, of: "start" });
-  if (confidence !== null && !(apart && around.isProbability))
-    parts.push({ value: confidence, of: "cluster" });
-  const counted =
-    level === "activity" && around.isProbability && around.counts.get(segment.activity);
-  if (counted) parts.push({ value: counted.value, of: "count" });
+  if (confidence !== null) parts.push({ value: confidence, of: "cluster" });
   return parts;
 }
 
 function explainMissing(segment: Segment, around: TableStatistics): string {
-  if (segment.level === "primitive" && segment.confidence !== null)
+  if (segment.level === "primitive" && around.starts.has(segment.start_frame))
     return "Its confidence is that of its activity, with which it is looked at.";
   const alone = segment.cluster >= 0 && around.members.get(getClusterKey(segment)) === 1;
   return alone ? "No other segment is like it." : "Nothing tells its confidence.";

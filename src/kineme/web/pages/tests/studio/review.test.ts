@@ -22,35 +22,32 @@ it("shows first where confidence is lowest, and says why", () => {
   expect(doubts[3]!.confidence.value).toBeNull();
 });
 
-it("asks once for an activity what can be wrong with it and its repetitions", () => {
+it("asks once about a start that an activity and its first repetition share", () => {
   const activity = { level: "activity" as const, confidence: 0.9, border_confidence: 0.8 };
   const found = createTable([
     segment(0, 20, { ...activity, activity: 0 }),
     segment(20, 50, { ...activity, activity: 1 }),
-    segment(0, 20, { activity: 0, confidence: 0.95 }),
-    segment(20, 30, { activity: 1, confidence: 0.5, border_confidence: 0.8 }),
-    segment(30, 50, { activity: 1, confidence: 0.5, border_confidence: 0.7 }),
+    segment(0, 20, { activity: 0, confidence: null }),
+    segment(20, 30, { activity: 1, confidence: null, border_confidence: 0.8 }),
+    segment(30, 50, { activity: 1, confidence: null, border_confidence: 0.7 }),
   ]);
   const doubts = listDoubts(found);
   expect(doubts.map(({ segment }) => [segment.level, segment.start_frame])).toEqual([
-    ["activity", 20],
     ["primitive", 30],
+    ["activity", 20],
     ["activity", 0],
     ["primitive", 0],
     ["primitive", 20],
   ]);
-  expect(doubts[0]!.confidence.value).toBeCloseTo(0.8 * 0.9 * 0.5);
-  expect(doubts[0]!.confidence.why).toBe(
-    "The confidence that all of this is right is 36 %; the lowest is that this is done 2 times.",
-  );
-  expect(doubts[1]!.confidence.value).toBe(0.7);
+  expect(doubts[0]!.confidence.value).toBe(0.7);
+  expect(doubts[1]!.confidence.value).toBeCloseTo(0.8 * 0.9);
   expect(doubts[3]!.confidence.value).toBeNull();
 });
 
 it("has one number for a segment, wherever that is shown", () => {
   const found = createTable([
-    segment(0, 40, { level: "activity", confidence: 0.99, border_confidence: null }),
-    segment(0, 40, { confidence: 0.19 }),
+    segment(0, 40, { level: "activity", confidence: 0.19, border_confidence: null }),
+    segment(0, 40, { confidence: null }),
     segment(40, 50, { level: "activity", activity: 1, confidence: 0.9, border_confidence: 0.9 }),
   ]);
   const [doubt] = listDoubts(found);
@@ -63,7 +60,10 @@ it("has one number for a segment, wherever that is shown", () => {
 });
 
 it("says of a confidence that it is no probability", () => {
-  const found = createTable([segment(0, 10, { level: "activity", confidence: 0.4 })]);
+  const found = createTable([
+    segment(0, 10, { level: "activity", confidence: 0.4 }),
+    segment(0, 10, { confidence: 0.6 }),
+  ]);
   expect(listDoubts(found)[0]!.confidence.why).toBe(
     "Its confidence is 40 %, a share and no probability.",
   );
