@@ -412,13 +412,16 @@ def library_tables() -> str:
 def constants_table(method: str) -> str:
     """Return a row for each constant of a method's presets, with the first clause of its help."""
     presets: list[Preset] = [each for each in kineme.PRESETS.values() if each.method == method]
-    known = [{constant.name: constant for constant in preset.constants()} for preset in presets]
-    rows = [["constant", *(f"`{preset.name}`" for preset in presets), "unit", "meaning"]]
-    for name in dict.fromkeys(name for constants in known for name in constants):
-        cells = [show_constant(each[name].value) if name in each else "" for each in known]
-        described = next(each[name] for each in known if name in each)
-        meaning = described.help.partition(";")[0]
-        rows.append([f"`{name}`", *cells, described.unit, meaning])
+    described = {each.name: each for preset in presets for each in preset.constants()}
+    heads: dict[tuple[str, ...], list[str]] = {}  # presets with equal values share a column
+    for preset in presets:
+        values = {each.name: show_constant(each.value) for each in preset.constants()}
+        heads.setdefault(tuple(values.get(name, "") for name in described), []).append(preset.name)
+    head = [", ".join(f"`{name}`" for name in names) for names in heads.values()]
+    rows = [["constant", *head, "unit", "meaning"]]
+    for constant, *cells in zip(described.values(), *heads, strict=True):
+        meaning = constant.help.partition(";")[0]
+        rows.append([f"`{constant.name}`", *cells, constant.unit, meaning])
     return markdown_table(rows)
 
 

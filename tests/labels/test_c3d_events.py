@@ -198,7 +198,7 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
         write_events(source, tmp_path / "copy.csv", TIMES, NAMES)
     with pytest.raises(WriteError, match="cannot take 304 events: a C3D file holds 255 at most"):
         write_events(source, tmp_path / "copy.c3d", [0.001 * i for i in range(300)], ["hop"] * 300)
-    with pytest.raises(ParameterError, match="1 times and 2 names"):
+    with pytest.raises(ParameterError, match="1 times, but 2 names"):
         write_events(source, tmp_path / "copy.c3d", [0.5], ["hop", "hop"])
     with pytest.raises(ReadError, match="is not a C3D file: events can only"):
         write_events(tmp_path / "walk.bvh", tmp_path / "copy.c3d", TIMES, NAMES)

@@ -204,7 +204,7 @@ ONE, TWO = np.zeros(4), np.zeros((4, 2))
         ((np.zeros((0, 2)), 10), "frames x channels, not of shape"),
         ((np.array([0, np.nan]), 10), "first in frame 1"),
         ((ONE, 0), "frame rate is 0"),
-        ((TWO, 10, ["a", "a"]), "different names"),
+        ((TWO, 10, ["a", "a"]), "give a different one"),
         ((ONE, 10, (), [(2, 1)]), "gap 2 to 1 must be within the 4 frames"),
         ((ONE, 10, (), [(0, 4)]), "cover the whole recording"),
         ((TWO, ["a", "b"], 10), r"frame rate is \['a', 'b'\]: it must be a positive"),

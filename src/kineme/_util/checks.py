@@ -302,6 +302,7 @@ class Registry(Mapping[str, T]):
         return f"<{self._what}s: {', '.join(self)}>"
 
     def _add(self, new: T, *, replace: bool = False) -> None:
+        """Add an object, in place of one of its name if ``replace``."""
         check_type(
             new, self._kind, "register", f"see {self._kind.__module__}.{self._kind.__name__}"
         )
@@ -343,14 +344,14 @@ class Registry(Mapping[str, T]):
                 raise
 
     def _add_plugins(self) -> None:
+        """Add the objects of entry points; warn of those that cannot be loaded."""
         from importlib.metadata import entry_points  # slow to import
 
         for point in sorted(entry_points(group=self._group), key=lambda point: point.name):
             try:
                 for new in _as_sequence(point.load()):
-                    if (
-                        self._objects.get(getattr(new, "name", "")) is not new
-                    ):  # may register itself
+                    # Its module may have registered it.
+                    if self._objects.get(getattr(new, "name", "")) is not new:
                         self._add(new)
             except Exception as error:  # noqa: BLE001 (plugins may raise anything)
                 reason = f"{type(error).__name__}: {error}"

@@ -64,11 +64,11 @@ class Batch:
 
     def __init__(self, inputs: list[Path], *, recursive: bool = False, quiet: bool = False):
         self._quiet = quiet
-        self._missing = set(inputs)
+        self._missing = set(inputs)  # without any result yet
         self._unwritten = False
         self._messages: list[tuple[Callable[[str], None], str]] = []
         self._count = 0
-        self._origins: dict[Path, set[Path]] = {}
+        self._origins: dict[Path, set[Path]] = {}  # inputs that contain a recording
         self._tables: dict[tuple[str, Path | None, str], dict[Path, Path | None]] = {}
         self.paths: list[Path] = []
         if Path("-") in inputs and not Path("-").exists():
@@ -206,6 +206,7 @@ class Batch:
             raise typer.Exit(1)
 
     def _list_recordings(self, folder: Path, *, recursive: bool) -> list[Path]:
+        """Return the recordings in a folder; keep messages on what was left out."""
         from kineme.formats.listing import scan_folder
 
         listing = scan_folder(folder, recursive=recursive)

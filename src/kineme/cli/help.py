@@ -51,6 +51,7 @@ class Command(TyperCommand):
             raise
 
     def _check_constants(self, ctx: Context, args: Sequence[str]) -> None:
+        """Fail with a hint at ``--set`` if a constant was given as an option."""
         flags = {name for each in self.get_params(ctx) for name in each.opts + each.secondary_opts}
         for arg, following in zip_longest(args, args[1:], fillvalue=""):
             flag, equals, value = arg.partition("=")

@@ -86,6 +86,7 @@ def _list_measures(path: Path, recording: Motion | Signals, options: ReadOptions
 
 
 def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
+    """Add joints and end effectors to the facts, or a note that these are unknown."""
     from kineme.features import PARTS, end_effectors
 
     skeleton = motion.skeleton

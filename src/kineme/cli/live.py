@@ -170,7 +170,7 @@ def _open_source(
     replay: Path | None,
     speed: float,
     lsl: str | None,
-    osc: tuple[int | None, str],
+    osc: tuple[int | None, str],  # port and address
     options: ReadOptions,
 ) -> Source:
     """Return the selected source, with its frame rate."""
@@ -180,8 +180,8 @@ def _open_source(
         return sources.replay(read(replay, **vars(options)), speed)
     if lsl is not None:
         source = sources.receive_lsl(lsl)
-    elif osc[0] is not None:
-        source = sources.receive_osc(osc[0], osc[1])
+    elif (port := osc[0]) is not None:
+        source = sources.receive_osc(port, osc[1])
     else:
         source = sources.read_lines(sys.stdin, options.columns or ())
     if options.fps is not None:
@@ -274,7 +274,11 @@ class View:
     past: list[ActivityEnded] = field(default_factory=list)
 
     def add(self, event: Event) -> None:
-        """Update the view with an event."""
+        """Update the view with an event.
+
+        Name and count of the present activity follow provisional events, as these are early. Final
+        events only list past activities, and clear the present one when the recording ends.
+        """
         if isinstance(event, ActivityStarted) and not event.is_final:
             self.name, self.count, self.stops = _format_name(event), 0, []
         elif isinstance(event, Repetition) and not event.is_final:

@@ -192,19 +192,21 @@ def add_options(
 
         @wraps(command)
         def wrapped(**values: Any) -> None:
+            """Call the command with its options collected in objects."""
             for group, members in groups.items():
                 group_values = {name: values.pop(name) for name in members}
                 values[group] = {
                     name: value for name, value in group_values.items() if value is not None
                 }
-            read_values = {name: values.pop(name) for name in options}
-            method = {name: read_values.pop(name) for name in SEGMENTING if name in read_values}
-            clips = {name: read_values.pop(name) for name in CLIPS if name in read_values}
-            if read_values:
-                values["read_options"] = make_read_options(**read_values)
+            # ``options`` mixes three kinds: those left after segmenting and clips are of reading.
+            given = {name: values.pop(name) for name in options}
+            method = {name: given.pop(name) for name in SEGMENTING if name in given}
+            clips = {name: given.pop(name) for name in CLIPS if name in given}
+            read_options = make_read_options(**given)
+            if given:
+                values["read_options"] = read_options
             if method:
-                emg = values["read_options"].emg
-                values["segment_options"] = make_segment_options(**method, emg=emg)
+                values["segment_options"] = make_segment_options(**method, emg=read_options.emg)
             if clips:
                 values["clip_options"] = make_clip_options(**clips)
             command(**values)
@@ -389,6 +391,7 @@ def _describe_type(hint: Any) -> str:
 
 
 def _convert_text(hint: Any, text: str) -> Any:
+    """Return a text as a value of the annotated type of a constant."""
     members = get_args(hint)
     if NoneType in members:
         return None if text.lower() == "none" else _convert_text(_drop_none(hint), text)

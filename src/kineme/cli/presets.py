@@ -73,7 +73,7 @@ def _write_rows(constants: Sequence[Constant]) -> None:
 
 
 def _show(title: str, constants: Sequence[Constant]) -> None:
-    """Print two lines per constant: name, value and range, then its meaning."""
+    """Print two lines per constant: name, value, range and other default; then its meaning."""
     rows = [
         (
             constant.name,
@@ -83,7 +83,7 @@ def _show(title: str, constants: Sequence[Constant]) -> None:
         )
         for constant in constants
     ]
-    head = ("constant", "value", "may be", "otherwise")
+    head = ("constant", "value", "may be", "default")
     widths = [min(max(map(len, column)), MAX_WIDTH) for column in zip(head, *rows, strict=True)]
 
     def line(cells: Sequence[str]) -> str:

@@ -117,11 +117,11 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
         return replace(motion, positions=positions, provenance=provenance), carry
     skeleton, hips = motion.skeleton, motion.skeleton.carrier
     above = skeleton.parents[hips]
+    # Joints in world axes, to which the carry applies: the roots.
     free = np.array(skeleton.parents) < 0
     rotations = np.array(motion.rotations)
     translations = compute_local_translations(skeleton, motion.positions, motion.rotations)
-    # The rotation of the hips in world axes, as the carry needs it.
-    if above >= 0:  # root bones stay; the carry applies to the hips in world axes
+    if above >= 0:  # bones above the hips stay: bring the hips to world axes instead
         free = np.arange(skeleton.n_joints) == hips
         around = compute_world_rotations(skeleton, rotations)[:, above]
         rotations[:, hips] = rot.multiply(around, rotations[:, hips])

@@ -110,6 +110,7 @@ def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, 
 
 
 def _as_json(clip: Clip) -> dict[str, Any]:
+    """Return the entry of a clip in ``manifest.json``, described by its schema."""
     row, carry, quality, root = clip.segment, clip.carry, clip.quality, clip.root
     # A round ends one frame after its last pose; a closed loop has an extra frame.
     round_s = (clip.n_frames - ("close" in clip.changes)) / clip.fps
@@ -183,7 +184,10 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
 
 
 class Companions:
-    """Collects data for the requested contact sheet and database while clips are made."""
+    """The contact sheet and motion matching database of clips, collected while these are made.
+
+    Only the requested files are collected and written; clips pass unchanged.
+    """
 
     def __init__(self, options: ClipOptions) -> None:
         self.sheet, self.matching = options.get("sheet"), options.get("motion_matching")
@@ -196,7 +200,7 @@ class Companions:
                 raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
             if not path.parent.is_dir():
                 raise WriteError(path, f"there is no folder {path.parent}")
-        self.strips: list[tuple[str, Motion, int]] = []
+        self.strips: list[tuple[str, Motion, int]] = []  # title, a few frames, cluster
         self.database = Database()
 
     def collect(

@@ -227,11 +227,11 @@ def resolve_options(options: ClipOptions) -> Chosen:
     shape = Shape(
         loops,
         options.get("best"),
-        options.get("root_motion") or target.root_motion,
-        options.get("straight", False),
-        options.get("mirror", False),
-        options.get("close", False) or (target.close and bool(loops)),
-        options.get("fps"),
+        root_motion=options.get("root_motion") or target.root_motion,
+        straight=options.get("straight", False),
+        mirror=options.get("mirror", False),
+        close=options.get("close", False) or (target.close and bool(loops)),
+        fps=options.get("fps"),
     )
     name = target.name if options.get("name") is None else options.get("name")
     if name is not None:

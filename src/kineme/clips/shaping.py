@@ -254,6 +254,7 @@ def _shape_clip(
     quality: LoopQuality | None,
     rank: int | None,
 ) -> ShapedClip:
+    """Return the clip of a segment in the requested shape; ``quality`` is None if it is no loop."""
     clip = cut(motion, row.start_frame, row.stop_frame)
     carry = find_carry(clip)
     if quality is not None:
@@ -281,13 +282,13 @@ def _shape_clip(
     return ShapedClip(
         index,
         row,
-        clip,
-        carry if quality is not None else None,
-        root,
-        planted or None,
-        quality,
-        rank,
-        poses,
+        motion=clip,
+        carry=carry if quality is not None else None,
+        root=root,
+        planted=planted or None,
+        quality=quality,
+        rank=rank,
+        poses=poses,
     )
 
 

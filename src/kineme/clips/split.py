@@ -204,23 +204,23 @@ def write_clips(
         first, files, names = 0, set[str](), set[str]()
         # Numbers continue over recordings, so that names are unique in the folder.
         for recording, rows, *ranked in clips:
-            run = _ClipNamer(recording, first, draft, chosen, names)
+            namer = _ClipNamer(recording, first, draft, chosen, names)
             first += len(rows)
             if isinstance(recording, Signals):
                 _refuse_poses(chosen)
-                entries += _write_rows(run, recording, rows)
+                entries += _write_rows(namer, recording, rows)
                 continue
-            shaped = _make_clips(run, recording, rows, companions, *ranked)
+            shaped = _make_clips(namer, recording, rows, companions, *ranked)
             if write_all is not None:
-                file = make_unique_name(run.stem, run.first, files)
+                file = make_unique_name(namer.stem, namer.first, files)
                 files.add(file.casefold())
                 path, animations = draft / f"{file}.{chosen.suffix}", dict[str, Motion]()
-                entries += _add_animations(run, shaped, path.name, animations)
+                entries += _add_animations(namer, shaped, path.name, animations)
                 if animations:
                     write_all(animations, path)
             else:
                 suffix = chosen.suffix or ("csv" if recording.rotations is None else "bvh")
-                entries += _write_files(run, shaped, suffix)
+                entries += _write_files(namer, shaped, suffix)
         write_manifests(
             entries,
             draft / MANIFEST,
@@ -260,10 +260,12 @@ def _write_one_file(
             raise ParameterError(
                 f"signals cannot be written as animations to {target.name}: give a folder"
             )
-        run = _ClipNamer(recording, number, target.parent, chosen, names, of_takes=len(sources) > 1)
+        namer = _ClipNamer(
+            recording, number, target.parent, chosen, names, of_takes=len(sources) > 1
+        )
         number += len(rows)
-        shaped = _make_clips(run, recording, rows, companions, *ranked)
-        entries += _add_animations(run, shaped, target.name, animations)
+        shaped = _make_clips(namer, recording, rows, companions, *ranked)
+        entries += _add_animations(namer, shaped, target.name, animations)
     if not animations:
         raise ParameterError(f"there is no clip to write to {target.name}")
     with atomic_write(lists[0]) as table, atomic_write(lists[1]) as list_of_all:
@@ -281,17 +283,17 @@ def _write_one_file(
 
 
 def _make_clips(
-    run: _ClipNamer,
+    namer: _ClipNamer,
     recording: Motion,
     rows: Sequence[Segment],
     companions: Companions,
     ranked: Sequence[RankedLoop] | None = None,
 ) -> Iterator[ShapedClip]:
     """Yield the clips of a recording, passing them through the companions."""
-    shape = run.chosen.shape
+    shape = namer.chosen.shape
     motion = mirrored(recording) if shape.mirror else recording
     shaped = shape_clips(motion, rows, shape, ranked)
-    return companions.collect(motion, rows, shaped, run.clip_name)
+    return companions.collect(motion, rows, shaped, namer.clip_name)
 
 
 def _refuse_poses(chosen: Chosen) -> None:
@@ -402,32 +404,32 @@ class _ClipNamer:
         return str(self.recording.provenance.path or "")
 
 
-def _write_rows(run: _ClipNamer, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
+def _write_rows(namer: _ClipNamer, signals: Signals, rows: Sequence[Segment]) -> Iterator[Clip]:
     """Write each clip as rows of the recording's file to its own file."""
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = make_rows(signals, shortest=shortest)
     for index, row in enumerate(rows):
         n_frames = row.stop_frame - row.start_frame
-        clip = run.clip(index, row, file_rows.suffix, n_frames=n_frames, fps=signals.fps)
-        file_rows.write(run.folder / clip.file, row.start_frame, row.stop_frame)
+        clip = namer.clip(index, row, file_rows.suffix, n_frames=n_frames, fps=signals.fps)
+        file_rows.write(namer.folder / clip.file, row.start_frame, row.stop_frame)
         yield clip
 
 
-def _write_files(run: _ClipNamer, clips: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
+def _write_files(namer: _ClipNamer, clips: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
     """Write each clip to its own file."""
     for each in clips:
-        entry = run.shaped_clip(each, suffix=f".{suffix}")
-        write(each.motion, run.folder / entry.file)
+        entry = namer.shaped_clip(each, suffix=f".{suffix}")
+        write(each.motion, namer.folder / entry.file)
         yield entry
 
 
 def _add_animations(
-    run: _ClipNamer, clips: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
+    namer: _ClipNamer, clips: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
 ) -> list[Clip]:
     """Add clips to the animations of a file; return their manifest entries."""
     entries = []
     for each in clips:
-        entry = run.shaped_clip(each, file)
+        entry = namer.shaped_clip(each, file)
         entries.append(replace(entry, animation=entry.name))
         animations[entry.name] = each.motion
     return entries

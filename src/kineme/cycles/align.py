@@ -114,15 +114,15 @@ def _warp_cycle(mean: Floats, curve: Floats) -> Floats:
 
     grid, points = np.linspace(0, 1, GRID), np.arange(GRID)
     # (GRID, GRID): squared distance of each point of the mean to each point of the cycle.
-    apart = np.square(curve[:, None] - mean[:, :, None]).sum(axis=0)
+    squares = np.square(curve[:, None] - mean[:, :, None]).sum(axis=0)
     # Only pairs near the diagonal (Sakoe-Chiba band).
-    apart[np.abs(points[:, None] - points) > round(BAND * GRID)] = np.inf
-    _, rows, columns = find_cheapest_path(apart, STEP)
+    squares[np.abs(points[:, None] - points) > round(BAND * GRID)] = np.inf
+    _, rows, columns = find_cheapest_path(squares, STEP)
     # A point of the mean may be paired with several points of a cycle: their mean is taken.
     phases = np.bincount(rows, columns) / np.bincount(rows) / (GRID - 1)
     # Smooth the deviation from an even course. It is 0 at both ends, so zeros continue it.
-    late = np.convolve(np.pad(phases - grid, SMOOTH // 2), np.ones(SMOOTH) / SMOOTH, "valid")
+    lags = np.convolve(np.pad(phases - grid, SMOOTH // 2), np.ones(SMOOTH) / SMOOTH, "valid")
     # A phase must neither leave the cycle nor go back in time.
-    smooth = np.maximum.accumulate(np.clip(late + grid, 0, 1))
+    smooth = np.maximum.accumulate(np.clip(lags + grid, 0, 1))
     smooth[0], smooth[-1] = 0, 1
     return smooth

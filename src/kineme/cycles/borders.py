@@ -109,8 +109,8 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
     samples per second.
     """
     runs = _turn_borders(runs, features, rates)
-    inner = sum(len(run.borders) - 2 for run in runs)
-    if inner < 2:
+    n_inner = sum(len(run.borders) - 2 for run in runs)
+    if n_inner < 2:
         return runs
     for step, window in enumerate(WINDOWS):
         # Shares of a cycle before and after a border, symmetric about 0.
@@ -135,15 +135,15 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
 def _extend_ends(runs: list[Run]) -> list[Run]:
     """Return runs with end borders averaged with those predicted by the usual length."""
     # The first and the last repetition of a run are left out: they end at the borders in question.
-    inner = [np.diff(run.borders)[1:-1] for run in runs]
+    inner_lengths = [np.diff(run.borders)[1:-1] for run in runs]
     # Lengths relative to the median of their run, since runs differ in pace.
     ratios = np.concatenate(
-        [each / np.median(each) for each in inner if len(each) > 1] or [np.empty(0)]
+        [each / np.median(each) for each in inner_lengths if len(each) > 1] or [np.empty(0)]
     )
     if len(ratios) < LEAST:
         return runs
     deviation, drawn = float(ratios.std()), []
-    for run, lengths in zip(runs, inner, strict=True):
+    for run, lengths in zip(runs, inner_lengths, strict=True):
         borders, uncertainty = run.borders.copy(), run.uncertainty.copy()
         # A run of two repetitions has no inner one, and keeps its ends.
         usual = float(np.median(lengths)) if len(lengths) else 0.0
@@ -198,17 +198,17 @@ def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -
     means = {id(run): _average_cycles(run, features, rates) for run in repeated}
     longest = max(repeated, key=lambda run: len(run.borders))
     # In cycles, relative to the run with the most repetitions.
-    late = {id(run): _measure_lateness(means[id(run)], means[id(longest)]) for run in repeated}
+    lateness = {id(run): _measure_lateness(means[id(run)], means[id(longest)]) for run in repeated}
     weights = {id(run): len(run.borders) - 1 for run in repeated}
 
     def moves(origin: float) -> float:
-        return sum(weights[key] * abs(_wrap_phase(late[key] - origin)) for key in late)
+        return sum(weights[key] * abs(_wrap_phase(lateness[key] - origin)) for key in lateness)
 
-    origin = min(late.values(), key=moves)
+    origin = min(lateness.values(), key=moves)
     turned = []
     for run in runs:
         # Runs without a phase of their own are not moved.
-        by = _wrap_phase(late.get(id(run), origin) - origin)
+        by = _wrap_phase(lateness.get(id(run), origin) - origin)
         cycles = np.arange(len(run.borders), dtype=np.float64) + by
         turned.append(replace(run, borders=run.at(cycles), turned=by) if by else run)
     return turned
@@ -280,7 +280,11 @@ def _move_borders(
     offsets: Floats,
     reach: float,
 ) -> Run:
-    """Return the run with each border at the best match of the template."""
+    """Return the run with each border at the best match of the template.
+
+    ``template`` (window, dims) is compared at ``offsets`` (window,), shares of a cycle from the
+    border. Borders move by at most ``reach``, a share of a cycle. ``weights`` are those of dims.
+    """
     values, rate = features[run.recording], rates[run.recording]
     # The gradient per cycle; square roots of the weights go with differences squared later.
     slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)

@@ -166,7 +166,15 @@ def channels_of(
 def _make_signal_channels(signals: Signals) -> list[Channel]:
     columns = signals.values.T
     return [
-        Channel(name, "", CHANNEL, name, signals.fps, partial(np.array, column), signals.gaps)
+        Channel(
+            name,
+            "",
+            group=CHANNEL,
+            source=name,
+            fps=signals.fps,
+            compute=partial(np.array, column),
+            gaps=signals.gaps,
+        )
         for name, column in zip(signals.names, columns, strict=True)
     ]
 
@@ -174,8 +182,8 @@ def _make_signal_channels(signals: Signals) -> list[Channel]:
 def make_contact_channels(recording: Motion | Signals) -> list[Channel]:
     """Return a stance channel for each foot that is found."""
     return [
-        Channel(f"stance_{side[0]}", "%", CONTACT, ", ".join(foot), recording.fps,
-                partial(mark_stance, recording, side), recording.gaps)
+        Channel(f"stance_{side[0]}", "%", group=CONTACT, source=", ".join(foot), fps=recording.fps,
+                compute=partial(mark_stance, recording, side), gaps=recording.gaps)
         for side in SIDES
         if (foot := find_foot(recording, side))
     ]  # fmt: skip
@@ -190,7 +198,9 @@ def make_motion_channels(motion: Motion) -> list[Channel]:
 
     def add(name: str, unit: str, group: str, of: Sequence[str | int], compute: Compute) -> None:
         source = ", ".join(each if isinstance(each, str) else names[each] for each in of)
-        channels.append(Channel(name, unit, group, source, fps, compute, gaps))
+        channels.append(
+            Channel(name, unit, group=group, source=source, fps=fps, compute=compute, gaps=gaps)
+        )
 
     try:
         # Unwrapped: no jumps by 360 degrees.

@@ -370,7 +370,7 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
     """
     check_type(events, Events, "strides", "foot_events(recording) gives them")
     left, right = (_measure_strides(events, side, recording) for side in SIDES)
-    # A body without one of the feet has no path of that side.
+    # The side of a foot without a path, as in a body with one foot, lacks the measures of paths.
     return {
         name: np.concatenate(
             [side.get(name, np.full(len(side["foot"]), np.nan)) for side in (left, right)]

@@ -129,6 +129,7 @@ def _write_tables(cycles: Cycles, path: Path, ends: bool) -> None:
 
 
 def _write_excel(cycles: Cycles, path: Path, ends: bool) -> None:
+    """Write a sheet per table, and one of the provenance."""
     with require_extra("openpyxl", "excel"):
         from openpyxl import Workbook
     book = Workbook(write_only=True)

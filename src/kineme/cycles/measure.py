@@ -356,6 +356,7 @@ def _make_provenance(
     repetitions: Sequence[Repetition],
     columns: Columns,
 ) -> dict[str, Any]:
+    """Return the sources of the cycles, and the runs whose phase was turned."""
     # One entry for each run: its repetitions were turned by the same share.
     names, groups = columns["recording"].tolist(), columns["group"].tolist()
     moved = {

@@ -292,7 +292,8 @@ def anchor_repetitions(
             start, stop, lacking = np.nan, np.nan, "no event"
         anchored.append(
             Repetition(
-                each.recording, each.segment, each.place, float(start), float(stop), np.nan, np.nan,
+                each.recording, each.segment, place=each.place, start=float(start),
+                stop=float(stop), start_deviation=np.nan, stop_deviation=np.nan,
                 turned=each.turned, lacking=lacking,
             )
         )  # fmt: skip
@@ -330,8 +331,8 @@ def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> 
         if len(frames) and np.isfinite(values[frames]).all():
             frame = int(frames[values[frames].argmax()])
             # An end of the recording has no neighbour for the parabola, which finds a minimum.
-            inner = 0 < frame < len(values) - 1
-            shift = find_vertex(*-values[frame - 1 : frame + 2]) if inner else 0.0
+            is_inside = 0 < frame < len(values) - 1
+            shift = find_vertex(*-values[frame - 1 : frame + 2]) if is_inside else 0.0
             times[i] = (frame + shift) / fps
     return times
 
@@ -386,8 +387,8 @@ def _find_event_times(
             found = np.empty(0)
         # A laboratory often marks the contacts on its force plates only. Contacts found from the
         # movement are added where no mark is near.
-        apart = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
-        return np.sort(np.concatenate([found[apart >= SAME_S], marked]))
+        distances = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
+        return np.sort(np.concatenate([found[distances >= SAME_S], marked]))
     if len(marked):
         return np.sort(marked)
     names = sorted({text for _, text in events})

@@ -170,14 +170,20 @@ class Cycles:
         return replace(self, columns={**self.columns, "excluded": reasons.astype(np.str_)})
 
     def exclude_far(self, deviations: float = 4.0) -> Cycles:
-        """Exclude cycles whose duration or curves are far from those of their group.
+        """Exclude cycles whose duration or curve is unusual in their group.
+
+        Groups of fewer than five inner cycles are skipped.
 
         Parameters
         ----------
         deviations : float
-            Largest distance from the median: for durations in standard deviations (estimated from
-            the median absolute deviation), for curves in median distances. Groups of fewer than
-            five inner cycles are skipped.
+            How many times the usual distance from the group's median a cycle may have. The usual
+            distance is, for durations, one standard deviation, estimated from the median absolute
+            deviation; for curves, the median distance from the median curve.
+
+        Returns
+        -------
+        Cycles
         """
         _check_number(deviations, "deviations")
         far: set[int] = set()
@@ -189,14 +195,17 @@ class Cycles:
             # (rows, channels): distance from the median curve; a mean would follow outliers.
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)  # a channel that is never measured
-                usual = np.nanmedian(curves, axis=0)
-            apart = _measure_distances(curves - usual)
-            late = np.abs(duration - np.median(duration))
+                median_curves = np.nanmedian(curves, axis=0)
+            curve_distances = _measure_distances(curves - median_curves)
+            off = np.abs(duration - np.median(duration))
             # The factor makes a median deviation the standard one of a normal distribution.
-            for values, factor in ((late, 1 / DEVIATION), *((column, 1.0) for column in apart.T)):
-                unit = factor * np.median(values)
-                if unit > 0:
-                    far |= set(rows[values > deviations * unit].tolist())
+            for values, factor in (
+                (off, 1 / DEVIATION),
+                *((each, 1.0) for each in curve_distances.T),
+            ):
+                usual = factor * np.median(values)
+                if usual > 0:
+                    far |= set(rows[values > deviations * usual].tolist())
         return self.exclude(sorted(far), FAR)
 
     def exclude_unsure(self, least: float = 0.5) -> Cycles:

@@ -249,6 +249,7 @@ def _read_text_trials(path: str | PathLike[str]) -> dict[str, list[Action]]:
 
 
 def _correct_rows(trial: str, rows: list[Action]) -> list[Action]:
+    """Return the rows with known errors corrected, and the marks of each in order."""
     corrected = []
     for number, row in enumerate(rows, 1):
         frames = CORRECTIONS.get((trial, number, row[1:]), row[1:])

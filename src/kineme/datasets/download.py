@@ -142,6 +142,7 @@ class _Download:
         return 0
 
     def _append(self, response: Response, start: int) -> None:
+        """Write the rest of the file from byte ``start`` on; raise an error if it is incomplete."""
         length = response.headers.get("Content-Length", "")
         total = start + int(length) if length.isdecimal() else None
         size, complete = start, False
@@ -159,7 +160,10 @@ class _Download:
             raise _BrokenOffError(f"only {size} of {total} bytes arrived")
 
     def _date(self, response: Response) -> None:
-        """Set the file's date to the server's; delete the file if there is none."""
+        """Set the file's date to the server's, which a later request needs to continue it.
+
+        Delete the file if the server tells none.
+        """
         try:
             date = parsedate_to_datetime(response.headers["Last-Modified"]).timestamp()
         except (KeyError, ValueError):

@@ -158,14 +158,16 @@ class Cycle:
         return not self.gait and any(name.startswith(SIDES) for name in self.angles)
 
     def angles_at(self, phase: Floats, amplitude: Floats) -> dict[str, Floats]:
-        """Return all angles at phases (in cycles), with deviations from standing scaled."""
+        """Return all angles in degrees (frames,) at ``phase`` (frames,), a number of cycles.
+
+        Deviations from standing are multiplied by ``amplitude`` (frames,).
+        """
         result = {name: np.full(len(phase), angle) for name, angle in STANDING.items()}
         for name, values in self.angles.items():
             curve = _make_cyclic_curve(self.at, values)
             for full_name in _expand_name(name):
-                # A negative phase shift is a delay in time.
-                late = 0.5 if self.gait and full_name.startswith("right") else 0.0
-                angle = curve(phase - late)
+                lag = 0.5 if self.gait and full_name.startswith("right") else 0.0
+                angle = curve(phase - lag)
                 # Angles that keep turning are not scaled, since whole turns must stay whole.
                 turns = values[0] != values[-1]
                 rest = STANDING[full_name]

@@ -268,7 +268,7 @@ class _ClassNumbers:
         """Measure the agreement of two people."""
         compared = self._compare(first, second)
         if not compared:
-            return Pair(first, second, math.nan, math.nan, 0)
+            return Pair(first, second, cohen_kappa=math.nan, border_f1=math.nan, recordings=0)
         # All recordings as one, with a common mapping.
         both = Comparison(
             np.concatenate([one.truth for one in compared]),

@@ -251,10 +251,10 @@ class Comparison:
         intervals = Spans(
             inner,
             spans.activities.within(counted),
-            spans.primitives.within(counted),
-            None if spans.positions is None else np.asarray(spans.positions)[counted],
-            None if spans.features is None else np.asarray(spans.features)[counted],
-            self.repetitions,
+            primitives=spans.primitives.within(counted),
+            positions=None if spans.positions is None else np.asarray(spans.positions)[counted],
+            features=None if spans.features is None else np.asarray(spans.features)[counted],
+            repetitions=self.repetitions,
         )
         return replace(
             self, truth=self.truth[counted], found=self.found[counted], intervals=intervals

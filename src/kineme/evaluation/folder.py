@@ -174,7 +174,15 @@ def evaluate_folder(
         check_method(name)
     # One job for each recording and method; results arrive in any order.
     jobs = [
-        Job(path, source, name, options, without, mapping == "folder", others)
+        Job(
+            path,
+            source,
+            method=name,
+            read_options=options,
+            without=without,
+            joins=mapping == "folder",
+            constants=others,
+        )
         for path, source in labels.items()
         for name in methods
     ]
@@ -228,21 +236,22 @@ def _join_clusters(
             samples = result.sides.samples
             kinds.setdefault(samples.names if samples else (), []).append(i)
     found: dict[int, tuple[ComparedSides, Segmentation]] = {}
-    following = 0
+    next_cluster = 0
     for rows in kinds.values():
         jobs = [job_results[i][0] for i in rows]
         sides = [s for i in rows if (s := job_results[i][1].sides) is not None]
         shared = _share_clusters(jobs, sides, n_clusters)
         for i, side, one in zip(rows, sides, shared, strict=True):
             # Clusters of different groups must have different numbers.
-            found[i] = side, _renumber(one, following)
-        following += 1 + max(int(one.table.cluster.max()) for one in shared)
+            found[i] = side, _renumber(one, next_cluster)
+        next_cluster += 1 + max(int(one.table.cluster.max()) for one in shared)
     return dict(sorted(found.items()))
 
 
 def _share_clusters(
     jobs: Sequence[Job], sides: Sequence[ComparedSides], n_clusters: int | None
 ) -> list[Segmentation]:
+    """Return the results of all recordings with common cluster numbers."""
     segmentations = [one.found for one in sides]
     samples = [one.samples for one in sides if one.samples is not None]
     if samples:
@@ -252,10 +261,10 @@ def _share_clusters(
     try:
         return share_clusters(motions, segmentations)
     except MotionError:  # without bodies, movements cannot be compared: share no cluster
-        separate, following = [], 0
+        separate, next_cluster = [], 0
         for found in segmentations:
-            separate.append(_renumber(found, following))
-            following += 1 + int(found.table.cluster.max())
+            separate.append(_renumber(found, next_cluster))
+            next_cluster += 1 + int(found.table.cluster.max())
         return separate
 
 
@@ -284,7 +293,10 @@ def read_selected(
     ]
     if not kept:
         names = ", ".join(signals.names)
-        raise ParameterError(f"{path}: no column remains of {names:.200}")
+        raise ParameterError(
+            f"{path}: the selected and left-out columns leave none of its "
+            f"{len(signals.names)} columns ({names:.200})"
+        )
     unmet = [
         p for p in (*columns, *without) if not any(_matches_any(name, p) for name in signals.names)
     ]
@@ -420,7 +432,9 @@ def run_job(job: Job, clock: Callable[[], float] = time.perf_counter) -> JobResu
         sides = ComparedSides(truth, replace(found, hierarchy=None), samples)
     unmet = (str(note) for note in recording.provenance.notes if note.startswith(UNMET))
     notes = (*unmet, *truth.provenance.get("notes", ()))
-    return JobResult(compared, sides, classes, seconds, recording.duration, notes)
+    return JobResult(
+        compared, sides, classes=classes, seconds=seconds, length_s=recording.duration, notes=notes
+    )
 
 
 def _describe_failure(error: BaseException) -> JobResult:

@@ -188,11 +188,14 @@ def is_annotation_file(path: Path) -> bool:
 
 
 def _find_trial_truth(rows: list[Action], fps: float) -> Truth:
+    """Return the actions of a trial at a rate; each row has three marks of its end."""
     earliest, mean, latest = (
         # - 1: marks count frames from 1. The last row ends with the recording and has no border.
-        round_half_up(np.array([row[i] for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
-        for i in (1, 2, 3)
+        round_half_up(np.array([getattr(row, mark) for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
+        for mark in ("earliest", "mean", "latest")
     )
     # Every fourth of N frames, starting with the first, are ceil(N / 4) frames.
     frames = ceil(rows[-1].latest * fps / TRIAL_FPS)
-    return Truth(tuple(row.label for row in rows), earliest, mean, latest, frames, fps)
+    return Truth(
+        tuple(row.label for row in rows), earliest, mean=mean, latest=latest, frames=frames, fps=fps
+    )

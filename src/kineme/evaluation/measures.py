@@ -235,9 +235,9 @@ def _count_hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     hits: set[int] = set()
     for label, start, stop in found:
         # Negative for disjoint segments, which are never chosen; then the union is wrong.
-        inner = np.minimum(stops, stop) - np.maximum(starts, start)
+        shared = np.minimum(stops, stop) - np.maximum(starts, start)
         union = np.maximum(stops, stop) - np.minimum(starts, start)
-        overlap = np.where(labels == label, inner / union, -1.0)
+        overlap = np.where(labels == label, shared / union, -1.0)
         best = int(np.argmax(overlap))
         if overlap[best] > 0 and overlap[best] >= least:
             hits.add(best)  # a set: each true segment counts once
@@ -352,9 +352,9 @@ def covering(compared: Comparison) -> float:
     best = []
     for start, stop in zip(actions.starts, actions.stops, strict=True):
         # Negative for disjoint intervals, which count as 0 below.
-        inner = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
+        shared = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
         union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
-        best.append((np.maximum(inner, 0) / union).max())
+        best.append((np.maximum(shared, 0) / union).max())
     return float(np.average(best, weights=np.diff(actions.borders)))
 
 
@@ -404,13 +404,13 @@ def _find_ends(repetitions: Labelling) -> tuple[Ints, Ints]:
 def _match_borders(first: ArrayLike, last: ArrayLike, found: Floats) -> list[int]:
     """Match each true span with the first found border in it; return indices of found borders."""
     hits: list[int] = []
-    following = 0
+    next_found = 0
     for start, stop in zip(np.asarray(first), np.asarray(last), strict=True):
         # Borders are sorted, so earlier found borders are not needed again.
-        following = max(following, int(np.searchsorted(found, start)))
-        if following < found.size and found[following] <= stop:
-            hits.append(following)
-            following += 1
+        next_found = max(next_found, int(np.searchsorted(found, start)))
+        if next_found < found.size and found[next_found] <= stop:
+            hits.append(next_found)
+            next_found += 1
     return hits
 
 

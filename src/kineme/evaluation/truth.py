@@ -78,8 +78,8 @@ class Labelling:
             raise ParameterError(f"borders must increase: {after} follows {before}")
         if len(self.labels) != self.borders.size - 1:
             raise ParameterError(
-                f"{self.borders.size - 1} intervals need the same number of labels, not "
-                f"{len(self.labels)}"
+                f"{len(self.labels)} labels for {self.borders.size - 1} intervals: give one for "
+                "each"
             )
 
     @classmethod
@@ -223,7 +223,8 @@ class Truth:
             raise ParameterError("annotations need at least one action")
         if self.counts and len(self.counts) != len(self.labels):
             raise ParameterError(
-                f"{len(self.labels)} actions need the same number of counts, not {len(self.counts)}"
+                f"{len(self.counts)} counts for {len(self.labels)} actions: give one for each, "
+                "None if unknown"
             )
         if self.repetitions is not None and self.repetitions.frames != self.frames:
             raise ParameterError(
@@ -277,7 +278,8 @@ class Truth:
         """
         if len(counts) not in (0, len(labelling.labels)):
             raise ParameterError(
-                f"{len(labelling.labels)} intervals need as many counts, not {len(counts)}"
+                f"counts has {len(counts)} entries for {len(labelling.labels)} intervals: give one "
+                "for each, None if unknown"
             )
         # Transitions between two actions are borders; at the ends they stay rows.
         middle = [
@@ -360,14 +362,16 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     known_counts = _count_repetitions(labels)
     single = origin.get("level") == "primitive"
     groups = _group_rows(rows, pauses=single)
-    inner = list(labels.primitives) or _make_repetitions(rows, groups, known_counts, single=single)
+    primitives = list(labels.primitives) or _make_repetitions(
+        rows, groups, known_counts, single=single
+    )
     # A sum is known only if the count of each row is known.
     known = [[known_counts[i] for i in group if not _is_transition(rows[i])] for group in groups]
     counts: list[Count] = [
         sum(count or 0 for count in some) if some and None not in some else None for some in known
     ]
     starts = [rows[group[0]].start_frame for group in groups]
-    found = [row.start_frame for row in inner if not _is_transition(row)]
+    found = [row.start_frame for row in primitives if not _is_transition(row)]
     # Number of repetitions that start in each group.
     numbers = np.bincount(np.searchsorted(starts, found, "right") - 1, minlength=len(groups))
     for i, group in enumerate(groups):
@@ -377,7 +381,7 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
     joined = [replace(rows[g[0]], stop_frame=rows[g[-1]].stop_frame) for g in groups]
     names = [name for name in COLUMNS if name != "activity"]
     return Segmentation.from_columns(
-        {name: [getattr(row, name) for row in (*joined, *inner)] for name in names},
+        {name: [getattr(row, name) for row in (*joined, *primitives)] for name in names},
         n_frames=labels.n_frames,
         fps=labels.fps,
         provenance={**labels.provenance, "labels": {**origin, "counts": counts}},
@@ -446,9 +450,8 @@ def _count_repetitions(labels: Segmentation) -> Sequence[Count]:
     """Return the known number of repetitions of each row of the activity level, or None."""
     counts: Sequence[Count] = labels.provenance.get("labels", {}).get("counts", ())
     rows = len(labels.activities)
-    return (
-        counts if len(counts) == rows else [None] * rows
-    )  # the table was edited, or has no counts
+    # Counts of another length are those of the table before it was edited.
+    return counts if len(counts) == rows else [None] * rows
 
 
 def _name_class(label: str) -> str:
@@ -496,17 +499,17 @@ def _make_repetitions(
     single: bool,
 ) -> list[Segment]:
     """Return primitives for groups of rows that are repetitions; empty if there are none."""
-    inner: list[Segment] = []
+    primitives: list[Segment] = []
     for group in groups:
         first, last = rows[group[0]], rows[group[-1]]
         cut = not _is_transition(first) and all(given[i] is None for i in group)
         if cut and (single or len(group) > 1):
             for row in (rows[i] for i in group):
                 kind = choose_kind("primitive", transition=_is_transition(row))
-                inner.append(replace(row, level="primitive", kind=kind))
+                primitives.append(replace(row, level="primitive", kind=kind))
         else:
             # Primitives must tile the recording, so fill unknown parts with a transition.
-            inner.append(
+            primitives.append(
                 Segment("primitive", "transition", first.start_frame, last.stop_frame, 0.0, 0.0)
             )
-    return inner if any(row.kind == "primitive" for row in inner) else []
+    return primitives if any(row.kind == "primitive" for row in primitives) else []

@@ -140,6 +140,7 @@ def find_limbs(
     named = find_joints(skeleton.names, _NAMED, single=single)
     joints: dict[str, Points] = {}
     for top, middle, end in LIMBS:
+        # -1 for a tip that is neither given nor named; its chain is empty.
         tips = [
             ends.get(joint, named.get(joint, (-1,))[0]) for joint in (f"left_{end}", f"right_{end}")
         ]
@@ -164,21 +165,21 @@ def _find_top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int
     """
     # Length of the chain from the branch down to each joint.
     below = np.cumsum(np.linalg.norm(skeleton.offsets[chain], axis=1))
-    inner = [
+    candidates = [
         place
         for place, joint in enumerate(chain[:-1])
         # Joints between two bones of some length, except joints that only twist a bone.
         if 0 < below[place] < below[place + 1] and not has_word(skeleton.names[joint], TWIST)
     ]
-    if len(inner) < 2:
-        return (chain[inner[0]] if inner else -1), -1
+    if len(candidates) < 2:
+        return (chain[candidates[0]] if candidates else -1), -1
 
     def compute_penalty(pair: tuple[int, int]) -> float:
         upper, lower = below[pair[1]] - below[pair[0]], below[-1] - below[pair[1]]
         # Logarithms, so that the choice does not depend on the unit of length.
         return float(abs(np.log(upper / lower)) - np.log(upper + lower))
 
-    top, middle = min(combinations(inner, 2), key=compute_penalty)
+    top, middle = min(combinations(candidates, 2), key=compute_penalty)
     return chain[top], chain[middle]
 
 

@@ -160,6 +160,7 @@ def _list_words(words: list[str], last: str = "and") -> str:
 
 
 def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
+    """Return the joints that the user named, by part; raise EndEffectorError for others."""
     if names is None:
         return {}
     if not isinstance(names, Mapping):
@@ -182,6 +183,7 @@ def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
 
 
 def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
+    """Return the end effectors whose names are known; of the head, its crown if there is one."""
     named = find_joints(skeleton.names, _NAMED, single=True)
     found = {part: points[0] for part, points in named.items()}
     if "head" in found:
@@ -308,7 +310,14 @@ def _pair_limbs(
     long_bones = np.sort(np.argsort(-(bones[0] * is_separate), kind="stable")[:2])
     first, second = (long_bones[0], long_bones[-1])
     left_and_right = [
-        _Limb(parents[path[0]], path[0], parents[path[first]], path[second], path[-1], length)
+        _Limb(
+            parents[path[0]],
+            path[0],
+            top=parents[path[first]],
+            end=path[second],
+            tip=path[-1],
+            length=length,
+        )
         for path, length in zip((one, other), bones.sum(axis=1).tolist(), strict=True)
     ]
     return left_and_right[0], left_and_right[1]

@@ -83,6 +83,7 @@ def fit_clouds(
 def _fit_block(
     points: Floats, first: NDArray[np.int64], second: NDArray[np.int64], half: int
 ) -> tuple[Floats, Floats, Floats]:
+    """Return distance, turn and shift that best align pairs of clouds; see `fit_clouds`."""
     floor_a, height_a, center_a = _make_clouds(points, first, half)
     floor_b, height_b, center_b = _make_clouds(points, second, half)
     shared = (floor_a * floor_b.conj()).sum(axis=1)

@@ -286,6 +286,7 @@ def _convert_date(content: FileContent, cell: str, line: int, day_first: bool | 
 
 
 def _parse_cells(content: FileContent, cells: list[str], line: int) -> list[float]:
+    """Return the numbers in the cells of a row, nan for empty ones."""
     try:
         return parse_numbers(cells)
     except ValueError:

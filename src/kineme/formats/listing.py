@@ -151,23 +151,21 @@ def drop_duplicates(recordings: list[Path]) -> list[Path]:
 
 
 def _is_recording(path: Path) -> bool:
+    """Return whether a file is a recording, by its suffix or, if that is ambiguous, its bytes."""
     suffix = path.suffix.lower()
-    formats = [
-        candidate
-        for candidate in supported_formats()
-        if candidate.read and suffix in candidate.suffixes
-    ]
+    formats = [each for each in supported_formats() if each.read and suffix in each.suffixes]
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _AMBIGUOUS:
+        # Long lists of images may precede what makes a JSON file a recording.
         sample = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
-        is_known = any(
-            recognises_safely(candidate.name, candidate.recognises, sample) for candidate in formats
-        )
+        is_known = any(recognises_safely(each.name, each.recognises, sample) for each in formats)
         return is_known or (suffix != ".json" and _is_text_table(path))
+    # Tables and archives also hold labels and other arrays.
     if suffix in (".csv", ".tsv"):
         return not _has_span_columns(path)
     if suffix == ".parquet":
+        # The names of its columns are at the end of the file.
         tail = read_tail(path)
         return not any(name in tail for name in SPANS[:2])
     return suffix != ".npz" or _has_motion_arrays(path)

@@ -169,7 +169,14 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
             for joint, joint_points in body.items()
         )
         notes.append(f"{BODY}: {', '.join(used)}")
-    return Motion(skeleton, positions, points.fps, None, provenance.noted(*notes), missing)
+    return Motion(
+        skeleton,
+        positions,
+        points.fps,
+        rotations=None,
+        provenance=provenance.noted(*notes),
+        gaps=missing,
+    )
 
 
 def split_subjects(names: Sequence[str], person: str | None = None) -> tuple[list[str], list[str]]:
@@ -250,6 +257,7 @@ def _count_missing(body: Body, hidden: dict[int, NDArray[np.bool_]]) -> int:
 def _describe_splits(
     names: list[str], gaps: Gaps, used: set[int], missing: Spans, fps: float
 ) -> list[str]:
+    """Return a note on the gaps of the recording and the points that cause them."""
     if not missing:
         return []
     spans = [f"frames {a} to {b - 1} ({(b - a) / fps:.2f} s)" for a, b in missing]
@@ -264,6 +272,7 @@ def _describe_splits(
 def _describe_gaps(
     names: list[str], gaps: Gaps, kept_points: list[int], n_frames: int
 ) -> list[str]:
+    """Return notes on points that were filled or left out."""
     notes: list[str] = []
     if gaps.filled:
         most = max(gaps.filled, key=lambda point: gaps.filled[point])

@@ -91,7 +91,15 @@ def read(
         None if value is None else str(value) for value in (skeleton, person, take)
     )
     options = ReadOptions(
-        skeleton_path, fps, unit, up, person_name, confidence, columns, emg, take_name
+        skeleton_path,
+        fps,
+        unit=unit,
+        up=up,
+        person=person_name,
+        confidence=confidence,
+        columns=columns,
+        emg=emg,
+        take=take_name,
     )
     recording = read_quietly(path, options)
     if warnings := recording.provenance.warnings:
@@ -307,6 +315,7 @@ def _load(path: AnyPath) -> FileContent:
 
 
 def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
+    """Return the recording in a file, and check what its reader returned."""
     if _BLANK.match(content.data):
         raise content.error("the file is empty")
     candidate = recognise(content)

@@ -122,15 +122,15 @@ def sniff(content: FileContent) -> DelimitedText:
     return DelimitedText(
         content,
         lines,
-        make_unique_names(map(from_text, cells)),
-        head,
-        first_row,
-        separator,
-        is_headless,
-        is_blank_separated,
-        split_cells(lines[first_row - 1], separator) if n_words else (),
-        _find_rate(lines[:head]),
-        (*note_skipped_lines(first, "rows" if is_headless else "names"), *notes),
+        names=make_unique_names(map(from_text, cells)),
+        head=head,
+        first_row=first_row,
+        separator=separator,
+        is_headless=is_headless,
+        is_blank_separated=is_blank_separated,
+        units=split_cells(lines[first_row - 1], separator) if n_words else (),
+        rate=_find_rate(lines[:head]),
+        notes=(*note_skipped_lines(first, "rows" if is_headless else "names"), *notes),
     )
 
 

@@ -16,7 +16,6 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme._util.checks import make_unique
 from kineme.formats.channels.parquet import (
     open_parquet,
     read_parquet_channels,
@@ -72,13 +71,15 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
     if holds_poses(file) and not options.channels:
         return poses_to_motion(content, parse_poses(content, file), options)
     stored_names = file.schema_arrow.names
-    if options.channels or hold_channels(make_unique_names(stored_names)):
+    names = make_unique_names(stored_names)
+    if options.channels or hold_channels(names):
         table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
     used = read_parquet_columns(content, file, [name for name in stored_names if is_used(name)])
-    columns = dict.fromkeys(make_unique(stored_names), np.empty(0)) | {
+    # Joints are found by name, so other columns are listed but not read.
+    columns = dict.fromkeys(names, np.empty(0)) | {
         name: np.asarray(column.to_numpy())
-        for name, column in zip(make_unique(used.column_names), used.columns, strict=True)
+        for name, column in zip(make_unique_names(used.column_names), used.columns, strict=True)
     }
     return columns_to_motion(content, PARQUET.name, columns, options)
 
@@ -109,13 +110,14 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     if options.fps is None and not table.times and table.rate:
         options = replace(options, fps=table.rate)
         remarks.append(describe_header_rate(table.rate))
-    times = {} if options.fps else table.times
     # With a given rate, columns of times are not read.
+    times = {} if options.fps else table.times
     used = [
         i
         for i, name in enumerate(names)
         if name in times or (is_used(name) and not is_timing(name))
     ]
+    # Refuse a column of times that begins with something else, such as a frame's name.
     for i, cell in enumerate(table.first_cells):
         is_value = is_number(cell) or is_date(cell) or cell.lower() in EMPTY
         if i in used and is_timing(names[i]) and not is_value:

@@ -186,6 +186,7 @@ def _join_intervals(
 
 
 def _make_activities(borders: Sequence[Any], texts: Sequence[str], fps: float) -> Segmentation:
+    """Return activities from borders in frames and a text for each."""
     kinds, clusters, labels = zip(*(parse_text(join_lines(text)) for text in texts), strict=True)
     columns: dict[str, Any] = {
         "level": ["activity"] * len(texts),

@@ -204,6 +204,7 @@ def _read_timing(source: FileContent, dataset: xr.Dataset, fps: float | None) ->
 
 
 def _make_frame_variables(motion: Motion, segmentation: Segmentation) -> dict[str, NDArray[Any]]:
+    """Return number, cluster and label of the segment of each frame."""
     check_same_length(segmentation, motion.n_frames)
     level: Level = "primitive" if len(segmentation.primitives) else "activity"
     primitives = segmentation.level(level)

@@ -79,6 +79,7 @@ def write_rerun(
 
 
 def _send_body(recording: Any, motion: Motion) -> None:
+    """Send joints and bones of all recorded frames at once."""
     import rerun as rr
 
     recording.log("body", rr.ViewCoordinates.RIGHT_HAND_Y_UP, static=True)

@@ -91,7 +91,7 @@ def convert_labels(recording: Mapping[str, Any], path: Path) -> Labels:
     ]
     disjoint, shared = _split_overlaps(spans, path)
     note = f"overlapping labels joined with the texts of several: {format_count(shared, 'segment')}"
-    return Labels(disjoint, "seconds", None, length, (note,) if shared else ())
+    return Labels(disjoint, "seconds", fps=None, length=length, notes=(note,) if shared else ())
 
 
 def _parse_seconds(holder: Mapping[str, Any], name: str, path: Path) -> float:

@@ -108,7 +108,9 @@ def write_events(
     seconds = as_floats(times, "times").ravel().tolist()
     texts = as_texts(names, "names of events")
     if len(seconds) != len(texts):
-        raise ParameterError(f"{len(seconds)} times and {len(texts)} names of events")
+        raise ParameterError(
+            f"{len(seconds)} times, but {len(texts)} names: give one name for each time"
+        )
     target = Path(path)
     if target.exists() and Path(source).exists() and target.samefile(source):
         raise WriteError(target, "is the recording itself: name another file")

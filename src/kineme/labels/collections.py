@@ -178,7 +178,14 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     }
     notes = [f"{what}: {format_count(count, 'label')}" for what, count in counts.items() if count]
     notes += note_lost_labels(lost, "s" if labels.unit == "seconds" else "frames")
-    return Labels(result, "frames", fps, n_frames, (*labels.notes, *notes), labels.remarks)
+    return Labels(
+        result,
+        "frames",
+        fps=fps,
+        length=n_frames,
+        notes=(*labels.notes, *notes),
+        remarks=labels.remarks,
+    )
 
 
 def _find_first_frame(time: float, n_frames: int) -> int:

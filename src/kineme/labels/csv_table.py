@@ -179,6 +179,7 @@ def _parse_count(row: dict[str, str], path: Path, line: int) -> int | None:
 def _list_columns(
     rows: csv.DictReader[str], path: Path, *, commas: bool = False
 ) -> dict[str, list[Any]]:
+    """Return the known columns of a table as lists."""
     names = rows.fieldnames or ()
     columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in names}
     try:
@@ -196,6 +197,7 @@ def _list_columns(
 
 
 def _read_cell(text: str | None, name: str, path: Path, line: int, *, commas: bool) -> str | float:
+    """Return a cell in the type of its column; an empty number is nan."""
     if text is None:
         raise ReadError(path, f"the line ends before column {name!r}", line=line)
     kind = COLUMNS[name].type if name in COLUMNS else str

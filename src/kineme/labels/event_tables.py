@@ -148,6 +148,7 @@ def _format_cells(row: Segment) -> list[Any]:
 
 
 def _parse_span(cells: dict[str, str], path: Path, line: int) -> Span:
+    """Return the event of a row; ``n/a`` stands for missing values."""
     onset = parse_number(cells["onset"], "onset", path, line)
     duration = cells["duration"]
     length = 0.0 if duration == MISSING else parse_number(duration, "duration", path, line)
@@ -176,6 +177,7 @@ def _parse_positive(sidecar: dict[str, Any], name: str, path: Path) -> float | N
 
 
 def _read_sidecar_to_keep(path: Path) -> dict[str, Any]:
+    """Return the sidecar, whose other names are kept; WriteError if it is another file."""
     try:
         found = _read_sidecar(path)
     except ReadError as error:

@@ -58,10 +58,12 @@ def _write_audacity(rows: Sequence[Segment], _: Segmentation, path: Path) -> Non
 
 
 def _read_audacity(path: Path) -> Labels:
+    """Return the labels of a track."""
     spans = []
     with path.open(encoding="utf-8-sig", newline="\n") as file:
         for line, text in enumerate(file, 1):
             cells = text.rstrip("\r\n").split("\t", 2)
+            # A backslash begins the frequencies of a spectral selection.
             if cells == [""] or cells[0].startswith("\\"):
                 continue
             if len(cells) < 2:
@@ -92,6 +94,7 @@ AUDACITY = LabelFormat(
 
 
 def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
+    """Write a label per frame, and add new classes to the mapping."""
     if path.parent.name != FOLDER:
         raise WriteError(path, f"must be in a folder called {FOLDER}: give {FOLDER}/{path.name}")
     with suppress(OSError):  # atomic_write says why there is none
@@ -112,19 +115,19 @@ def _write_ms_tcn(rows: Sequence[Segment], _: Segmentation, path: Path) -> None:
 
 
 def _read_ms_tcn(path: Path) -> Labels:
+    """Return a label for each run of equal lines."""
     if path.is_dir():
         raise ReadError(path, f"is a folder: name one of the files in its {FOLDER}")
     spans = []
     at = 0
     with path.open(encoding="utf-8-sig", newline="\n") as file:
-        # Runs of equal lines are segments.
         for text, run in groupby(line.strip() for line in file):
             if not text:
                 raise ReadError(path, "has an empty line: every frame needs a label", line=at + 1)
             stop = at + sum(1 for _ in run)
             spans.append(Span(at, stop, "transition" if text in NOTHING else text))
             at = stop
-    return Labels(spans, "frames", None, at)
+    return Labels(spans, "frames", length=at)
 
 
 def _list_classes(mapping: Path) -> dict[str, int]:
@@ -166,6 +169,7 @@ MS_TCN = LabelFormat(
 
 
 def _write_clips(rows: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
+    """Write a line for each clip; 0: not mirrored."""
     source = format_source(segmentation)
     lines = ((source, row.start_frame, row.stop_frame, 0, row.start_s, row.stop_s, format_text(row))
              for row in rows)  # fmt: skip
@@ -174,6 +178,7 @@ def _write_clips(rows: Sequence[Segment], segmentation: Segmentation, path: Path
 
 
 def _read_clips(path: Path) -> Labels:
+    """Return the clips of a list, in which a mirrored clip repeats another."""
     spans: dict[Span, None] = {}
     sources: dict[str, None] = {}
     last = 0, 0.0

@@ -39,10 +39,20 @@ from kineme.segments.table import Kind, Level, Segment, choose_kind
 
 TOO_FAR = 2**53
 """Frame number from which on a float cannot represent every integer."""
-COLUMNS = ("level", "kind", "start_frame", "stop_frame", "cluster", "label", "confidence")
-Row = tuple[Level, Kind, int, int, int, str, float]
 NAMED = 4
 """Number of labels that a note lists; it counts the others."""
+
+
+class Row(NamedTuple):
+    """A row of the segment table, by the names of its columns."""
+
+    level: Level
+    kind: Kind
+    start_frame: int
+    stop_frame: int
+    cluster: int
+    label: str
+    confidence: float
 
 
 class Span(NamedTuple):
@@ -135,7 +145,7 @@ def as_segmentation(
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
     per_unit = rate if labels.unit == "seconds" else 1.0
     rows = [_make_row(span, per_unit, path) for span in labels.spans]
-    last = max(row[3] for row in rows)
+    last = max(row.stop_frame for row in rows)
     notes = [*labels.remarks]
     if n_frames is None and labels.length is not None:
         n_frames = max(last, _to_frame(labels.length, per_unit, path))
@@ -152,27 +162,27 @@ def as_segmentation(
         raise ReadError(path, f"has no label of at least one frame at {rate:g} frames per second")
     warnings = list(labels.notes)
     # Cut at the end of the recording, and drop spans without a frame.
-    inside: list[Row] = [(*row[:3], min(row[3], n_frames), *row[4:]) for row in rows]
-    nonempty = [row for row in inside if row[2] < row[3]]
+    inside = [row._replace(stop_frame=min(row.stop_frame, n_frames)) for row in rows]
+    nonempty = [row for row in inside if row.start_frame < row.stop_frame]
     if len(nonempty) < len(rows):
         short = format_count(len(rows) - len(nonempty), "label")
         warnings.append(f"left out, since they are shorter than a frame: {short}")
     tiled = _fill_levels(nonempty, n_frames, path)
     source: dict[str, Any] = {"path": str(path), "format": name}
-    level = "activity" if any(row[0] == "activity" for row in nonempty) else "primitive"
+    level = "activity" if any(row.level == "activity" for row in nonempty) else "primitive"
     if level == "primitive":
         source["level"] = level
     # Keyed by first frame, which is unique within a level.
     counts = {
-        row[2]: span.repetitions
+        row.start_frame: span.repetitions
         for row, span in zip(rows, labels.spans, strict=True)
-        if row[0] == level and row[2] < row[3]
+        if row.level == level and row.start_frame < row.stop_frame
     }
     if any(count is not None for count in counts.values()):
-        source["counts"] = [counts.get(row[2]) for row in tiled if row[0] == "activity"]
+        source["counts"] = [counts.get(row.start_frame) for row in tiled if row.level == "activity"]
     try:
         segmentation = Segmentation.from_columns(
-            dict(zip(COLUMNS, zip(*tiled, strict=True), strict=True)),
+            dict(zip(Row._fields, zip(*tiled, strict=True), strict=True)),
             n_frames=n_frames,
             fps=rate,
             provenance={"labels": source, "notes": [*notes, *warnings]},
@@ -197,7 +207,8 @@ def _make_row(span: Span, per_unit: float, path: Path) -> Row:
         raise ReadError(path, f"{span.text!r:.60} stops at {span.stop}, before {span.start}")
     kind, cluster, label = parse_text(join_lines(span.text))
     kind = choose_kind(span.level, transition=kind == "transition")
-    return span.level, kind, start, stop, max(cluster, span.cluster), label, span.confidence
+    cluster = max(cluster, span.cluster)
+    return Row(span.level, kind, start, stop, cluster, label, confidence=span.confidence)
 
 
 def _to_frame(value: float, per_unit: float, path: Path) -> int:
@@ -210,42 +221,43 @@ def _to_frame(value: float, per_unit: float, path: Path) -> int:
 
 def _fill_levels(rows: list[Row], n_frames: int, path: Path) -> list[Row]:
     """Return the rows of each level with gaps filled; fillers do not cross activity borders."""
-    if all(row[0] == "primitive" for row in rows):
-        activity: Level = "activity"
-        rows = [
-            (activity, choose_kind(activity, transition=row[1] == "transition"), *row[2:])
-            for row in rows
-        ]
-    inner = [row for row in rows if row[0] == "primitive"]
-    tiled = list(_fill_between([row for row in rows if row[0] == "activity"], n_frames, [], path))
-    if inner:
-        tiled += _fill_between(inner, n_frames, [row[2] for row in tiled], path)
+    activities = [row for row in rows if row.level == "activity"]
+    primitives = [row for row in rows if row.level == "primitive"]
+    if not activities:  # primitives alone become activities
+        for row in primitives:
+            kind = choose_kind("activity", transition=row.kind == "transition")
+            activities.append(row._replace(level="activity", kind=kind))
+        primitives = []
+    tiled = list(_fill_between(activities, n_frames, [], path))
+    if primitives:
+        tiled += _fill_between(primitives, n_frames, [row.start_frame for row in tiled], path)
     return tiled
 
 
 def _fill_between(rows: list[Row], n_frames: int, borders: list[int], path: Path) -> Iterator[Row]:
     """Yield the rows of one level in time order, with transitions between them."""
     at = 0
-    level = rows[0][0] if rows else "activity"
-    for row in sorted(rows, key=lambda row: row[2:4]):
-        if row[2] < at:
+    level = rows[0].level if rows else "activity"
+    for row in sorted(rows, key=lambda row: (row.start_frame, row.stop_frame)):
+        if row.start_frame < at:
             raise ReadError(
                 path,
-                f"{row[5]!r:.60} starts at frame {row[2]}, before the previous label stops "
-                f"({at}): labels of one level may touch but not overlap",
+                f"{row.label!r:.60} starts at frame {row.start_frame}, before the previous label "
+                f"stops ({at}): labels of one level may touch but not overlap",
             )
-        yield from _make_gap(level, at, row[2], borders)
+        yield from _make_gap(level, at, row.start_frame, borders)
         yield row
-        at = row[3]
+        at = row.stop_frame
     yield from _make_gap(level, at, n_frames, borders)
 
 
 def _make_gap(level: Level, start: int, stop: int, borders: list[int]) -> Iterator[Row]:
+    """Yield the transitions of a span."""
     # Split at borders strictly inside the gap: transitions must not cross them.
     inside = borders[bisect_right(borders, start) : bisect_left(borders, stop)]
     for left, right in pairwise([start, *inside, stop]):
         if left < right:
-            yield level, "transition", left, right, -1, "", math.nan
+            yield Row(level, "transition", left, right, cluster=-1, label="", confidence=math.nan)
 
 
 def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float) -> Labels:

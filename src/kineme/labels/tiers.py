@@ -197,6 +197,7 @@ def _parse_seconds(text: str | None, annotation: ET.Element, path: Path) -> floa
 
 
 def _read_property(root: ET.Element, name: str, path: Path) -> float | None:
+    """Return the number in a property of an ELAN file; None if it is missing."""
     for holder in root.iter("PROPERTY"):
         if holder.get("NAME") == name:
             try:
@@ -243,6 +244,7 @@ def read_table(path: Path) -> Labels:
 
 
 def _read_named_columns(rows: Sequence[tuple[int, list[str]]], path: Path) -> Iterator[Annotation]:
+    """Yield the annotations of a table with a line of names: a tier per row, or per column."""
     names = rows[0][1]
     times: dict[str, tuple[int, bool]] = {}
     for i, name in enumerate(names):

@@ -206,10 +206,10 @@ def _update_library(plan: Plan, head: Head, executor: Executor, progress: Progre
     return Built(
         plan.folder,
         tuple(path for _, path, _ in entries),
-        gathered.new,
-        len(before.keys() - keys.keys()),
-        plan.recursive,
-        failed | dict.fromkeys(plan.missing, NEVER_FOUND),
+        new=gathered.new,
+        removed=len(before.keys() - keys.keys()),
+        recursive=plan.recursive,
+        failed=failed | dict.fromkeys(plan.missing, NEVER_FOUND),
     )
 
 
@@ -243,26 +243,27 @@ def _update_tables(
     }
     is_unchanged = {path: (name, key) for name, path, key in entries} == before
     if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
-        following, tables = head["following"], head["tables"]
+        next_cluster, tables = head["following"], head["tables"]
     else:
         from kineme.library.gathering import compile_tables, list_activities
 
         progress("clusters in common")
-        following = max(head.get("following", 0), read_edits(plan.folder).following)
+        next_cluster = max(head.get("following", 0), read_edits(plan.folder).next_cluster)
         former = list_activities(plan.folder, head.get("tables"))
         removed = _read_removed(plan.folder)
+        # Recordings that were removed and are back take their former clusters.
         returned = {
             name: removed[key] for name, _, key in entries if key in removed and name not in former
         }
-        new_tables, following = compile_tables(
-            plan.folder, entries, {**returned, **former}, following, progress
+        new_tables, next_cluster = compile_tables(
+            plan.folder, entries, {**returned, **former}, next_cluster, progress
         )
         keys = dict(before.values())
         by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
         _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
         tables = write_tables(plan.folder, new_tables)
         write_index(plan.folder, tables, new_tables["recordings"].to_pydict())
-    head_now = {**content, "following": following, "tables": tables}
+    head_now = {**content, "following": next_cluster, "tables": tables}
     if head_now != head:
         write_json(plan.folder / HEAD, head_now)
     return str(tables)

@@ -61,7 +61,7 @@ class Edits:
     splits: tuple[Split, ...] = ()
 
     @property
-    def following(self) -> int:
+    def next_cluster(self) -> int:
         """Return the first cluster number above all numbers in the edits."""
         return max([-1, *self.names, *self.merged, *(split.into for split in self.splits)]) + 1
 

@@ -240,15 +240,15 @@ def measure_coverage(tables: OpenTables) -> list[Coverage]:
             Coverage(
                 cluster,
                 labels[cluster],
-                direction,
-                len(facts),
-                round(sum(seconds), 2),
-                round(min(speeds), 2),
-                round(max(speeds), 2),
-                round(max(0.0, *turns), 1),
-                round(max(0.0, *(-turn for turn in turns)), 1),
-                sum(starts),
-                sum(stops),
+                direction=direction,
+                clips=len(facts),
+                seconds=round(sum(seconds), 2),
+                slowest_m_s=round(min(speeds), 2),
+                fastest_m_s=round(max(speeds), 2),
+                left_deg=round(max(0.0, *turns), 1),
+                right_deg=round(max(0.0, *(-turn for turn in turns)), 1),
+                starts=sum(starts),
+                stops=sum(stops),
             )
         )
     directions: list[str] = [*DIRECTIONS]
@@ -319,11 +319,11 @@ class _Candidate:
             return False
         if abs(self.seconds - other.seconds) > NEAR_SHARE * max(self.seconds, other.seconds):
             return False
-        apart = (
+        distances = (
             np.sqrt(((np.roll(self.poses, k, axis=0) - other.poses) ** 2).sum(axis=-1).mean())
             for k in range(PHASES)
         )
-        return bool(min(apart) < NEAR_M)
+        return bool(min(distances) < NEAR_M)
 
 
 def _list_candidates(
@@ -344,7 +344,13 @@ def _list_candidates(
             sampled = None
         tags = travel.tags(row.start_frame, row.stop_frame) if travel else ("",)
         yield _Candidate(
-            recording, wanted[place], row.cluster, tags[0], quality, row.duration_s, sampled
+            recording,
+            wanted[place],
+            cluster=row.cluster,
+            direction=tags[0],
+            quality=quality,
+            seconds=row.duration_s,
+            poses=sampled,
         )
 
 

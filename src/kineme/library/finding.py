@@ -196,7 +196,7 @@ def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | 
             travels[hit.recording] = measure_travel(motion) if isinstance(motion, Motion) else None
         travel = travels[hit.recording]
         if travel is not None:
-            span = to_samples((hit.start_s, hit.stop_s), travel.fps, len(travel.looks))
+            span = to_samples((hit.start_s, hit.stop_s), travel.fps, len(travel.velocities))
             found += [hit] if tag in travel.tags(*span) else []
     return found
 
@@ -242,16 +242,17 @@ def describe_examples(
     descriptions = []
     for example in examples:
         described = _describe_recording(tables, example.recording)
-        lasts = len(described.features) / described.fps
-        stop_s = lasts if example.stop_s is None else min(example.stop_s, lasts)
-        if example.stop_s is not None and example.stop_s > lasts + BEYOND:
+        duration_s = len(described.features) / described.fps
+        stop_s = duration_s if example.stop_s is None else min(example.stop_s, duration_s)
+        if example.stop_s is not None and example.stop_s > duration_s + BEYOND:
             warn(
                 f"the example stops at {example.stop_s:g} s, its recording lasts "
-                f"{lasts:.2f} s: used up to its end"
+                f"{duration_s:.2f} s: used up to its end"
             )
         if example.start_s >= stop_s:
             raise ParameterError(
-                f"the example starts at {example.start_s:g} s, its recording lasts {lasts:.2f} s"
+                f"the example starts at {example.start_s:g} s, its recording lasts "
+                f"{duration_s:.2f} s"
             )
         descriptions.append((described.vocabulary, described.select(example.start_s, stop_s)))
     return descriptions
@@ -268,6 +269,7 @@ def check_one_vocabulary(described: Sequence[tuple[str, Float32s]]) -> str:
 def _describe_recording(tables: OpenTables, recording: AnyPath | Motion | Signals) -> Description:
     """Return the features of a recording, taken from the library if it is in it."""
     recordings, (read_options, segment_options) = tables.recordings, tables.options
+    # A text is a path if there is such a file, else the name of a recording.
     if isinstance(recording, str) and (
         isinstance(recording, Named) or not make_path(recording).exists()
     ):
@@ -325,7 +327,7 @@ def _list_parts(tables: OpenTables, vocabulary: str) -> Parts:
             f"the example has {vocabulary}, but the library has {present or 'nothing'}"
         )
     samples = np.array(tables.recordings["samples"], np.int64)[rows]
-    return Parts(rows, np.zeros_like(rows), samples)
+    return Parts(rows, starts=np.zeros_like(rows), stops=samples)
 
 
 def _find_likely_parts(tables: OpenTables, examples: Sequence[Float32s], top: int) -> Parts | None:
@@ -349,9 +351,9 @@ def find_parts(windows: Windows, example: Float32s, top: int) -> Parts:
     rows = np.searchsorted(windows.firsts, nearest, side="right") - 1
     middles = (nearest - windows.firsts[rows]) * compute_step(windows.length) + windows.length // 2
     reach = compute_step(windows.length) + len(example)  # a match may be twice as long
-    lasts = windows.samples[rows]
+    n_samples = windows.samples[rows]
     return merge_overlapping(
-        Parts(rows, np.clip(middles - reach, 0, lasts), np.clip(middles + reach, 0, lasts))
+        Parts(rows, np.clip(middles - reach, 0, n_samples), np.clip(middles + reach, 0, n_samples))
     )
 
 
@@ -424,13 +426,13 @@ def _make_batches(parts: Parts) -> Iterator[Parts]:
 def search_parts(task: Task) -> dict[int, Matches]:
     """Return the matches in the parts of a task by row, the best first."""
     parts, query = task.parts, task.query
-    lasts = parts.stops - parts.starts
+    lengths = parts.stops - parts.starts
     # Concatenate all parts, separated by one sample that matches nothing.
-    firsts = np.concatenate([[0], np.cumsum(lasts + 1)])
+    firsts = np.concatenate([[0], np.cumsum(lengths + 1)])
     features = np.full((firsts[-1], query.examples[0].shape[1]), BETWEEN_PARTS, np.float32)
     for row, key in sorted(task.analyses.items()):
         at = np.flatnonzero(parts.rows == row)
-        spans = zip(firsts[at].tolist(), (firsts[at] + lasts[at]).tolist(), strict=True)
+        spans = zip(firsts[at].tolist(), (firsts[at] + lengths[at]).tolist(), strict=True)
         read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
     matches = find_matches(
         features, query.examples, query.counterexamples, threshold=query.threshold, top=query.top
@@ -499,12 +501,14 @@ def _make_hit(tables: OpenTables, distance: float, row: int, start: int, stop: i
     If two segments cover equally much, the primitive counts.
     """
     recording = tables.recordings["recording"][row]
-    fps, lasts = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
-    start_s, stop_s = start / fps, min(stop / fps, lasts)
+    fps, duration_s = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
+    start_s, stop_s = start / fps, min(stop / fps, duration_s)
     segments = tables.columns("segments")
     rows = slice(*tables.rows.get(recording, (0, 0)))
     if rows.stop == rows.start:
-        return Hit(recording, start_s, stop_s, round(distance, 4), -1, "")
+        return Hit(
+            recording, start_s, stop_s=stop_s, distance=round(distance, 4), cluster=-1, label=""
+        )
     # Overlap of each segment with the span, rounded so that ties are exact.
     shared = np.minimum(segments["stop_s"][rows], stop_s)
     shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
@@ -512,4 +516,6 @@ def _make_hit(tables: OpenTables, distance: float, row: int, start: int, stop: i
     covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
     cluster = int(segments["cluster"][rows][covers])
     label = tables.edits.name(cluster) if cluster >= 0 else ""
-    return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)
+    return Hit(
+        recording, start_s, stop_s=stop_s, distance=round(distance, 4), cluster=cluster, label=label
+    )

@@ -288,13 +288,14 @@ def compile_tables(
     folder: Path,
     entries: Sequence[Entry],
     before: Mapping[str, Spans],
-    following: int,
+    next_cluster: int,
     progress: Progress,
 ) -> tuple[dict[str, Any], int]:
     """Return the tables of a library by name, and the first unused cluster number.
 
     ``entries`` are sorted by name. ``before`` holds the former activities of recordings, see
-    `list_activities`: clusters that are found again keep their numbers.
+    `list_activities`: clusters that are found again keep their numbers. Others are numbered from
+    ``next_cluster`` on.
     """
     analyses = [read_analysis(folder / ANALYSES, key) for _, _, key in entries]
     keys = [key for _, _, key in entries]
@@ -304,7 +305,7 @@ def compile_tables(
         name: list_spans(analysis.table.columns(), clusters)
         for (name, _, _), analysis, clusters in zip(entries, analyses, shared, strict=True)
     }
-    numbers = keep_numbers(before, new, following=following)
+    numbers = keep_numbers(before, new, next_number=next_cluster)
     renumbered = np.array([*numbers.values(), -1], np.int64)  # index -1 (no cluster) gives -1
     tables = {
         "recordings": _tabulate_recordings(entries, analyses),
@@ -313,7 +314,7 @@ def compile_tables(
         "embeddings": _tabulate_embeddings(entries, analyses),
     }
     return {name: make_table(name, columns) for name, columns in tables.items()}, max(
-        [following, *(number + 1 for number in numbers.values())]
+        [next_cluster, *(number + 1 for number in numbers.values())]
     )
 
 
@@ -366,6 +367,8 @@ def _join_clusters(
 def _make_cluster_set(
     local: Sequence[LocalCluster], analyses: Sequence[Analysis], keys: Sequence[str], folder: Path
 ) -> ClusterSet:
+    """Return local clusters to link, whose features are read from disk when needed."""
+
     @lru_cache(CACHED)
     def load(each: LocalCluster) -> Features:
         facts = analyses[each.recording].facts
@@ -381,13 +384,13 @@ def _assign_clusters(
     analyses: Sequence[Analysis], local: Sequence[LocalCluster], clusters: Ints
 ) -> list[Ints]:
     """Return the shared cluster of each segment of each analysis, -1 for none."""
-    label = {
+    shared = {
         (each.recording, each.cluster): cluster
         for each, cluster in zip(local, clusters.tolist(), strict=True)
     }
     return [
         np.array(
-            [label.get((i, number), -1) for number in analysis.table.cluster.tolist()], np.int64
+            [shared.get((i, number), -1) for number in analysis.table.cluster.tolist()], np.int64
         )
         for i, analysis in enumerate(analyses)
     ]
@@ -409,6 +412,7 @@ def _tabulate_recordings(entries: Sequence[Entry], analyses: Sequence[Analysis])
 def _tabulate_segments(
     entries: Sequence[Entry], analyses: Sequence[Analysis], clusters: Sequence[Ints]
 ) -> Columns:
+    """Return the columns of the table of all segments; see `DESCRIBED`."""
     tables = [analysis.table for analysis in analyses]
     columns: Columns = {
         name: _concatenate(getattr(table, name) for table in tables) for name in COLUMNS

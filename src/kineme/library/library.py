@@ -133,6 +133,7 @@ class Library:
         """Return uncertain rows of ``local_clusters``, the least certain first."""
         local, most = self._tables.columns("local_clusters"), self.head["clustering"]["unsure"]
         confidence = local["confidence"]
+        # Once a person has merged the two clusters, there is nothing to choose.
         rows = np.flatnonzero((confidence < most) & (local["cluster"] != local["next_cluster"]))
         rows = rows[np.argsort(confidence[rows], kind="stable")]
         found: list[dict[str, Any]] = (
@@ -320,9 +321,10 @@ class Library:
                     f"cluster {number} can only be split by naming some, not all, of its "
                     f"{len(present)} recordings: {', '.join(sorted(present)[:5])}"
                 )
-            into: int = max(tables.head["following"], tables.edits.following)
-            tables.write(tables.edits.with_split(number, into, chosen))
-        return into
+            # The builds know nothing of clusters that edits made, so take the larger number.
+            new: int = max(tables.head["following"], tables.edits.next_cluster)
+            tables.write(tables.edits.with_split(number, new, chosen))
+        return new
 
     def path_of(self, recording: str) -> Path:
         """Return the path of a recording's file."""

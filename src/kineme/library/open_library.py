@@ -168,30 +168,31 @@ def list_clusters(tables: OpenTables) -> list[Cluster]:
     local, segments = tables.columns("local_clusters"), tables.columns("segments")
     recordings = tables.recordings
     vocabularies = dict(zip(recordings["recording"], recordings["vocabulary"], strict=True))
-    lasts = segments["stop_s"] - segments["start_s"]
-    active = segments["kind"] != "transition"
-    finer = segments["level"] == "primitive"
+    durations = segments["stop_s"] - segments["start_s"]
+    is_active = segments["kind"] != "transition"
+    is_primitive = segments["level"] == "primitive"
     clusters = []
     for number in sorted(set(local["cluster"].tolist())):
         members = np.flatnonzero(local["cluster"] == number)
-        typical = members[np.argmin(local["spread"][members])]
-        rows = active & (segments["cluster"] == number)
-        repeated = rows & finer
-        typically = lasts[repeated if repeated.any() else rows]
-        recording = str(local["recording"][typical])
+        # The most typical segment is that of the local cluster nearest to all others.
+        medoid = members[np.argmin(local["spread"][members])]
+        example = str(local["recording"][medoid])
+        in_cluster = is_active & (segments["cluster"] == number)
+        repetitions, activities = in_cluster & is_primitive, in_cluster & ~is_primitive
+        typical = durations[repetitions if repetitions.any() else activities]
         clusters.append(
             Cluster(
-                number,
-                tables.edits.name(number),
-                vocabularies[recording],
-                len(set(local["recording"][members].tolist())),
-                int((rows & ~finer).sum()),
-                int(repeated.sum()),
-                round(float(lasts[rows & ~finer].sum()), 6),
-                round(float(np.median(typically)), 6) if len(typically) else 0.0,
-                recording,
-                float(local["start_s"][typical]),
-                float(local["stop_s"][typical]),
+                cluster=number,
+                label=tables.edits.name(number),
+                vocabulary=vocabularies[example],
+                recordings=len(set(local["recording"][members].tolist())),
+                activities=int(activities.sum()),
+                repetitions=int(repetitions.sum()),
+                seconds=round(float(durations[activities].sum()), 6),
+                typical_s=round(float(np.median(typical)), 6) if len(typical) else 0.0,
+                example=example,
+                start_s=float(local["start_s"][medoid]),
+                stop_s=float(local["stop_s"][medoid]),
             )
         )
     return sorted(clusters, key=lambda cluster: (-cluster.seconds, cluster.cluster))

@@ -96,7 +96,7 @@ def make_plan(
     segment_options: SegmentOptions | None,
 ) -> Plan:
     """Return the plan of a build; arguments that are None are taken from the last build."""
-    all_sources = change_sources(folder, sources, remove)
+    all_sources = list_sources(folder, sources, remove)
     if not all_sources and not head:
         raise ParameterError(NOTHING.format(folder))
     before = head.get("sources", ())
@@ -105,10 +105,10 @@ def make_plan(
     return Plan(
         folder,
         tuple(each for each in all_sources if each not in missing),
-        tuple(missing),
-        bool(head.get("recursive")) if recursive is None else recursive,
-        read_options or former[0],
-        segment_options or former[1],
+        missing=tuple(missing),
+        recursive=bool(head.get("recursive")) if recursive is None else recursive,
+        read_options=read_options or former[0],
+        segment_options=segment_options or former[1],
     )
 
 
@@ -129,7 +129,7 @@ def make_analysis_key(options_digest: str, digest: str) -> str:
     return sha256(f"{options_digest} {digest}".encode()).hexdigest()[:32]
 
 
-def change_sources(
+def list_sources(
     into: AnyPath, sources: Iterable[Path] = (), remove: Iterable[Path] = ()
 ) -> list[Path]:
     """Return the sources of a library with some added and removed, as absolute paths."""

@@ -254,7 +254,7 @@ class Finals:
                     self.frontier = begin
                     break
                 events += self.close(begin, at_s)
-                self._open(begin, row.cluster, at_s, events)
+                events += self._open(begin, row.cluster, at_s)
             self.frontier = min(row.stop, looks.horizon)
             self._count(row.start, looks, events)
         return events
@@ -291,15 +291,15 @@ class Finals:
             )
         ]
 
-    def _open(self, start: int, cluster: int, at_s: float, events: list[Event]) -> None:
+    def _open(self, start: int, cluster: int, at_s: float) -> list[Event]:
+        """Begin an activity, or a transition (-1), at a frame; return the events."""
         self.start = self.counted = start
         self.cluster, self.n_repetitions, self.slip = cluster, 0, 0.0
         self.highest = max(self.highest, cluster)
-        if cluster >= 0:
-            label = self.labels.get(cluster, "")
-            events.append(
-                ActivityStarted(at_s=at_s, start_s=start / self.fps, cluster=cluster, label=label)
-            )
+        if cluster < 0:
+            return []
+        label = self.labels.get(cluster, "")
+        return [ActivityStarted(at_s=at_s, start_s=start / self.fps, cluster=cluster, label=label)]
 
     def _count(self, first: int, looks: Looks, events: list[Event]) -> None:
         """Make repetitions of the open activity final that end before the frontier."""
@@ -355,8 +355,8 @@ class Finals:
         slip = over / length
         if abs(self.slip + slip) < MOST_SLIP:
             return [rows[0]._replace(start=self.counted), *rows[1:]], slip
-        apart = (i for i in range(1, len(rows)) if rows[i].start != rows[i - 1].stop)
-        n = next(apart, len(rows))
+        breaks = (i for i in range(1, len(rows)) if rows[i].start != rows[i - 1].stop)
+        n = next(breaks, len(rows))
         end = rows[n - 1].stop  # the end stays, however short the last one becomes
         moved = [Row(row.start + over, min(row.stop + over, end), row.cluster) for row in rows[:n]]
         moved[-1] = moved[-1]._replace(stop=end)

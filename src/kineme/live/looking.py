@@ -100,9 +100,14 @@ class RecentPast:
         self._blocks.append((values, missing))
 
     def collect(self) -> None:
-        """Concatenate the frames that were added."""
+        """Concatenate the frames that were added.
+
+        Blocks are small and frequent, and each concatenation copies all frames, so it is done only
+        when the frames are needed.
+        """
         if self._blocks:
             values, missing = zip(*self._blocks, strict=True)
+            # Before the first frame the number of columns is unknown: (0, 0) cannot be joined.
             before = [self.values] if len(self.values) else []
             self.values = np.concatenate([*before, *values])
             self.missing = np.concatenate([self.missing, *missing])
@@ -126,13 +131,13 @@ class RecentPast:
         table = found.table
         columns = table.columns()
         old = self._known_spans(finals)
-        following = max(finals.highest, *old[:, 2].tolist(), -1) + 1
+        next_number = max(finals.highest, *old[:, 2].tolist(), -1) + 1
         starts, stops, clusters = list_spans(columns, table.cluster)
         new = starts * fps + self.start, stops * fps + self.start, clusters
         given = keep_numbers(
             {0: (old[:, 0].astype(float), old[:, 1].astype(float), old[:, 2])},
             {0: new},
-            following=following,
+            next_number=next_number,
         )
         lengths = np.bincount(clusters, stops - starts)
         unseen = [

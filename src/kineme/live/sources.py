@@ -116,10 +116,12 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
 
     def rows() -> Iterator[Rows]:
         waiting: list[str | None] = [*parser.first_lines]
-        while None not in waiting:
-            waiting = [*waiting, *_drain(queue)]
+        is_open = True
+        while is_open:
+            waiting += _drain(queue)
+            is_open = None not in waiting  # `fill` ends with None
             yield parser.parse([line for line in waiting if line is not None])
-            waiting = [None] if None in waiting else []
+            waiting = []
 
     return Source(0.0, parser.channels, rows())
 
@@ -263,14 +265,16 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
     row: dict[str, float] = {}
 
     def take(address: str, *values: Any) -> None:
+        """Add a message to the row; queue the row before if the message begins the next one."""
         if address.endswith(UNUSED):
             return
+        # Texts, such as the name of a bone, are part of the channel's name.
         texts = [value for value in values if isinstance(value, str)]
         numbers = [float(value) for value in values if isinstance(value, int | float)]
         if address == BONE:
-            numbers = numbers[3:]
+            numbers = numbers[3:]  # the position precedes the rotation
         name = "_".join([address.rpartition("/")[2], *texts])
-        if f"{name}_1" in row:
+        if f"{name}_1" in row:  # the row has this message already
             queue.put((time(), dict(row)))
             row.clear()
         row.update({f"{name}_{i}": number for i, number in enumerate(numbers, 1)})

@@ -308,6 +308,7 @@ class Stream:
         return events
 
     def _take(self, values: Floats, missing: Masks, events: list[Event]) -> None:
+        """Add frames, and look whenever the next look is due."""
         start = 0
         while start < len(values):
             stop = min(len(values), start + self._state.next_look - self._state.now)
@@ -322,6 +323,7 @@ class Stream:
     def _skip(self, hole: Hole, events: list[Event]) -> None:
         """Skip a hole that is longer than the recent past."""
         events += self._settle()
+        # One missing frame tells that a gap begins; nothing else of the hole is needed.
         self._watch_gaps(np.ones(1, np.bool_), events)
         self._state.now += hole.n_frames
         self._state.finals.frontier = self._state.now

@@ -454,6 +454,7 @@ def _check_tuple(name: str, value: Any, hint: Any, limits: Limits | None, unit: 
 
 @cache
 def _get_details(kind: Hashable) -> Mapping[str, Mapping[str, Any]]:
+    """Return what `constant` declares of each field of a preset class."""
     return {
         each.name: each.metadata["constant"]
         for each in fields(cast(Any, kind))

@@ -166,6 +166,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         if hasattr(X, "dims") or hasattr(X, "columns") or hasattr(X, "to_frame"):
             signals, timing = read_samples(X, fps=self.fps, assumed_fps=assumed)
             channels = [each for each in getattr(X, "columns", ()) if str(each) in signals.names]
+            # Columns that are no channels, such as times, are no features for scikit-learn.
             named = X[channels] if channels else signals.values
             validate_data(self, named, **options)
             return signals, timing.frames_of_rows(len(X))

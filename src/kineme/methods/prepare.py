@@ -210,8 +210,8 @@ def prepare_signals(
     standardize : bool
         Divide each channel by its standard deviation.
     unit : float, optional
-        Length in these channels that is one unit of the preset's lengths; by default the
-        preset estimates it.
+        Distance of features that is one unit of the preset's lengths, in standard deviations, or in
+        the unit of the channels if these are not standardised. By default the preset estimates it.
     """
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     rows, spans = [], []
@@ -255,6 +255,7 @@ def _stack_channels(rows: list[Floats], preset: Preset, *, standardize: bool) ->
 def _describe_channels(
     signals: Signals, values: Floats, *, emg: bool, standardize: bool
 ) -> list[str]:
+    """Return notes on the channels and how they are scaled."""
     shown = ", ".join(signals.names[:MAX_NAMED_CHANNELS])
     if signals.n_channels > MAX_NAMED_CHANNELS:
         shown += ", …"
@@ -263,7 +264,7 @@ def _describe_channels(
     is_constant = values.min(axis=0) == values.max(axis=0)
     if is_constant.any() and standardize:
         names = [name for name, still in zip(signals.names, is_constant, strict=True) if still]
-        notes.append(f"have no weight, since they never change: {', '.join(names)}")
+        notes.append(f"channels that never change are ignored: {', '.join(names)}")
     if emg:
         notes.append("muscle signals: rectified and low-passed")
     return notes

@@ -330,7 +330,14 @@ def _make_segmentation(
         # First row whose time rounds to the border's frame or a later one.
         rows = np.searchsorted(source.rows, (borders - 0.5) / fps)
         provenance["rows"] = {"frames": borders.tolist(), "rows": rows.tolist()}
-    return Segmentation(table, int(n_frames), float(fps), provenance, seconds, hierarchy)
+    return Segmentation(
+        table,
+        int(n_frames),
+        fps=float(fps),
+        provenance=provenance,
+        timings=seconds,
+        hierarchy=hierarchy,
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -478,11 +485,11 @@ def convert_to_frames(
         end = np.minimum(columns["stop_frame"], last)
         # Move borders near a gap to it; the outer ends of the recording have no gap.
         for borders in (begin, end):
-            inner = (first < borders) & (borders < last)
+            is_inside = (first < borders) & (borders < last)
             if k + 1 < len(spans):
-                borders[inner & (borders >= last - near)] = last
+                borders[is_inside & (borders >= last - near)] = last
             if k > 0:
-                borders[inner & (borders <= first + near)] = first
+                borders[is_inside & (borders <= first + near)] = first
         inside = np.flatnonzero(begin < end)
         begin, end = begin[inside], end[inside]
         start_frames = span.start + np.rint((begin - first) * ratio).astype(np.int64)

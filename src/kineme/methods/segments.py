@@ -169,22 +169,24 @@ def assign_clusters(
     sizes = np.diff(fine.borders).astype(np.float64)
     state = (fine.differences.copy(), prices, sizes)
     # Merges within the clusters of detail 1, then those of these clusters.
-    finer: list[ClusterMerge] = []
+    fine_merges: list[ClusterMerge] = []
     for parent in np.unique(fine.parents):
-        finer += _order_merges(*state, np.flatnonzero(fine.parents == parent), cluster_price)
+        fine_merges += _order_merges(*state, np.flatnonzero(fine.parents == parent), cluster_price)
     # `nextafter`: merges within a cluster of detail 1 happen at detail 1, whatever they cost.
-    finer = [(kept, absorbed, max(detail, np.nextafter(1, 2))) for kept, absorbed, detail in finer]
+    fine_merges = [
+        (kept, absorbed, max(detail, np.nextafter(1, 2))) for kept, absorbed, detail in fine_merges
+    ]
     # One representative for each cluster of detail 1.
-    roots = np.setdiff1d(np.arange(k), [absorbed for _, absorbed, _ in finer])
+    roots = np.setdiff1d(np.arange(k), [absorbed for _, absorbed, _ in fine_merges])
     # `sort` is stable, so merges within one cluster stay in order.
-    finer.sort(key=lambda merge: -merge[2])
+    fine_merges.sort(key=lambda merge: -merge[2])
     coarser = _order_merges(*state, roots, cluster_price)
 
     labels_by_detail = {}
     # Cluster of each fine segment; at first each is its own.
     merged, done = np.arange(k), 0
     for detail in sorted(details, reverse=True):  # a coarser detail has all merges of a finer one
-        merges = [(kept, absorbed) for kept, absorbed, least in finer if detail < least]
+        merges = [(kept, absorbed) for kept, absorbed, least in fine_merges if detail < least]
         if detail < 1:
             # n clusters need n - 1 merges to become one.
             left = max(1, round(detail * (len(coarser) + 1)))

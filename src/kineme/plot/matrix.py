@@ -184,6 +184,7 @@ def _check_recording(recording: object, segmentation: Segmentation) -> None:
 
 
 def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
+    """Draw a square around each activity, and lines between its primitives."""
     activities, primitives = segmentation.activities, segmentation.primitives
     counts = np.bincount(primitives.activity, minlength=len(activities))
     lengths = (activities.stop_frame - activities.start_frame) / segmentation.n_frames
@@ -208,6 +209,7 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
 
 
 def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
+    """Draw bars in the colours of the clusters below and left of the matrix."""
     seconds = segmentation.n_frames / segmentation.fps
     rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
     labels = choose_label_colors(segmentation)

@@ -41,19 +41,19 @@ class CameraWatch:
 
     def measure(self, picture: Picture, time: float) -> float:
         """Return for how many seconds before ``time`` the camera moved; 0 if it did not."""
-        passed = time - self._time
-        if passed < INTERVAL_S:
+        elapsed = time - self._time
+        if elapsed < INTERVAL_S:
             return 0.0
         corners = _cut_corners(_reduce(picture))
         spectra = np.fft.rfft2(corners)
         former = self._spectra
         self._time, self._spectra = time, spectra
-        if former is None or former.shape != spectra.shape or passed > MAX_INTERVAL_S:
+        if former is None or former.shape != spectra.shape or elapsed > MAX_INTERVAL_S:
             return 0.0
         shifts, peaks = _correlate(former, spectra, corners.shape[1:])
         clear = peaks >= MIN_PEAK
         is_moving = clear.sum() >= MIN_CORNERS and (shifts[clear] >= MIN_SHIFT).mean() > 0.7
-        return float(passed) if is_moving else 0.0
+        return float(elapsed) if is_moving else 0.0
 
 
 def _reduce(picture: Picture) -> Floats:

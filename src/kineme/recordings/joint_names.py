@@ -272,7 +272,11 @@ def _index_rig(names: tuple[str, ...], points: tuple[int, ...]) -> list[dict[str
 def _choose(
     lines: Sequence[str], letters: Mapping[str, str], at: Mapping[str, int]
 ) -> dict[str, tuple[int, ...]]:
-    """Return the points of the first line found on both sides, else the first found on each."""
+    """Return the points of the joints of both sides, from the best of several ways to find them.
+
+    ``lines`` are names of one point or several, with ``*`` for a letter of the side, best first.
+    The first line that is found on both sides is used, else the first that is found on each.
+    """
     candidates = {
         joint: [_find_points(line.replace("*", letter), at) for line in lines]
         for joint, letter in letters.items()

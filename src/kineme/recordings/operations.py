@@ -85,7 +85,14 @@ def resample(motion: Motion, fps: float) -> Motion:
             skeleton, rotations, translations=interpolate_frames(translations, at)
         )
     provenance = motion.provenance.noted(f"resampled from {motion.fps:g} to {fps:g} Hz")
-    return Motion(skeleton, positions, fps, rotations, provenance, _move_gaps(motion, ratio, n))
+    return Motion(
+        skeleton,
+        positions,
+        fps,
+        rotations=rotations,
+        provenance=provenance,
+        gaps=_move_gaps(motion, ratio, n),
+    )
 
 
 def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:
@@ -264,11 +271,12 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
 
 
 def _move_gaps(motion: Motion, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
-    """Return the gaps of n frames that are sampled ``ratio`` frames apart.
+    """Return the gaps of the motion, in the n frames of one resampled every ``ratio`` frames.
 
-    A sample between a recorded frame and a gap belongs to the gap.
+    A new frame between a recorded frame and a gap belongs to the gap.
     """
     spans: list[tuple[int, int]] = []
+    # The small numbers keep borders on whole frames despite rounding errors.
     for start, stop in motion.gaps:
         # The first new frame after the last recorded one before the gap.
         begin = max(0, floor((start - 1) / ratio + 1e-9) + 1)

@@ -167,9 +167,9 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
             f"times do not increase: row 2 has {at[0]:g} s, as do all others; give fps= (--fps)"
         )
     steps = np.diff(at)
-    apart = np.append(True, steps > _SAME * np.median(steps[steps > 0]))
-    if not apart.all():  # times that differ by rounding are equal
-        at = at[apart][np.cumsum(apart) - 1]
+    is_new = np.append(True, steps > _SAME * np.median(steps[steps > 0]))
+    if not is_new.all():  # times that differ by rounding are equal
+        at = at[is_new][np.cumsum(is_new) - 1]
     at, note = _spread_packets(at, taken)
     notes += note
     moments, merged = (np.unique(at), None) if taken is None else _average_duplicates(at, taken)
@@ -442,11 +442,11 @@ def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
 
 def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
     """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
-    apart = np.diff(known_frames)
+    steps = np.diff(known_frames)
     most = LONGEST_S * fps + 1e-9
     # A channel may be slower than the others but regular.
-    usual = float(np.median(apart)) if len(apart) >= 10 else 1.0
-    even = np.abs(apart - usual) <= _ORDINARY * usual
+    usual = float(np.median(steps)) if len(steps) >= 10 else 1.0
+    even = np.abs(steps - usual) <= _ORDINARY * usual
     if 1.5 < usual <= _SLOWEST_S * fps and even.mean() > _MOST:
         most = max(most, 2.5 * usual)
     # frames within half a frame of a known one count as known
@@ -513,8 +513,8 @@ def find_faulty_channels(
         others = len(same) - int(lengths[long].sum())
         if long.any() and others >= least and lengths[~long].sum() <= (1 - _CHANGES) * others:
             first = runs[long][0]
-            lasts = int(lengths[long].max()) / fps
-            frozen.append(f"{name} ({lasts:.3g} s at {first[0] / fps:.4g} s)")
+            seconds = int(lengths[long].max()) / fps
+            frozen.append(f"{name} ({seconds:.3g} s at {first[0] / fps:.4g} s)")
         if _is_clipped(track, runs[~long]):
             clipped.append(name)
     remarks = {

@@ -98,6 +98,7 @@ class Rig:
     def parent_world(
         self, node: int, places: Floats, turns: Floats, sizes: Floats
     ) -> tuple[Floats, Floats, float]:
+        """Return the world position, rotation and scale of a node's parent, from those of all."""
         if (parent := self.parents[node]) < 0:
             return np.zeros(3), rot.IDENTITY, 1.0
         return places[parent], turns[parent], float(sizes[parent])
@@ -176,10 +177,10 @@ def make_rig(
     return Rig(
         tuple(names),
         tuple(parents),
-        rot.rotate(back, offsets),
-        rot.multiply(back, frames),
-        np.ones((len(names), 3)),
-        rot.multiply(rot.conjugate(frames), rot.conjugate(turn)),
-        unit,
-        turn,
+        translations=rot.rotate(back, offsets),
+        rotations=rot.multiply(back, frames),
+        scales=np.ones((len(names), 3)),
+        axes=rot.multiply(rot.conjugate(frames), rot.conjugate(turn)),
+        unit=unit,
+        turn=turn,
     )

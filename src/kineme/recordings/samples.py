@@ -98,18 +98,27 @@ class _Samples:
 def _find_rate_and_frames(
     samples: _Samples, fps: float | None, times: ArrayLike | None, assumed_fps: float
 ) -> tuple[Timing, list[Note | str]]:
-    """Return the rate and frames of rows, and notes."""
+    """Return the rate and frames of rows, and notes.
+
+    Times that the caller gives are always used, with the rate as that of the frames if it is given,
+    too. Without them a given rate makes each row a frame, and the times in the data are ignored.
+    """
     n = len(samples.values)
     if samples.times is not None and (fps is None or times is not None):
         try:
-            seconds, guessed = as_seconds(samples.times, samples.unit)
+            seconds, guessed_unit = as_seconds(samples.times, samples.unit)
         except (ValueError, TypeError) as error:
             raise ParameterError(f"the times are not valid: {error}") from None
         if seconds.shape != (n,):
-            raise ParameterError(f"{n} rows need as many times, not shape {seconds.shape}")
-        guess = guessed and f"times are read in {UNITS_NAMED[guessed]}, inferred from their steps"
+            raise ParameterError(
+                f"times have shape {seconds.shape}: give one for each of the {n} rows"
+            )
+        # A rate of 0 is estimated from the times.
         timing = place_rows(seconds, samples.values, fps=0.0 if fps is None else as_rate(fps))
-        return timing, [Note(guess, "warning")] if guess else []
+        if guessed_unit is None:
+            return timing, []
+        guess = f"times are read in {UNITS_NAMED[guessed_unit]}, inferred from their steps"
+        return timing, [Note(guess, "warning")]
     notes: list[Note | str] = []
     rate = samples.rate if fps is None else as_rate(fps)
     if rate is None:
@@ -118,7 +127,8 @@ def _find_rate_and_frames(
     if samples.order is None:
         return Timing(rate), notes
     notes.append(Note("rows are not in the order of their index: sorted", "warning"))
-    return Timing(rate, samples.order, np.arange(n, dtype=np.float64), n), notes
+    frames = np.arange(n, dtype=np.float64)
+    return Timing(rate, order=samples.order, at=frames, n_frames=n), notes
 
 
 def _convert_samples(data: Any) -> _Samples:
@@ -310,8 +320,8 @@ def _compare_clocks(
         ], []
     if all(clock.shows_dates for clock in clocks):
         return clocks, []
-    lasts = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
-    overlap = min(lasts) - max(clock.times[0] for clock in clocks)
+    stops = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
+    overlap = min(stops) - max(clock.times[0] for clock in clocks)
     if overlap > 0.5 * min(each.duration for each in signals):
         return clocks, []
     remark = "the sensors have no common clock: assumed to begin together; give offsets"

@@ -73,8 +73,8 @@ class Signals(Recording):
         names = as_texts(self.names, "names of channels") or tuple(map(str, columns))
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
-                f"{values.shape[1]} channels need the same number of different names, not "
-                f"{', '.join(names)}"
+                f"names ({', '.join(names)}) for {values.shape[1]} channels: give a different one "
+                "for each"
             )
         assign(self, names=names, gaps=as_gaps(self.gaps, len(values)))
         if not self.spans():

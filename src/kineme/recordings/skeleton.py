@@ -88,10 +88,9 @@ class Skeleton:
                     f"joint {self.names[joint]!r} (index {joint}) has parent {parent}: "
                     "parents come before their children, and a root has -1"
                 )
-        # Joints that have a child, -1, and numbers beyond the last joint cannot be end sites.
-        inner = self.end_sites & ({*self.parents} | {-1} | {*self.end_sites} - {*range(n)})
-        if inner:
-            raise MotionError(f"end site {min(inner)} is not a leaf of the skeleton")
+        leaves = {*range(n)} - {*self.parents}
+        if wrong := self.end_sites - leaves:
+            raise MotionError(f"end site {min(wrong)} is not a leaf of the skeleton")
         if self.rig is not None and len(self.rig.axes) != n:
             raise MotionError(f"the rig has {len(self.rig.axes)} joints, but the skeleton {n}")
 

@@ -102,10 +102,10 @@ def write_sessions(
     sheet = Sheet(
         names or (_choose_name(first), _choose_name(second)),
         (first, second),
-        compare_sessions(first, second, ends=ends),
-        compare_curves(first, second, ends=ends),
-        (compare_sides(first, ends=ends), compare_sides(second, ends=ends)),
-        ends,
+        numbers=compare_sessions(first, second, ends=ends),
+        curves=compare_curves(first, second, ends=ends),
+        sides=(compare_sides(first, ends=ends), compare_sides(second, ends=ends)),
+        ends=ends,
     )
     with atomic_write(path) as draft:
         draft.write_text(_format_page(sheet), encoding="utf-8")
@@ -117,6 +117,7 @@ def _choose_name(cycles: Cycles) -> str:
 
 
 def _format_page(sheet: Sheet) -> str:
+    """Return the page: numbers, pictures and sides of as many groups as fit."""
     first, second = (escape(name) for name in sheet.names)
     groups = _list_groups(sheet)
     shown_groups = groups[:MAX_GROUPS]

@@ -54,8 +54,7 @@ class Hierarchy:
         _check_details(self.details, self.detail)
         if len(self.tables) != len(self.details):
             raise ParameterError(
-                f"{len(self.details)} details need the same number of tables, not "
-                f"{len(self.tables)}"
+                f"{len(self.tables)} tables for {len(self.details)} details: give one for each"
             )
         steps = zip(pairwise(self.details), pairwise(self.tables), strict=True)
         for (less, more), (coarse, fine) in steps:

@@ -70,7 +70,9 @@ class Segment:
     ('activity', 'walk', 0, 326, 5.43)
     """
 
-    level: Annotated[Level, Column("which rows of the table: `activity` or `primitive`")]
+    level: Annotated[
+        Level, Column("which of the two levels the row is in: `activity` or `primitive`")
+    ]
     kind: Annotated[Kind, Column("`activity` or `primitive`, as its level, or `transition`")]
     start_frame: Annotated[
         int, Column("first frame, from 0, at the rate of the source file", unit="frames", least=0)
@@ -361,6 +363,7 @@ def _convert_integers(array: NDArray[Any], name: str) -> NDArray[np.int64]:
 
 
 def _convert_texts(array: NDArray[Any], name: str, allowed: tuple[str, ...]) -> NDArray[np.str_]:
+    """Return a column of texts; raise ParameterError for other values."""
     values = array.ravel().tolist()
     invalid = next((value for value in values if not isinstance(value, str)), "")
     if invalid != "":

@@ -58,6 +58,7 @@ def find_annotators(recordings: OpenRecordings) -> dict[str, Annotator]:
             continue  # labels of other recordings, or unreadable
         name = label_file.stem if label_file.is_file() else label_file.name
         annotators[make_file_id(label_file)] = Annotator(name, sources)
+    # Files beside recordings that hold the labels of one person each.
     beside: dict[str, dict[Path, LabelSource]] = {}
     for label_file in files:
         parsed = _parse_label_name(label_file, paths)

@@ -187,6 +187,7 @@ def _make_brief(
     checked: Container[Span],
     n_comments: int,
 ) -> BriefTable:
+    """Return the message with the columns of a table that the list of recordings needs."""
     spans = [(row.level, row.start_frame, row.stop_frame) for row in rows]
     return BriefTable(
         n_frames=table.n_frames,

@@ -175,6 +175,7 @@ class PoseQueue:
             self._waiting.clear()
 
     def _run_queue(self, run: Run) -> None:
+        """Estimate poses of queued videos until none is left or the run is cancelled."""
         while (listed := self._take_next()) is not None:
             try:
                 with cancellable(run.check_cancelled):

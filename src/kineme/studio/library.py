@@ -296,6 +296,7 @@ class StudioLibrary:
         return NamedHits(named=named, left=failures)
 
     def _name_hit(self, span: Span, name: str, recordings: OpenRecordings) -> None:
+        """Name the segment at a span of a recording, as an edit of its table."""
         path = self._find_file(span.recording)
         if path is None:
             raise UnknownError("its file is missing")

@@ -175,7 +175,10 @@ class OpenRecordings:
         return message
 
     def poses(self, name: str, n_samples: int) -> bytes:
-        """Return the binary poses for a message with this number of samples, else of all frames."""
+        """Return the binary poses of a recording.
+
+        They are those of its sketch if this has ``n_samples``, as the page still shows it.
+        """
         sketch = self._sketcher.get(name)
         head = sketch.message.motion if sketch else None
         if sketch is not None and head is not None and head.n_samples == n_samples:
@@ -195,6 +198,7 @@ class OpenRecordings:
         return FolderTables(recordings=tables)
 
     def _summarize(self, listed: ListedRecording) -> BriefTable | None:
+        """Return the saved table of a recording, else the one it is shown with, or None."""
         opened = self._open.get(listed.id)
         table_path = find_table_path(listed) if opened is None else opened.table_path
         brief = read_brief(table_path) if table_path else None

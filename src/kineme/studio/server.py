@@ -165,7 +165,10 @@ def warm_up(recordings: OpenRecordings, hub: Hub, ended: threading.Event) -> Non
 
 
 def load_compiled_code(ended: threading.Event) -> None:
-    """Display and segment the bundled recording, by the default preset first."""
+    """Load the compiled code by displaying and segmenting the bundled recording.
+
+    The code of the published methods is last, unless ``ended`` is set before.
+    """
     from kineme.datasets import bundled_recording
     from kineme.formats import read_motion
     from kineme.methods.presets import DEFAULT, PUBLISHED

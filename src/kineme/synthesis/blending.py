@@ -137,7 +137,9 @@ def synthesize(
     route = as_indices(route, "the nodes of a route")
     for node in route:
         if not 0 <= node < len(graph.nodes):
-            raise ParameterError(f"no node {node} in a graph of {len(graph.nodes)}")
+            raise ParameterError(
+                f"there is no node {node}: give numbers from 0 to {len(graph.nodes) - 1}"
+            )
     if start is not None:
         check_type(start, Placement, "start", "leave it out to start as recorded")
     # Frame counts are a cheap check that the motions are those of the graph.
@@ -341,8 +343,7 @@ def _move_ankle(motion: Motion, leg: tuple[int, int, int], target: Floats) -> Mo
     reached = thigh + rot.rotate(bend, shin)
     # The bent leg turns about the hip so that the ankle points to the target.
     swing = _rotate_onto(reached, target - hip)
-    still = np.where(moved[:, None], 1.0, 0.0)
-    bend, swing = (still * q + (1 - still) * rot.IDENTITY for q in (bend, swing))
+    bend, swing = (np.where(moved[:, None], q, rot.IDENTITY) for q in (bend, swing))
     # New world rotations: the thigh swings, the shin bends and swings, the foot keeps its own.
     turned = {
         leg[0]: rot.multiply(swing, world[:, leg[0]]),

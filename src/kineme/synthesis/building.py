@@ -107,10 +107,10 @@ def motion_graph(
     graph = MotionGraph(
         tuple(Source(m.provenance.path, m.provenance.sha256, m.n_frames) for m in motions),
         tuple(nodes),
-        tuple(best[pair] for pair in sorted(best)),
-        motions[0].fps,
-        float(threshold),
-        float(window),
+        edges=tuple(best[pair] for pair in sorted(best)),
+        fps=motions[0].fps,
+        threshold=float(threshold),
+        window=float(window),
     )
     return graph.pruned() if prune else graph
 

@@ -276,7 +276,7 @@ def write_graph(graph: MotionGraph, path: str | os.PathLike[str]) -> None:
         "fps": graph.fps,
         "threshold": graph.threshold,
         "window": graph.window,
-        "sources": [_format_sources(source, folder) for source in graph.sources],
+        "sources": [_format_source(source, folder) for source in graph.sources],
     }
     # Rows are appended one per line below, so remove the closing brace.
     text = json.dumps(head, indent=2).removesuffix("\n}")
@@ -364,7 +364,8 @@ def load_sources(graph: MotionGraph) -> list[Motion]:
     return motions
 
 
-def _format_sources(source: Source, folder: Path) -> dict[str, Any]:
+def _format_source(source: Source, folder: Path) -> dict[str, Any]:
+    """Return a source for JSON, with paths relative to the folder of the graph."""
     if source.path is None or source.sha256 is None:
         raise ParameterError("a graph can only be written if its motions were read from files")
     options = source.options

@@ -259,23 +259,25 @@ def _count_poses(start: int, stop: int, step: int) -> int:
 def _measure_progress(
     candidate: _Candidate, floor: Complex, points: Complex, seconds: float
 ) -> list[_Progress]:
-    """Return the progress before each pose and after the last; poses are ``seconds`` apart."""
+    """Return the progress before each pose and after the last; poses are ``seconds`` apart.
+
+    ``floor`` are the hips on the floor as recorded, ``points`` the line, as complex numbers.
+    """
     now = candidate.progress
     reached = [now]
     ahead = round(AHEAD / SPACING)
+    # Turn and move the hips to the candidate's placement.
     for place in np.exp(-1j * candidate.at.angle) * floor + candidate.at.shift:
         if now.point < len(points) - 1:
             # Only search ahead, so that progress never decreases.
-            apart = np.abs(points[now.point : now.point + ahead] - place)
-            nearest = int(apart.argmin())
-            off = float(apart[nearest])
+            distances = np.abs(points[now.point : now.point + ahead] - place)
+            point = now.point + int(distances.argmin())
+            distance = float(distances.min())
             # Integral of the squared distance plus the price of time.
-            now = _Progress(
-                now.point + nearest,
-                now.cost + (off**2 + TIME) * seconds,
-                # Tuples compare by distance first and keep the point of the largest one.
-                *max((now.worst, now.worst_at), (off, now.point + nearest)),
-            )
+            cost = now.cost + (distance**2 + TIME) * seconds
+            # Tuples compare by distance first and keep the point of the largest one.
+            worst, worst_at = max((now.worst, now.worst_at), (distance, point))
+            now = _Progress(point, cost, worst, worst_at)
         reached.append(now)
     return reached
 

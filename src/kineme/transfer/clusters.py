@@ -44,7 +44,8 @@ from kineme.transfer.matching import THRESHOLD, Searched
 FARTHEST = 1.0
 """Distance of two movements with nothing in common."""
 SAME_RECORDING = 2.0
-"""Distance of local clusters of one recording."""
+"""Distance of local clusters of one recording: above any other, as its segmentation found them to
+be different movements."""
 SEPARATOR = 1e3
 """Value of each feature between two contexts, so that no match crosses from one to the other."""
 BLOCK = 100
@@ -107,8 +108,8 @@ class Assignment(NamedTuple):
 
     def shift(self, count: int) -> Assignment:
         """Return the assignment with clusters numbered from ``count`` on."""
-        cluster, following = (np.where(n < 0, -1, n + count) for n in self[:2])
-        return self._replace(cluster=cluster, next_cluster=following)
+        cluster, next_cluster = (np.where(n < 0, -1, n + count) for n in self[:2])
+        return self._replace(cluster=cluster, next_cluster=next_cluster)
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,29 +138,44 @@ def find_local_clusters(table: SegmentTable, recording: int) -> list[LocalCluste
 
     The typical segment is the repetition of median length, or else the activity.
     """
-    active, finer, lasts = table.kind != "transition", table.level == "primitive", table.duration_s
+    is_active, is_primitive = table.kind != "transition", table.level == "primitive"
     local_clusters = []
-    for cluster in sorted(set(table.cluster[active].tolist()) - {-1}):
-        members = np.flatnonzero((table.cluster == cluster) & active)
-        repeated = members[finer[members]]
-        chosen = repeated if len(repeated) else members
-        row = int(chosen[np.argsort(lasts[chosen], kind="stable")[len(chosen) // 2]])
-        # One level only, so that no time counts twice: activities, if there are any.
-        counted = members[finer[members] == finer[members[0]]]
-        spans = np.column_stack([table.start_s[counted], table.stop_s[counted]])
-        start_s, stop_s = float(table.start_s[row]), float(table.stop_s[row])
-        # The example is the middle part of a long segment; the context is the activity around it.
-        middle = (start_s + stop_s) / 2
-        half = min(stop_s - start_s, CONSTANTS.longest_example) / 2
-        reach = max(CONSTANTS.longest_context, 2 * half) / 2
-        around = (table.level == "activity") & (table.start_s <= middle) & (middle < table.stop_s)
-        first = min([middle - half, *table.start_s[around].tolist()])
-        last = max([middle + half, *table.stop_s[around].tolist()])
-        example = middle - half, middle + half
-        context = max(first, middle - reach), min(last, middle + reach)
-        typical = row, start_s, stop_s
-        local_clusters.append(LocalCluster(recording, cluster, *typical, spans, example, context))
+    for cluster in sorted(set(table.cluster[is_active].tolist()) - {-1}):
+        members = np.flatnonzero((table.cluster == cluster) & is_active)
+        repetitions = members[is_primitive[members]]
+        chosen = repetitions if len(repetitions) else members
+        row = int(chosen[np.argsort(table.duration_s[chosen], kind="stable")[len(chosen) // 2]])
+        # One level only, so that no time counts twice. Rows of activities precede primitives, so
+        # this is the level of activities, if there are any.
+        counted = members[is_primitive[members] == is_primitive[members[0]]]
+        example, context = _find_example(table, row)
+        local_clusters.append(
+            LocalCluster(
+                recording=recording,
+                cluster=cluster,
+                row=row,
+                start_s=float(table.start_s[row]),
+                stop_s=float(table.stop_s[row]),
+                spans=np.column_stack([table.start_s[counted], table.stop_s[counted]]),
+                example=example,
+                context=context,
+            )
+        )
     return local_clusters
+
+
+def _find_example(table: SegmentTable, row: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the middle part of a segment, and the middle part of the activity around it."""
+    start_s, stop_s = float(table.start_s[row]), float(table.stop_s[row])
+    middle = (start_s + stop_s) / 2
+    length = min(stop_s - start_s, CONSTANTS.longest_example)
+    example = middle - length / 2, middle + length / 2
+    around = (table.level == "activity") & (table.start_s <= middle) & (middle < table.stop_s)
+    reach = max(CONSTANTS.longest_context, length) / 2
+    # Without an activity around it, the context is the example.
+    first = min([example[0], *table.start_s[around].tolist()])
+    last = max([example[1], *table.stop_s[around].tolist()])
+    return example, (max(first, middle - reach), min(last, middle + reach))
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,7 +313,7 @@ def _assign_to_nearest(
 
     ``numbers`` are the clusters of the representatives in ``typical``.
     """
-    # Compare only with the representatives of the clusters with the nearest embeddings.
+    # (local clusters, representatives): compare only clusters with the nearest embeddings.
     is_near = np.zeros((len(clusters.local), len(numbers)), np.bool_)
     for row, embedding in enumerate(clusters.embeddings):
         distances_to = ((typical.embeddings - embedding) ** 2).sum(axis=1)
@@ -305,7 +321,9 @@ def _assign_to_nearest(
         is_near[row] = np.isin(numbers, list(dict.fromkeys(order))[: constants.nearest])
     distances = measure_distances(clusters, typical, is_near)
     same = clusters.recording[:, None] == typical.recording
+    # Pairs that were not compared are 0, so that they do not add to the sums.
     distances = np.where(is_near, np.where(same, SAME_RECORDING, distances), 0.0)
+    # One-hot rows (representatives, clusters): products with them sum over clusters.
     members = np.eye(int(numbers.max()) + 1)[numbers]
     counts = is_near @ members
     means = np.where(counts > 0, distances @ members / np.maximum(counts, 1), np.inf)
@@ -319,9 +337,9 @@ def _compare_with_next(cluster: Ints, spread: Floats, distances: Floats) -> Assi
     others = distances.copy()
     others[np.arange(len(cluster)), cluster] = np.inf
     nearest = others.min(axis=1)
-    following = np.where(np.isinf(nearest), -1, others.argmin(axis=1))
+    next_cluster = np.where(np.isinf(nearest), -1, others.argmin(axis=1))
     confidence = np.clip(1 - spread / np.maximum(nearest, 1e-9), 0, 1)
-    return Assignment(cluster, following, np.where(following < 0, np.nan, confidence), spread)
+    return Assignment(cluster, next_cluster, np.where(next_cluster < 0, np.nan, confidence), spread)
 
 
 def _number_by_seconds(found: Assignment, seconds: Sequence[float]) -> Assignment:
@@ -452,11 +470,11 @@ def list_spans(columns: Mapping[str, NDArray[Any]], clusters: Ints) -> Spans:
 
 
 def keep_numbers(
-    old: Mapping[Any, Spans], new: Mapping[Any, Spans], *, following: int
+    old: Mapping[Any, Spans], new: Mapping[Any, Spans], *, next_number: int
 ) -> dict[int, int]:
     """Give each new cluster the number of the old cluster with which it overlaps longest.
 
-    Each number is given to one cluster. The others are numbered from ``following`` on. Keys of
+    Each number is given to one cluster. The others are numbered from ``next_number`` on. Keys of
     ``old`` and ``new`` are recordings.
 
     Examples
@@ -464,7 +482,7 @@ def keep_numbers(
     >>> starts, stops = np.array([0.0, 5.0]), np.array([5.0, 9.0])
     >>> old = {"a": (starts, stops, np.array([4, 2]))}
     >>> new = {"a": (starts, stops, np.array([0, 1])), "b": (starts, stops, np.array([1, 2]))}
-    >>> keep_numbers(old, new, following=7)
+    >>> keep_numbers(old, new, next_number=7)
     {0: 4, 1: 2, 2: 7}
     """
     shared: defaultdict[tuple[int, int], float] = defaultdict(float)
@@ -479,5 +497,5 @@ def keep_numbers(
             numbers[cluster] = number
     for cluster in sorted({int(c) for _, _, clusters in new.values() for c in clusters} - {-1}):
         if cluster not in numbers:
-            numbers[cluster], following = following, following + 1
+            numbers[cluster], next_number = next_number, next_number + 1
     return dict(sorted(numbers.items()))

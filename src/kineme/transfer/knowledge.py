@@ -308,13 +308,11 @@ def _read(path: str | PathLike[str]) -> dict[str, NDArray[Any]]:
 
 
 def _check_head(head: Any, path: str | PathLike[str]) -> None:
-    schema = head.get("schema") if isinstance(head, dict) else head
-    if schema != SCHEMA:
-        reason = f"has version {schema!r}, this kineme reads {SCHEMA}: label its recordings again"
-        raise ReadError(path, reason)
-    for name, value in SETTINGS.items():
-        if head.get(name) != value:
-            reason = f"has features with {name} {head.get(name)}, not {value}: build it again"
+    """Raise ReadError if the format or the features are not those of this version."""
+    stated = head if isinstance(head, dict) else {"schema": head}
+    for name, value in {"schema": SCHEMA, **SETTINGS}.items():
+        if stated.get(name) != value:
+            reason = f"has {name} {stated.get(name)!r}, not {value!r}: build it again"
             raise ReadError(path, reason)
 
 

@@ -202,8 +202,8 @@ def _choose_cheapest(
     costs = compute_label_costs(unknown, knowledge.primitives(), codes, len(names), radius=radius)
     # Matches beyond the search radius are unknown, so the next label costs at most this much.
     ordered = np.sort(np.column_stack([costs, np.full(len(costs), radius)]), axis=1)
-    best, cost, following = costs.argmin(axis=1), ordered[:, 0], ordered[:, 1]
-    margin = 1 - cost / np.maximum(following, 1e-12)
+    best, cost, second = costs.argmin(axis=1), ordered[:, 0], ordered[:, 1]
+    margin = 1 - cost / np.maximum(second, 1e-12)
     valid = cost <= threshold
     return (
         np.where(valid, names[best].astype(object), ""),
@@ -265,6 +265,7 @@ def _make_provenance(
     *,
     spread: bool,
 ) -> dict[str, Any]:
+    """Return the provenance with the costs of labels and a note on their number."""
     counts = Counter(label for label in labels if label)
     named = ", ".join(f"{label} {count}" for label, count in sorted(counts.items())) or "none"
     note = f"{counts.total()} of {len(labels)} unlabelled primitives labelled: {named}"
@@ -328,11 +329,12 @@ def segment_by_matches(segmentation: Segmentation, matches: list[LabelMatch]) ->
     for match in matches:
         start = round(match.start * frames_per_sample)
         stop = min(round(match.stop * frames_per_sample), segmentation.n_frames)
-        if primitives and primitives[-1][2] == match.label:
-            last = primitives[-1]
+        if primitives:
+            last_start, last_stop, last_label = primitives[-1]
             # Close a small gap to the previous match of the same label.
-            if start - last[1] <= _MAX_GAP_S * segmentation.fps:
-                primitives[-1] = (last[0], start, last[2])
+            is_near = start - last_stop <= _MAX_GAP_S * segmentation.fps
+            if is_near and last_label == match.label:
+                primitives[-1] = (last_start, start, last_label)
         primitives.append((start, stop, match.label))
     activities: list[Row] = []
     for start, stop, label in primitives:

@@ -244,6 +244,7 @@ def compute_label_costs(
 
 def find_mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Pairs:
     """Return every match of an unknown primitive with a run of examples, in both directions."""
+    # Forward: primitive u matches a run of examples. Backward: example k matches an unknown run.
     u, example_run, forward = _find_matches(unknown, examples, np.arange(len(unknown)), radius)
     reached = np.flatnonzero(np.isin(examples.runs, example_run))
     k, unknown_run, backward = _find_matches(examples, unknown, reached, radius)

@@ -131,6 +131,7 @@ def assign_to_labels(
 def _share_by_search(
     motions: Sequence[Motion], segmentations: Sequence[Segmentation], threshold: float
 ) -> list[Segmentation]:
+    """Return segmentations of bodies with common cluster numbers; see `link_clusters`."""
     # Features for the search, and poses for embeddings.
     described = [compute_features_and_poses(motion) for motion in motions]
     local = [
@@ -165,7 +166,7 @@ def _share_by_search(
     kept_numbers = keep_numbers(
         {0: list_spans(first.columns(), first.cluster)},
         {i: list_spans(r.table.columns(), r.table.cluster) for i, r in enumerate(result)},
-        following=int(first.cluster.max()) + 1,
+        next_number=int(first.cluster.max()) + 1,
     )
     return [renumber_clusters(each, kept_numbers) for each in result]
 

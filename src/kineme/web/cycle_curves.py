@@ -106,13 +106,12 @@ class CycleCurves:
     def make_curves(
         self, table: Segmentation, cluster: int, channel: str = ""
     ) -> ClusterCurves | None:
-        """Return the curves of a cluster.
+        """Return the curves of a cluster; None without repetitions or without such a channel.
 
-        None if there are no such repetitions or no such channel. The default channel is the one
-        with the largest range.
+        The default channel is the one with the largest range.
         """
         with self._lock:
-            self.channels()
+            self.channels()  # fills `_heads` and `_default_channels`
             cycles = self._find_cycles(table)
             rows = _select_group(cycles, cluster)
             if not rows.any() or (channel and channel not in self._heads):
@@ -120,6 +119,7 @@ class CycleCurves:
             measured = self._add_channels(cycles, [channel] if channel else self._default_channels)
             group = measured.select(rows)
             name = channel or _sort_channels_by_range(group, measured)[0]
+            # First and last cycles of activities count only if there are no others.
             ends = _has_only_ends(group)
             mean = _compute_means(group, ends=ends)[name]
             return _make_message(group, name, MAX_CYCLES, mean, ends=ends)
@@ -371,7 +371,7 @@ def _compute_means(group: Cycles, *, ends: bool) -> dict[str, Columns]:
 
 
 def _has_only_ends(group: Cycles) -> bool:
-    """Return whether there is no inner cycle, so that the mean is over all cycles."""
+    """Return whether all cycles are at the ends of activities, so that the mean is over all."""
     return not group.used().any()
 
 

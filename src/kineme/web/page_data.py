@@ -56,11 +56,18 @@ def make_page_data(
             head, binary = display_motion(recording, effectors=effectors)
         matrix = compare_frames(recording, effectors=effectors)
         warned = [str(note) for note in recording.provenance.warnings]
-        return PageData(recording.n_frames, recording.fps, head, binary, matrix, warned)
+        return PageData(
+            recording.n_frames,
+            recording.fps,
+            motion=head,
+            binary=binary,
+            matrix=matrix,
+            warnings=warned,
+        )
     if fps is None:
         raise ParameterError("an array has no frame rate: give fps")
     matrix = compare_frames_of_signal(recording, fps)
-    return PageData(len(np.asarray(recording)), float(fps), None, b"", matrix)
+    return PageData(len(np.asarray(recording)), float(fps), motion=None, binary=b"", matrix=matrix)
 
 
 def make_recording_message(

@@ -87,10 +87,11 @@ def build(
 
             start_fork_server()  # worker processes start while modules are imported
         from kineme.library.building import build as build_library
-        from kineme.library.planning import change_sources
+        from kineme.library.planning import list_sources
 
         as_before = not are_given(context, OPTIONS)
-        sources = change_sources(into, files or (), remove or ())
+        # The build forgets removed sources and those never found, so list them before it.
+        sources = list_sources(into, files or (), remove or ())
         with show_progress(into, quiet=quiet) as stage:
             built = build_library(
                 files or (),

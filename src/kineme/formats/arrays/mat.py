@@ -198,6 +198,7 @@ def _find_labeled(
 def _read_qtm(
     content: FileContent, head: Mapping[str, Any], labeled: Mapping[str, Any], options: ReadOptions
 ) -> Motion:
+    """Return the markers of an export of QTM; see the module's docstring."""
     names, data = collect_texts(labeled["Labels"]), labeled["Data"]
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 3:
         raise content.error(

@@ -259,7 +259,7 @@ def _format_rows(
     separator = SEPARATORS[suffix]
     head = "" if names is None else _format_line([*map(as_text, names)], separator)
     lines = [_format_line(row, separator) for row in rows]
-    return _TextRows(suffix, names, head, lines, lines, separator)
+    return _TextRows(suffix, names, head=head, lines=lines, records=lines, separator=separator)
 
 
 def _format_line(cells: Sequence[str], separator: str) -> str:

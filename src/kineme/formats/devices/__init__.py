@@ -88,30 +88,24 @@ class Layout:
         separator = find_separator(lines[head])
         # Names and rows may end with an additional separator.
         cells = split_head(text.content, lines[head].rstrip(f"{separator} "), "", separator)
-        below = head + 1 + self.words
+        first_row = head + 1 + self.words
         # Without a line of names the first row is in its place.
         if has_no_names := bool(self.names) and is_row(cells):
             numbered = map(str, range(len(self.names) + 1, len(cells) + 1))
-            cells, below = [*self.names, *numbered][: len(cells)], head
+            cells, first_row = [*self.names, *numbered][: len(cells)], head
         names = make_unique_names(cells)
-        matches = (
-            (name, unit)
-            for pattern, unit in self.clocks.items()
-            for name in names
-            if re.fullmatch(pattern, name)
-        )
-        clocks = dict(islice(matches, 1))
+        clocks = self._find_clock(names)
         hidden = {name for name in names if self.hidden and re.fullmatch(self.hidden, name)}
-        passed = sum(map(is_text_line, lines[:head]))
+        n_skipped = sum(map(is_text_line, lines[:head]))
         return DelimitedText(
             text.content,
             lines,
             names,
-            head,
-            below,
-            separator,
+            head=head,
+            first_row=first_row,
+            separator=separator,
             rate=self._find_rate(lines[:head]),
-            notes=note_skipped_lines(passed, "rows" if has_no_names else "names"),
+            notes=note_skipped_lines(n_skipped, "rows" if has_no_names else "names"),
             hidden=frozenset(hidden - clocks.keys()),
             clocks=clocks,
         )
@@ -121,6 +115,16 @@ class Layout:
             if line.strip() and not SEPARATOR.fullmatch(line) and re.match(self.head, line):
                 return i
         raise text.content.error("has no line of column names where this device writes it")
+
+    def _find_clock(self, names: Sequence[str]) -> dict[str, str]:
+        """Return the column of times with its unit, as one entry; empty if there is none."""
+        matches = (
+            {name: unit}
+            for pattern, unit in self.clocks.items()
+            for name in names
+            if re.fullmatch(pattern, name)
+        )
+        return next(matches, {})
 
     def _find_rate(self, lines: Sequence[str]) -> float | None:
         matches = (re.search(self.rate, line) for line in lines if self.rate)

@@ -1,7 +1,8 @@
 """Read ActiGraph: acceleration or counts exported by ActiLife, below a header between dashes.
 
-The header states the rate and the format of dates, ``date format dd/MM/yyyy``. Counts have the
-period ``Epoch Period (hh:mm:ss) 00:01:00``, which is zero for acceleration. Names may be missing.
+The header states the rate and the format of dates, ``date format dd/MM/yyyy``. Counts sum up the
+activity in each epoch of a length, ``Epoch Period (hh:mm:ss) 00:01:00``, which is zero for raw
+acceleration. Names may be missing.
 """
 
 from __future__ import annotations
@@ -32,13 +33,13 @@ def lay_out(text: DelimitedText) -> DelimitedText:
     hours, minutes, seconds = next(
         (map(int, match.groups()) for match in epochs if match), (0, 0, 0)
     )
-    period = 3600 * hours + 60 * minutes + seconds
-    # Users choose the columns of counts, so their names are unknown.
-    table = replace(_LAYOUT, names=("1",))(text) if period else _LAYOUT(text)
+    epoch_s = 3600 * hours + 60 * minutes + seconds  # 0 for raw acceleration
+    # Users choose the columns of counts. If no line names them, they are numbered from "1".
+    table = replace(_LAYOUT, names=("1",))(text) if epoch_s else _LAYOUT(text)
     if date_format := _DATES.search(text.lines[0]):
         fields = "".join(date_format.groups()).lower()
         table = replace(table, day_before_month=fields.find("d") < fields.find("m"))
-    return replace(table, rate=1 / period) if period else table
+    return replace(table, rate=1 / epoch_s) if epoch_s else table
 
 
 DIALECT = Dialect("ActiGraph", begins_with(_HEADER), layout=lay_out)

@@ -53,7 +53,9 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
     slower = sum(lengths[i] < len(times) for i in chosen)
     notes = (f"{format_count(slower, 'slower channel')} interpolated",) if slower else ()
     timing = {"time (s)": times}
-    channels = ChannelTable([names[i] for i in chosen], np.stack(values, 1), timing, None, notes)
+    channels = ChannelTable(
+        [names[i] for i in chosen], np.stack(values, 1), timing=timing, rate=None, notes=notes
+    )
     return to_signals(content, "Delsys table", channels, options.fps)
 
 

@@ -35,7 +35,16 @@ def lay_out(text: DelimitedText) -> DelimitedText:
     axes = "xyz" if width == 3 else range(1, width + 1)
     names = [sensor] if width == 1 else [f"{sensor}_{axis}" for axis in axes]
     rate = float(split_cells(text.lines[second], ",")[0])
-    return DelimitedText(text.content, text.lines, names, below, below, ",", rate=rate, clocks={})
+    return DelimitedText(
+        text.content,
+        text.lines,
+        names=names,
+        head=below,
+        first_row=below,
+        separator=",",
+        rate=rate,
+        clocks={},
+    )
 
 
 def _find_first_rows(lines: Sequence[str]) -> list[int]:

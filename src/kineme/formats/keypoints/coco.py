@@ -78,7 +78,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     if count != len(names):
         raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
     numbers = range(len(images)) if isinstance(images, list) else ()
-    return video_to_motion(content, options, "COCO", names, people, LIMIT, frames=numbers)
+    return video_to_motion(content, options, "COCO", names, people, limit=LIMIT, frames=numbers)
 
 
 def _find_names(data: Mapping[str, Any]) -> list[str] | None:

@@ -146,7 +146,7 @@ def landmarks_to_motion(
     else:
         people = _scale_to_image(content, people, size)
     return video_to_motion(
-        content, options, "MediaPipe", NAMES, people, LIMIT,
+        content, options, "MediaPipe", NAMES, people, limit=LIMIT,
         fps=fps, frames=frames, unit=unit, up=up, notes=notes,
     )  # fmt: skip
 
@@ -238,6 +238,7 @@ def _order_landmarks(frame: Mapping[str, Any]) -> list[Any]:
 def _parse_landmarks(
     content: FileContent, frame: int, pose: list[Any]
 ) -> tuple[list[list[float]], list[float]]:
+    """Return position and confidence of each landmark, an object or a list of numbers."""
     points, confidence = [], []
     for landmark in pose:
         if isinstance(landmark, Mapping):

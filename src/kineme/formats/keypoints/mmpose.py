@@ -53,13 +53,14 @@ def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion
     people = []
     for (number, instance), person in zip(instances_found, ids, strict=True):
         scores = instance.get("keypoint_scores")
+        # Anything that is no list of numbers is refused by `video_to_motion`.
         confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
         people.append(Person(number, _get_points(instance)[: len(names)], confidence, person))
     first = next((person.points[0] for person in people if person.points), None)
     is_flat = isinstance(first, list) and len(first) == 2
     unit, up = ("pixel", "-y") if is_flat else (None, "z")
     return video_to_motion(
-        content, options, "MMPose", names, people, LIMIT, frames=numbers, unit=unit, up=up
+        content, options, "MMPose", names, people, limit=LIMIT, frames=numbers, unit=unit, up=up
     )
 
 

@@ -158,17 +158,18 @@ def _parse_id(value: Any) -> str | None:
 def _to_motion(
     content: FileContent, people: list[Person], options: ReadOptions, frames: list[int]
 ) -> Motion:
+    """Return the motion of one person, whose layout follows from the number of keypoints."""
     in_space = [person for person in people if np.shape(person.points)[1:] == (3,)]
     people = in_space or people  # flat ones were seen by one camera only, in pixels
     counts = {len(person.points) for person in people}
-    for count in counts - NAMES.keys():
+    if unknown := counts - NAMES.keys():
         layouts = ", ".join(map(str, sorted(NAMES)))
-        raise content.error(f"a person has {count} keypoints: {layouts} are known")
+        raise content.error(f"a person has {min(unknown)} keypoints: {layouts} are known")
     names = NAMES[max(counts, default=25)]
     n = len(names)  # leaves out hands and face of whole bodies
     people = [replace(person, points=person.points[:n], confidence=person.confidence[:n])
               for person in people]  # fmt: skip
     unit, up = (None, None) if in_space else ("pixel", "-y")
     return video_to_motion(
-        content, options, "OpenPose", names, people, LIMIT, frames=frames, unit=unit, up=up
+        content, options, "OpenPose", names, people, limit=LIMIT, frames=frames, unit=unit, up=up
     )

@@ -80,6 +80,6 @@ def make_overlay(poses: Poses, person: str | None) -> Overlay:
     points[frames, :, :2], points[frames, :, 2] = person_rows["image"], person_rows["confidence"]
     lines = tuple((names.index(a), names.index(b)) for a, b in LINES if {a, b} <= {*names})
     return Overlay(
-        names, lines, points, fps, float(head.get("start", 0.0)),
-        int(head.get("width", 0)), int(head.get("height", 0)),
+        names, lines, points=points, fps=fps, start_s=float(head.get("start", 0.0)),
+        width=int(head.get("width", 0)), height=int(head.get("height", 0)),
     )  # fmt: skip

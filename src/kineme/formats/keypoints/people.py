@@ -127,16 +127,16 @@ def _measure_step(frames: Rows, points: Floats, former: int, row: int) -> Floats
     """Return the mean movement of a person per frame between two rows, 0 if unknown."""
     steps = points[row] - points[former]
     seen = np.isfinite(steps).all(axis=1)
-    passed = frames[row] - frames[former]
-    return steps[seen].mean(axis=0) / passed if seen.any() else np.zeros(3)
+    elapsed = frames[row] - frames[former]
+    return steps[seen].mean(axis=0) / elapsed if seen.any() else np.zeros(3)
 
 
 def _measure_strides(frames: Rows, points: Floats, before: Rows, drift: Floats, row: int) -> Floats:
     """Return distances of a row to expected people, as multiples of the allowed one, or inf."""
     now = points[row]
-    passed = frames[row] - frames[before]
+    elapsed = frames[row] - frames[before]
     with np.errstate(all="ignore"):
-        expected = points[before] + (drift * passed[:, None])[:, None]
+        expected = points[before] + (drift * elapsed[:, None])[:, None]
         # Distance of each keypoint (people, keypoints), NaN where not seen.
         distances = np.linalg.norm(expected - now, axis=2)
         visible = np.isfinite(distances)
@@ -144,5 +144,5 @@ def _measure_strides(frames: Rows, points: Floats, before: Rows, drift: Floats, 
         seen_now = now[np.isfinite(now).all(axis=1)]
         size = np.ptp(seen_now, axis=0).max() if len(seen_now) > 1 else 0.0
         # A person not seen for longer may be farther away.
-        strides = mean / (size * (_STRIDE + _STRAY * (passed - 1)))
+        strides = mean / (size * (_STRIDE + _STRAY * (elapsed - 1)))
     return np.asarray(np.where(np.isfinite(strides), strides, np.inf))

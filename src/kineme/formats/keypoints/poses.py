@@ -220,7 +220,7 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     notes = ["metres from the middle of the hips, without the position in the room"]
     motion = video_to_motion(
         content, options, f"video poses ({head['estimator']})", head["keypoints"], people,
-        float(head["limit"]), fps=fps, frames=frames, unit=unit, up=up,
+        limit=float(head["limit"]), fps=fps, frames=frames, unit=unit, up=up,
         notes=notes if head["depth"] else (),
     )  # fmt: skip
     cuts = find_cuts(rows[rows["person"] == int(motion.provenance.person or 0)], head)

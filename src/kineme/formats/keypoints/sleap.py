@@ -43,7 +43,9 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
     # Old files have tracks, axes, nodes, frames; new ones frames, tracks, nodes, axes.
     is_old = tracks.shape[1:3] == (2, len(nodes)) and len(names) in (0, tracks.shape[0])
     if not is_old and tracks.shape[2:] != (len(nodes), 2):
-        raise content.error(f"tracks of shape {tracks.shape} do not go with {len(nodes)} nodes")
+        raise content.error(
+            f"tracks have shape {tracks.shape}, which does not fit {len(nodes)} nodes"
+        )
     positions, confidence = _arrange(content, tracks, variables.get("point_scores"), old=is_old)
     if len(names) != len(positions):
         names = [str(i) for i in range(len(positions))]
@@ -54,7 +56,7 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
         for track, frame in np.argwhere(visible).tolist()
     ]
     frames = range(positions.shape[1])
-    return video_to_motion(content, options, "SLEAP", nodes, people, LIMIT, frames=frames)
+    return video_to_motion(content, options, "SLEAP", nodes, people, limit=LIMIT, frames=frames)
 
 
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -77,7 +79,7 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
         for i, frame in enumerate(frames)
     ]
     start = [0] if 0 <= min(frames) < len(frames) else []  # include the start of the video
-    return video_to_motion(content, options, "SLEAP", nodes, people, LIMIT, frames=start)
+    return video_to_motion(content, options, "SLEAP", nodes, people, limit=LIMIT, frames=start)
 
 
 def _arrange(content: FileContent, tracks: Any, scores: Any, *, old: bool) -> tuple[Floats, Floats]:

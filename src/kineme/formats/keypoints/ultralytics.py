@@ -45,7 +45,9 @@ def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> M
         confidence = points.get("visible") or [float(any(pair)) for pair in pairs]
         people.append(Person(number, pairs, confidence, person))
     frames = range(len(data))
-    return video_to_motion(content, options, "Ultralytics", names, people, LIMIT, frames=frames)
+    return video_to_motion(
+        content, options, "Ultralytics", names, people, limit=LIMIT, frames=frames
+    )
 
 
 def _list_people(frame: Any) -> list[Mapping[str, Any]]:

@@ -45,8 +45,8 @@ def video_to_motion(
     program: str,
     names: Sequence[str],
     people: Sequence[Person],
-    limit: float,
     *,
+    limit: float,
     fps: float | None = None,
     frames: Sequence[int] = (),
     unit: str | float | None = "pixel",
@@ -69,6 +69,7 @@ def video_to_motion(
         raise content.error("no person found in any frame")
     people = sorted(people, key=attrgetter("frame"))
     rows_frames, n_frames = _number_frames(content, frames, [person.frame for person in people])
+    # Three coordinates and the confidence, 8 bytes each.
     size = 8 * 4 * len(names) * max(n_frames, len(people))
     content.require_memory(size, f"{len(names)} keypoints in {n_frames} frames")
     points, confidence = _stack_people(content, people, len(names))
@@ -136,17 +137,20 @@ def to_frame_numbers(content: FileContent, frames: Floats | Ints) -> NDArray[np.
 
 
 def _number_frames(
-    content: FileContent, all_frames: Sequence[int], frames: list[int]
+    content: FileContent, video_frames: Sequence[int], people_frames: list[int]
 ) -> tuple[NDArray[np.intp], int]:
-    """Return frames counted from 0, and the number of frames."""
-    numbers = {*frames, *all_frames}
+    """Return the frame of each detected person, counted from 0, and the number of frames.
+
+    ``video_frames`` includes frames without people, if the file lists them.
+    """
+    numbers = {*people_frames, *video_frames}
     first, last = min(numbers), max(numbers)
     if last - first >= MAX_FRAMES_RATIO * (len(numbers) + 1):
         raise content.error(
             f"the numbers of {len(numbers)} frames run from {first} to {last}: these cannot "
             "be frame numbers"
         )
-    return np.array([frame - first for frame in frames], np.intp), last - first + 1
+    return np.array([frame - first for frame in people_frames], np.intp), last - first + 1
 
 
 def _stack_people(content: FileContent, people: Sequence[Person], k: int) -> tuple[Floats, Floats]:

@@ -118,7 +118,7 @@ def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Sig
     if not file.analog.size:
         raise content.error("holds no analog channels")
     names = make_unique(file.analog_labels)
-    chosen = list_needed_columns(select_columns(content, names, columns, names), names)
+    chosen = list_needed_columns(select_columns(content, names, columns, numeric=names), names)
     values = file.analog[:, [names.index(name) for name in chosen]]
     table = ChannelTable(chosen, values, {}, file.analog_rate or None, tuple(notes))
     return to_signals(content, "C3D", table, options.fps)

@@ -178,16 +178,23 @@ class Header:
 
 
 def read_header(content: FileContent, parameters: Parameters) -> Header:
-    """Return the header, in the numbers of the processor that the parameters name."""
+    """Return the header; the parameters name the processor whose number formats it uses."""
     kind = parameters.processor
-    words = np.frombuffer(content.data, get_number_type(kind, real=False), 12)
+    integers = np.frombuffer(content.data, get_number_type(kind, real=False), 12)
     # Counts above 32767 need unsigned integers.
-    words = words.view(words.dtype.str.replace("i", "u"))
-    reals = np.frombuffer(content.data, get_number_type(kind, real=True), 6)
-    # The scale is the fourth real of the header, the rate the sixth.
-    scale, rate = as_float32(reals, kind)[[3, 5]].tolist()
-    _, points, analog, first, last, _, _, _, block, per_frame, _, _ = words.tolist()
-    return Header(points, analog, first, last, scale, block, per_frame, rate)
+    words = integers.view(integers.dtype.str.replace("i", "u")).tolist()
+    # A real takes two words.
+    reals = as_float32(np.frombuffer(content.data, get_number_type(kind, real=True), 6), kind)
+    return Header(  # the specification counts words from 1
+        points=words[1],
+        analog_per_frame=words[2],
+        first_frame=words[3],
+        last_frame=words[4],
+        scale=float(reals[3]),  # words 7 and 8; word 6 is the largest gap to interpolate
+        data_block=words[8],
+        samples_per_frame=words[9],
+        rate=float(reals[5]),  # words 11 and 12
+    )
 
 
 @dataclass(frozen=True)
@@ -288,6 +295,7 @@ class Layout:
         return as_float32(raw, self.parameters.processor) if self.scale < 0 else raw
 
     def _declared_frames(self) -> set[int]:
+        """Return the numbers of frames that header and parameters state, which may differ."""
         start, stop = self._long("ACTUAL_START_FIELD"), self._long("ACTUAL_END_FIELD")
         counts = {
             self.header.last_frame - self.header.first_frame + 1,

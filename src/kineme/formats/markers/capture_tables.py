@@ -90,10 +90,10 @@ def read_capture(
     rows = DelimitedText(
         content,
         lines[:end],
-        capture.cells,
-        capture.first_row - 1,
-        capture.first_row,
-        capture.separator,
+        names=capture.cells,
+        head=capture.first_row - 1,
+        first_row=capture.first_row,
+        separator=capture.separator,
     )
     # Axes: frames, markers, coordinates.
     values = rows.numbers(chosen).reshape(-1, len(names), 3)
@@ -121,6 +121,7 @@ def _find_first_line(lines: Sequence[str]) -> str:
 
 
 def _parse_nexus(content: FileContent, lines: Sequence[str]) -> Capture:
+    """Return where the markers, rate and unit are in an export of Nexus."""
     at = next(i for i, line in enumerate(lines) if _MARKERS.fullmatch(line))
     axes = _find_axis_line(content, lines, at)
     if axes < at + 3 or axes + 1 >= len(lines):
@@ -135,10 +136,18 @@ def _parse_nexus(content: FileContent, lines: Sequence[str]) -> Capture:
         listed = " and ".join(sorted(set(units)))
         raise content.error(f"markers are in {listed}: export all of them in one unit", axes + 2)
     rate = split_cells(lines[at + 1], separator)[0]
-    return Capture(cells, separator, axes + 2, columns, rate, units[0] if units else "")
+    return Capture(
+        cells,
+        separator,
+        first_row=axes + 2,
+        columns=columns,
+        rate=rate,
+        unit=units[0] if units else "",
+    )
 
 
 def _parse_motive(content: FileContent, lines: Sequence[str]) -> Capture:
+    """Return where the markers, rate and unit are in an export of Motive."""
     axes = _find_axis_line(content, lines, 0)
     separator = find_separator(lines[axes])
     above = [split_cells(line, separator) for line in lines[:axes] if line.strip(' ",;\t')]
@@ -158,7 +167,7 @@ def _parse_motive(content: FileContent, lines: Sequence[str]) -> Capture:
     columns = _find_columns(content, names, position_axes, axes)
     rate = metadata.get("export frame rate") or metadata.get("capture frame rate", "")
     unit = metadata.get("length units", "")
-    return Capture(cells, separator, axes + 1, columns, rate, unit)
+    return Capture(cells, separator, first_row=axes + 1, columns=columns, rate=rate, unit=unit)
 
 
 def _find_point_kinds(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
@@ -185,18 +194,25 @@ def _find_point_kinds(kinds: Sequence[str], names: Sequence[str]) -> set[str]:
 
 
 def _parse_qtm(content: FileContent, lines: Sequence[str]) -> Capture:
+    """Return where the markers and rate are in an export of QTM."""
     metadata = _parse_header(lines)
     names = metadata["MARKER_NAMES"]
     below = next((i for i, line in enumerate(lines) if is_number(line.split("\t")[0])), len(lines))
     cells = lines[below].split("\t") if below < len(lines) else []
-    has_times = (
-        len(cells) >= 3 * len(names) + 2
-    )  # frame and time come first; a row may end with a tab
+    # Frame and time come first; a row may end with a tab.
+    has_times = len(cells) >= 3 * len(names) + 2
     columns = {name: 3 * i + 2 * has_times for i, name in enumerate(names)}
     if len(cells) < 3 * len(names):
         raise content.error(f"{len(cells)} columns for {len(names)} markers", below + 1)
     numbered = [str(i) for i in range(3 * len(names) + 2 * has_times)]
-    return Capture(numbered, "\t", below, columns, "".join(metadata.get("FREQUENCY", [])), "mm")
+    return Capture(
+        numbered,
+        "\t",
+        first_row=below,
+        columns=columns,
+        rate="".join(metadata.get("FREQUENCY", [])),
+        unit="mm",
+    )
 
 
 def _parse_header(lines: Sequence[str]) -> dict[str, list[str]]:

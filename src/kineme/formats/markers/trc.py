@@ -42,7 +42,9 @@ def read_trc(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("no marker is named after 'Frame#' and 'Time'", 4)
     # Frame and time precede x, y, z of each marker.
     columns = ["frame", "seconds", *(f"{name}_{axis}" for name in names for axis in "xyz")]
-    text = DelimitedText(content, lines, columns, 3, _HEADER_LINES, separator)
+    text = DelimitedText(
+        content, lines, names=columns, head=3, first_row=_HEADER_LINES, separator=separator
+    )
     table = text.numbers()
     head = _parse_header(lines[1], lines[2], find_separator(lines[1]))
     declared = head.get("NumFrames", "")
@@ -124,6 +126,7 @@ def _parse_header(keys: str, values: str, separator: str) -> dict[str, str]:
 def _find_timing(
     content: FileContent, options: ReadOptions, head: dict[str, str], times: Floats
 ) -> Timing:
+    """Return the rate and frames of rows: of the options, the header or the times."""
     if options.fps:
         return Timing(options.fps)
     try:

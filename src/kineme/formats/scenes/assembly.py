@@ -110,11 +110,11 @@ def assemble(
     content.release()
     rotations, offsets, slides = local
     # Leaves with constant rotation and offset become end sites, which have no rotation.
-    inner = set(parents)
+    parent_joints = set(parents)
     ends = [
         j
         for j, node in enumerate(joints)
-        if j not in inner
+        if j not in parent_joints
         and j not in slides
         and nodes[node].end
         and np.ptp(rotations[:, j], axis=0).max() < TOLERANCE
@@ -137,7 +137,20 @@ def _apply_scale(
     n_frames: int,
     turn: Floats,
 ) -> Local | None:
-    """Return unchanged rotations and scaled offsets; None if a scale is not uniform."""
+    """Return joints whose scales are applied to their offsets; None if one is not uniform.
+
+    ``ancestors`` are the nodes above the root, topmost first, ``joints`` those of the joints, root
+    first, ``parents`` the indices of joints. ``turn`` is the rotation of the scene's axes to y up.
+
+    Returns
+    -------
+    rotations : (frames, joints, 4)
+        Relative to the parent, unchanged; that of the root is in the world.
+    offsets : (joints, 3)
+        Multiplied by the world scale of the parent.
+    slides : dict of int to (frames, 3)
+        Translations of the root, and of joints whose translation varies.
+    """
     # The transforms of the nodes above the root become part of the root.
     position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
     for node in (*ancestors, joints[0]):
@@ -361,10 +374,10 @@ def find_keys(times: Floats, frame_times: Floats, slack: float) -> tuple[NDArray
     previous = np.searchsorted(times, frame_times + slack, "right") - 1
     # Use the last interval for times after the last key.
     index = np.clip(previous, 0, len(times) - 2)
-    passed = frame_times - times[index]
-    share = passed / np.diff(times)[index]
+    elapsed = frame_times - times[index]
+    share = elapsed / np.diff(times)[index]
     # Near a key use exactly its value.
-    share[np.abs(passed) <= slack] = 0.0
+    share[np.abs(elapsed) <= slack] = 0.0
     share[np.abs(frame_times - times[index + 1]) <= slack] = 1.0
     return index, np.clip(share, 0.0, 1.0)
 

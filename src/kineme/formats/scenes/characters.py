@@ -211,9 +211,10 @@ def _name_bodies(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> list[st
 
 
 def _find_props(nodes: Sequence[SceneNode], bodies: list[list[int]]) -> dict[int, int]:
-    """Return the topmost nodes that are animated or bones and belong to no body or its ancestors.
+    """Return the topmost node of each prop, with its number of animated nodes.
 
-    Each is mapped to the number of animated nodes from it down without geometry and bone.
+    A prop begins at a node that is a bone or animated, and neither in a body nor above one. Nodes
+    that are bones or carry geometry are not counted.
     """
     body = {joint for joints in bodies for joint in joints}
     body.update(above for joints in bodies for above in list_ancestors(nodes, joints[0]))

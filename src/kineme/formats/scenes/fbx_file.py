@@ -148,6 +148,7 @@ def get_head_struct(version: int) -> struct.Struct:
 
 
 def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
+    """Return the root of a binary file; ``head`` is the layout of what precedes each node."""
     data = content.data
     root = FBXNode("")
     # Use a stack instead of recursion, since nodes may be nested deeply.
@@ -176,7 +177,13 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
         nodes += 1
         require_node_memory(content, nodes)
         name = data[offset:start].decode("utf-8", "replace")
-        child = FBXNode(name, _parse_values(content, start, start + size, count), [], first, end)
+        child = FBXNode(
+            name,
+            _parse_values(content, start, start + size, count),
+            children=[],
+            start=first,
+            stop=end,
+        )
         node.children.append(child)
         offset = start + size
         # The rest of the node holds its children.
@@ -186,6 +193,7 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
 
 
 def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> list[Any]:
+    """Return the ``count`` values of a node, which lie before ``stop``."""
     values: list[Any] = []
     for _ in range(count):
         if offset >= stop:
@@ -275,6 +283,7 @@ class _TextParser:
         return self.content.error(reason, self.data.count(b"\n", 0, offset) + 1)
 
     def _parse_token(self, match: re.Match[bytes]) -> None:
+        """Add a token to the node that is open, or open or close one."""
         kind = match.lastgroup or ""
         value, offset = match[kind], match.start(kind)
         if kind == "name":

@@ -50,7 +50,9 @@ TRANSLATION, ROTATION, SCALING = "Lcl Translation", "Lcl Rotation", "Lcl Scaling
 # Axes from left to right in the product of rotations; the last one is applied first.
 _ORDERS = ("zyx", "yzx", "xzy", "zxy", "yxz", "xyz", "zyx")
 INHERITANCE: tuple[Inheritance, ...] = ("RrSs", "RSrs", "Rrs")
+# Values of BlendMode, ScaleAccumulationMode and RotationAccumulationMode.
 _OVERRIDE, _PASS_THROUGH = 1, 2
+_MULTIPLY, _BY_CHANNEL = 0, 1
 _MAX_VALUE = 1e100  # larger numbers are damage
 
 Properties = dict[str, list[object]]
@@ -109,6 +111,7 @@ class FBXScene:
         self.takes = self._read_takes(root)
 
     def _connect(self, link: FBXNode) -> None:
+        """Store a connection of an object to another one (OO), or to a property of it (OP)."""
         part, parent = link.number(1, -1), link.number(2, -1)
         if not (isinstance(part, int) and isinstance(parent, int)):
             return
@@ -172,6 +175,7 @@ class FBXScene:
         return models
 
     def _read_takes(self, root: FBXNode) -> list[Take]:
+        """Return the takes with their layers and spans in ticks."""
         spans = _read_spans(root)
         takes = []
         for number, node in self.objects.items():
@@ -197,11 +201,15 @@ class FBXScene:
         """Return the models as nodes of a scene; ``moved`` are the numbers of animated ones."""
         return [
             SceneNode(
-                each.name, each.parent, each.number in self.bones, each.kind in GEOMETRY,
-                each.number in moved, is_end(each.name),
+                each.name,
+                each.parent,
+                bone=each.number in self.bones,
+                geometry=each.kind in GEOMETRY,
+                animated=each.number in moved,
+                end=is_end(each.name),
             )
             for each in self.models
-        ]  # fmt: skip
+        ]
 
     def find_moved(self, take: Take) -> set[int]:
         """Return the numbers of the models that a take drives."""
@@ -260,34 +268,35 @@ class Pose:
         self.tracks = scene.find_tracks(take)
         self.layers = {number: scene.get_properties(number) for number in take.layers}
 
-    def compute_rest(self, number: int) -> Transform:
-        """Return the transform of a model, by its index among the nodes, in the bind pose.
+    def compute_rest(self, index: int) -> Transform:
+        """Return the transform of the model at an index of the scene, in the bind pose.
 
         Without a bind pose it is the transform without animation.
         """
-        if self.scene.models[number].number not in self.scene.binds:
-            return self.compute_transform(number, animated=False)
-        parent = self.scene.models[number].parent
+        model = self.scene.models[index]
+        if model.number not in self.scene.binds:
+            return self.compute_transform(index, animated=False)
+        # Bind poses are in the world: solve for the transform relative to the parent.
         local = np.linalg.solve(
-            self._compute_rest_matrix(parent), self._compute_rest_matrix(number)
+            self._compute_rest_matrix(model.parent), self._compute_rest_matrix(index)
         )
         return decompose(np.asarray(local, np.float64))
 
-    def _compute_rest_matrix(self, number: int) -> Floats:
-        """Return the world matrix of a node in the bind pose; -1 is the ground."""
-        if number < 0:
+    def _compute_rest_matrix(self, index: int) -> Floats:
+        """Return the world matrix of a model in the bind pose; index -1 is the ground."""
+        if index < 0:
             return np.eye(4)
-        model = self.scene.models[number]
+        model = self.scene.models[index]
         if (bind := self.scene.binds.get(model.number)) is not None:
             return bind
-        local = [part[None] for part in self.compute_transform(number, animated=False)[:3]]
+        local = [part[None] for part in self.compute_transform(index, animated=False)[:3]]
         return np.asarray(self._compute_rest_matrix(model.parent) @ compose(*local)[0], np.float64)
 
-    def compute_transform(self, number: int, *, animated: bool = True) -> Transform:
-        """Return the transform of a model, by its index among the nodes."""
+    def compute_transform(self, index: int, *, animated: bool = True) -> Transform:
+        """Return the transform of the model at an index of the scene, relative to its parent."""
         if not animated and self.tracks:
-            return Pose(self.scene, REST_TAKE, self.sampler).compute_transform(number)
-        model = self.scene.models[number]
+            return Pose(self.scene, REST_TAKE, self.sampler).compute_transform(index)
+        model = self.scene.models[index]
         properties = model.properties
         order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]
         turn = self._compute_rotation(model, order)
@@ -312,7 +321,7 @@ class Pose:
             # A weight of None replaces all previous layers.
             if weight is None:
                 angles, turn = value, None
-            elif _get_choice(properties, "RotationAccumulationMode", 2) == 1:
+            elif _get_choice(properties, "RotationAccumulationMode", 2) == _BY_CHANNEL:
                 # Layers are added per axis, so convert a product back to angles.
                 angles = angles if turn is None else _to_angles(turn, order)
                 angles = angles * _weigh_previous(weight, properties) + value * weight
@@ -331,6 +340,7 @@ class Pose:
 
     def _combine_layers(self, model: Model, property_name: str, default: float) -> Floats:
         """Return a property of a model combined from all layers, (3,) or (frames, 3)."""
+        # Values without animation, which axes without a curve keep.
         result = _get_vector(model.properties, property_name, default)
         for value, weight, properties in self._sample_layers(model, property_name, result):
             # A weight of None replaces all previous layers.
@@ -339,7 +349,7 @@ class Pose:
                 continue
             previous_weight = _weigh_previous(weight, properties)
             mode = _get_choice(properties, "ScaleAccumulationMode", 2)
-            if property_name == SCALING and mode == 0:  # multiplied: weights are exponents
+            if property_name == SCALING and mode == _MULTIPLY:  # weights are exponents
                 result = np.abs(result) ** previous_weight * np.abs(value) ** weight
             else:
                 result = result * previous_weight + value * weight
@@ -348,7 +358,10 @@ class Pose:
     def _sample_layers(
         self, model: Model, property_name: str, default: Floats
     ) -> Iterator[tuple[Floats, Floats | float | None, Properties]]:
-        """Yield value, weight (None: replaces all others) and properties of each layer."""
+        """Yield value, weight (None: replaces all others) and properties of each layer.
+
+        The base layer, the first, is never blended: its values replace those without animation.
+        """
         base = next(iter(self.layers), None)
         for layer, part in self.tracks.get((model.number, property_name), ()):
             table = self.layers[layer]
@@ -394,9 +407,9 @@ def invert_transform(
     pre_rotation, post_rotation = (
         _to_rotation(_get_vector(properties, f"{kind}Rotation"), "zyx") for kind in ("Pre", "Post")
     )
-    inner = rot.multiply(rot.multiply(rot.conjugate(pre_rotation), turns), post_rotation)
+    own_turns = rot.multiply(rot.multiply(rot.conjugate(pre_rotation), turns), post_rotation)
     # The contribution of pivots does not depend on the translation.
-    return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _to_angles(inner, order)
+    return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _to_angles(own_turns, order)
 
 
 def _replaces(properties: Properties) -> bool:
@@ -430,11 +443,13 @@ def _to_angles(turn: Floats, axes: str) -> Floats:
 
 
 def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:
-    """Return the translation including the contribution of pivots and their offsets."""
+    """Return the translation including the contribution of pivots and their offsets.
+
+    With pivots P, offsets O, rotation R and scale S, it is T + Or + Pr + R (Os - Pr + Ps - S Ps).
+    """
     shift = shift + _get_vector(properties, "RotationOffset")
     pivot = _get_vector(properties, "RotationPivot")
     center = _get_vector(properties, "ScalingPivot")
-    # Vector from the rotation pivot that the rotation is applied to.
     lever = _get_vector(properties, "ScalingOffset") - pivot
     if center.any():
         lever = lever + center - scale * center

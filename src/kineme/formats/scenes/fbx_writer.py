@@ -148,6 +148,7 @@ class TakeWriter:
         self.links.append(FBXNode("C", [kind, np.int64(part), np.int64(parent), *end]))
 
     def _add_model(self, node: int, name: str, rest: Transform) -> int:
+        """Add a node of the rig as a model, at rest; return its number."""
         rig = self.rig
         kind, flags = ("Null", "Null") if node < rig.above else ("LimbNode", "Skeleton")
         type_flags = make_node("TypeFlags", flags)
@@ -217,6 +218,7 @@ class TakeWriter:
     def _add_curves(
         self, layer: int, model: int, property_name: str, short: str, times: Any, values: Floats
     ) -> None:
+        """Add the three curves of a property of a model to a layer."""
         start = [(f"d|{axis}", "Number", "", x) for axis, x in zip("XYZ", values[0], strict=True)]
         node = self._add("AnimationCurveNode", short, "AnimCurveNode", "", _make_properties(*start))
         self._link(node, layer)
@@ -498,6 +500,7 @@ def _write_node(data: bytearray, node: FBXNode, head: struct.Struct, source: byt
 
 
 def _write_values(values: list[Any]) -> Iterator[bytes]:
+    """Yield the values of a node: type, and bytes; arrays are compressed."""
     for value in values:
         if isinstance(value, np.ndarray):
             packed = zlib.compress(value.tobytes(), 1)

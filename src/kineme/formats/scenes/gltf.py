@@ -160,7 +160,16 @@ def _make_nodes(
         geometry = node.mesh is not None or node.camera is not None
         end = is_marked if is_own else is_end(node.name)
         name = node.name or f"node{number}"
-        nodes.append(SceneNode(name, parent, number in bones, geometry, number in moved, end))
+        nodes.append(
+            SceneNode(
+                name,
+                parent,
+                bone=number in bones,
+                geometry=geometry,
+                animated=number in moved,
+                end=end,
+            )
+        )
     return nodes
 
 

@@ -90,7 +90,7 @@ def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> 
         raise WriteError(path, f"the buffers of {source.name} {reason}")
     copy = Animator(skeleton, rig, numbers[rig.above :], tree)
     _drop_animations(copy, file)
-    if numbers[rig.above] < 0:
+    if numbers[rig.above] < 0:  # `add_root` added it, so the file has no such node
         copy.numbers = [_add_root(copy, file, rig), *numbers[rig.above + 1 :]]
     _embed_images(copy, file)
     for name, motion in motions.items():
@@ -116,6 +116,7 @@ def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a g
 
 
 def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
+    """Return whether skeletons of two takes are equal, apart from rounding."""
     if first.names != second.names or first.parents != second.parents:
         return False
     if first.rig is None or second.rig is None or not first.rig.numbers:
@@ -379,27 +380,32 @@ def _build_bone_mesh(
 
 
 def _drop_animations(copy: Animator, file: GLTFFile) -> None:
-    """Remove the animations, and copy the bytes of all other data into one buffer."""
+    """Remove the animations, and copy the bytes of all other data into one buffer.
+
+    Numbers of accessors and views stay, as meshes and extensions refer to them: those of dropped
+    ones become free.
+    """
     tree = copy.tree
     tree.setdefault("bufferViews", [])
     tree.setdefault("accessors", [])
     samplers = [each for animation in tree.get("animations", ()) for each in animation["samplers"]]
-    keys = {each[end] for each in samplers for end in ("input", "output")}
+    keyframe_accessors = {each[end] for each in samplers for end in ("input", "output")}
     # Accessors shared with skins or meshes must stay.
-    keys -= {skin.get("inverseBindMatrices") for skin in tree.get("skins", ())}
+    keyframe_accessors -= {skin.get("inverseBindMatrices") for skin in tree.get("skins", ())}
     for mesh in tree.get("meshes", ()):
         for part in mesh["primitives"]:
             used = [part["attributes"], *part.get("targets", ())]
-            keys -= {number for table in used for number in table.values()} | {part.get("indices")}
+            keyframe_accessors -= {number for table in used for number in table.values()}
+            keyframe_accessors.discard(part.get("indices"))
     needed: set[int] = set()
     dropped: set[int] = set()
     for number, accessor in enumerate(tree["accessors"]):
         sparse = accessor.get("sparse", {})
         parts = accessor, sparse.get("indices", {}), sparse.get("values", {})
         views = {part["bufferView"] for part in parts if "bufferView" in part}
-        (dropped if number in keys else needed).update(views)
+        (dropped if number in keyframe_accessors else needed).update(views)
     # Views used only by the dropped accessors are free, too.
-    copy.free_accessors, copy.free_views = sorted(keys), sorted(dropped - needed)
+    copy.free_accessors, copy.free_views = sorted(keyframe_accessors), sorted(dropped - needed)
     for number, view in enumerate(tree["bufferViews"]):
         if number in copy.free_views:
             continue

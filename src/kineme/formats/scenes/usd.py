@@ -152,6 +152,7 @@ def _summarize_warnings(printed: bytes) -> list[Note]:
 
 
 def _read(content: FileContent, options: ReadOptions) -> Motion:
+    """Return the motion of a character in a stage, in one of its animations."""
     from pxr import UsdGeom, UsdSkel
 
     stage, size_of_layers = open_stage(content)
@@ -261,7 +262,16 @@ def _list_nodes(
             # Parents are relative to the first joint; joints without parent are below the carrier.
             parent_node = carrier if parent < 0 else carrier + 1 + parent
             bound = bool(skeleton.bound)
-            nodes.append(SceneNode(joint, parent_node, True, False, bound, skeleton.is_end(j)))
+            nodes.append(
+                SceneNode(
+                    joint,
+                    parent_node,
+                    bone=True,
+                    geometry=False,
+                    animated=bound,
+                    end=skeleton.is_end(j),
+                )
+            )
     return nodes, owners
 
 

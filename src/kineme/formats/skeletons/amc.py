@@ -361,6 +361,7 @@ def _parse_frame_number(content: FileContent, word: bytes, line: int) -> int:
 
 
 def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure) -> None:
+    """Add the line of a bone to the values of a frame; ValueError if the skeleton differs."""
     name = words[0].decode("utf-8", "replace")
     if name not in figure.bones:
         raise ValueError(f"bone {name[:40]!r} is not in the skeleton: give the matching ASF")
@@ -436,18 +437,27 @@ def _list_bones(
     skeleton: Skeleton, all_offsets: Floats, frames: Floats, slides: NDArray[np.bool_], path: Path
 ) -> list[Bone]:
     """Return the root and all bones, parents first."""
-    inner = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
-    words = clean_names(path, [ROOT, *(skeleton.names[j] for j in inner[1:])], _to_word)
-    names = dict(zip(inner, words, strict=True))
+    joints = [j for j in range(skeleton.n_joints) if j not in skeleton.end_sites]
+    words = clean_names(path, [ROOT, *(skeleton.names[j] for j in joints[1:])], _to_word)
+    names = dict(zip(joints, words, strict=True))
     bones: list[Bone] = []
     parent_names = {0: ROOT}
-    for j in inner:
+    for j in joints:
         offsets = all_offsets[list(skeleton.children[j])].reshape(-1, 3)
         # A bone can carry all children only if they have the same position.
         has_common_tip = j > 0 and len(offsets) > 0 and bool(np.ptp(offsets, axis=0).max() < RIGID)
         tip = offsets[0] if has_common_tip else np.zeros(3)
         parent = "" if j == 0 else parent_names[j]
-        bones.append(Bone(names[j], parent, tip, j, j == 0 or bool(slides[j]), frames[j]))
+        bones.append(
+            Bone(
+                names[j],
+                parent,
+                tip=tip,
+                joint=j,
+                slides=j == 0 or bool(slides[j]),
+                frame=frames[j],
+            )
+        )
         for child, offset in zip(skeleton.children[j], offsets, strict=True):
             parent_names[child] = names[j]
             if not has_common_tip and offset.any():
@@ -457,6 +467,7 @@ def _list_bones(
 
 
 def _format_asf(bones: list[Bone]) -> Iterator[str]:
+    """Yield the text of a skeleton file, in degrees and the unit of length of CMU."""
     yield ":version 1.10\n:name kineme\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n"
     yield ":root\n  order TX TY TZ RX RY RZ\n  axis XYZ\n  position 0 0 0\n  orientation 0 0 0\n"
     yield ":bonedata\n"

@@ -207,6 +207,7 @@ def read_values(
 def _parse_parents(
     content: FileContent, lines: list[Line], bones: dict[str, Bone]
 ) -> dict[str, str]:
+    """Return the parent of each bone from the section ``:hierarchy``."""
     parents: dict[str, str] = {}
     for number, (parent, *children) in lines:
         if not children and parent.lower() in ("begin", "end"):
@@ -243,12 +244,13 @@ def _order_bones(
 def _build_skeleton(
     order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
 ) -> Skeleton:
+    """Return a joint at the start of each bone, and an end site at the tip of each leaf."""
     names: list[str] = []
     indices: dict[str, int] = {}
     joint_parents: list[int] = []
     offsets: list[Floats] = []
     ends = []
-    inner = set(parents.values())
+    with_children = set(parents.values())
     for name in order:
         parent = parents.get(name)
         joint_parents.append(-1 if parent is None else indices[parent])
@@ -256,7 +258,7 @@ def _build_skeleton(
         indices[name] = len(names)
         names.append(name)
         # A leaf bone of non-zero length gets an end site.
-        if name not in inner and bones[name].tip.any():
+        if name not in with_children and bones[name].tip.any():
             joint_parents.append(len(names) - 1)
             offsets.append(bones[name].tip)
             ends.append(len(names))

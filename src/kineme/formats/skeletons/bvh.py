@@ -28,6 +28,7 @@ from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import islice
+from math import ceil
 from pathlib import Path
 from typing import NamedTuple
 
@@ -87,12 +88,14 @@ def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
 
 
 def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch | None:
-    """Return at most ``most`` evenly spaced frames; None if the file has no more than those."""
+    """Return at most ``most`` evenly spaced frames.
+
+    None if the file has no more than those, or is not as long as its head states.
+    """
     head = _parse_head(content, options)
-    # Divide, rounding up.
-    every = -(-head.declared // most)
+    every = ceil(head.declared / most)
     values = sample_frames(content.data, head.start, head.width, every) if every > 1 else None
-    if values is None or len(values) != -(-head.declared // every):
+    if values is None or len(values) != ceil(head.declared / every):
         return None
     local, provenance = _compute_local(head.joints, values), Provenance(str(content.path), "BVH")
     motion = _place_joints(head.joints, local, head.fps / every, options, provenance)
@@ -115,6 +118,7 @@ class _Head(NamedTuple):
 
 
 def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
+    """Return what precedes the values: joints, number of frames, rate."""
     split = _MOTION.search(content.data)
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a complete BVH file")
@@ -128,7 +132,7 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     if fps is None:
         fps, note = _parse_rate(content, header.group(2), content.line_at(header.start(2)))
         notes += [note] if note else []
-    return _Head(joints, int(header.group(1)), fps, notes, line, header.end())
+    return _Head(joints, int(header.group(1)), fps=fps, notes=notes, line=line, start=header.end())
 
 
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
@@ -219,6 +223,7 @@ class _HierarchyParser:
             raise self.content.error(f"OFFSET: {error}", line) from None
 
     def _parse_channels(self, line: int) -> list[tuple[str, str]]:
+        """Return axis and kind (position or rotation) of each channel of a joint, in order."""
         declared = self._take_word()[0]
         if not declared.isdecimal() or len(declared) > 18:
             raise self.content.error(f"CHANNELS needs a number, found {declared[:40]!r}", line)
@@ -373,12 +378,12 @@ def _place_joints(
 ) -> Motion:
     """Return the motion of joints from the result of `_compute_local`."""
     parents = tuple(joint.parent for joint in joints)
-    inner = {*parents}
+    with_children = {*parents}
     skeleton = Skeleton(
         tuple(joint.name for joint in joints),
         parents,
         np.array([joint.offset for joint in joints]),
-        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in inner),
+        frozenset(i for i, joint in enumerate(joints) if joint.end and i not in with_children),
     )
     return build_motion(
         skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
@@ -389,6 +394,7 @@ def write_bvh(motion: Motion, path: Path) -> None:
     """Write a motion to a BVH file."""
     skeleton = motion.skeleton
     turns, translations, offsets, slides = compute_local_pose(motion, path, "a BVH")
+    # Joints with a translation in each frame: those whose offset varies, and the roots.
     slides |= np.array(skeleton.parents) < 0
     unit, inverse = UNIT, rot.IDENTITY
     is_from_bvh = motion.provenance.format == "BVH"
@@ -447,7 +453,8 @@ def _format_hierarchy(
     slides: NDArray[np.bool_],
     names: dict[int, str],
 ) -> Iterator[str]:
-    depths: dict[int, int] = {-1: -1}
+    """Yield the lines of the hierarchy; joints without an entry in ``names`` are end sites."""
+    depths: dict[int, int] = {-1: -1}  # the parent of a root is -1
     open_joints: list[int] = []
     yield "HIERARCHY"
     for j in order:

@@ -84,7 +84,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         tallest = positions[np.ptp(positions[:, :, 1], axis=1).argmax()]
         offsets = tallest - np.where(np.array(parents)[:, None] < 0, tallest, tallest[parents])
         skeleton = Skeleton(tuple(names), tuple(parents), offsets)
-        return Motion(skeleton, positions, fps, None, provenance)
+        return Motion(skeleton, positions, fps, rotations=None, provenance=provenance)
     world = _stack_frames(content, subject, "orientation", 4 * n).reshape(-1, n, 4)[:, chosen]
     if len(positions) != len(world):
         raise content.error("some frames have no orientations: export all frames with them")

@@ -354,7 +354,7 @@ def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
     with _open_array(path):
         rows: NDArray[Any] = np.load(copy_nearby(path), allow_pickle=False)
         if rows.ndim != 2 or rows.dtype != kind:
-            raise ValueError("not rows of features")
+            raise ValueError(f"an array of {rows.dtype} {rows.shape}, not of rows of features")
         if kind is np.float32:  # integers cannot be nan or overflow a distance
             _check_plausible(rows)
     return rows

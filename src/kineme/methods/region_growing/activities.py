@@ -207,6 +207,7 @@ def find_primitive_cuts(
 
 
 def _choose_cuts(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:
+    """Return the starts of paths as cuts between ``low`` and ``high``, ``min_length`` apart."""
     starts = paths.starts[1].astype(np.int64)
     cuts: list[int] = []
     sources: list[int] = []
@@ -309,6 +310,7 @@ def _make_link_matrix(
 
 
 def _find_best_shares(links: csr_array, components: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return the largest share by which each segment is linked to another of its cluster."""
     coo = links.tocoo()
     same = components[coo.row] == components[coo.col]
     # Both segments of a link within a cluster get its share.

@@ -160,10 +160,12 @@ def analyze_regions(
         cuts = _find_activity_cuts(off_diagonal, preset)
         borders = _make_borders(cuts.all, len(graph))
         # Neighbours of each frame within its own segment: a segment repeats if it has many.
-        inner = _kernels.count_inner_neighbors(off_diagonal.indptr, off_diagonal.indices, borders)
-        repeats = _find_repeats(borders, cuts, np.add.reduceat(inner, borders[:-1]), preset)
+        n_inside = _kernels.count_inner_neighbors(
+            off_diagonal.indptr, off_diagonal.indices, borders
+        )
+        repeats = _find_repeats(borders, cuts, np.add.reduceat(n_inside, borders[:-1]), preset)
         # Share of the frames of each segment that have a neighbour in it.
-        repetition = np.add.reduceat(inner > 0, borders[:-1]) / np.diff(borders)
+        repetition = np.add.reduceat(n_inside > 0, borders[:-1]) / np.diff(borders)
     with stage("primitives"):
         divided = _find_primitives(graph, borders, preset)
     cuts_inside = [each.cuts for each in divided]
@@ -185,14 +187,14 @@ def analyze_regions(
     return RegionsFound(
         compared,
         graph,
-        cuts,
-        borders,
-        repeats,
-        repetition,
-        primitives,
-        clustering,
-        symmetry,
-        timings,
+        activity_cuts=cuts,
+        borders=borders,
+        repeats=repeats,
+        repetition=repetition,
+        primitives=primitives,
+        clustering=clustering,
+        symmetry=symmetry,
+        timings=timings,
     )
 
 
@@ -234,8 +236,8 @@ def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) ->
 
 def _make_borders(cuts: Frames, n: int) -> Frames:
     """Return 0, the cuts with at least one frame on each side, and n."""
-    inner = np.unique(cuts)
-    return np.concatenate([[0], inner[(inner > 0) & (inner < n - 1)], [n]])
+    distinct = np.unique(cuts)
+    return np.concatenate([[0], distinct[(distinct > 0) & (distinct < n - 1)], [n]])
 
 
 def _find_repeats(
@@ -250,6 +252,7 @@ def _find_repeats(
 def _find_primitives(
     graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
+    """Return the cuts inside each activity, with the constants in samples."""
     # Ends are inclusive, so the last border is the last frame.
     frames = np.minimum(borders, len(graph) - 1).tolist()
 
@@ -291,6 +294,7 @@ def _classify_symmetry(
 def _find_clusters(
     graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants
 ) -> Clustering:
+    """Return the clusters of segments, with the constants in samples."""
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
     return cluster_segments(

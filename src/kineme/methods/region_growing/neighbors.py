@@ -267,7 +267,11 @@ def _measure_part(
     k: int | None,
     part: slice,
 ) -> Part:
-    """Screen some rows of a block by estimate, measure distances, and keep the k nearest."""
+    """Screen some rows of a block by estimate, measure distances, and keep the k nearest.
+
+    ``estimate`` (rows, columns) are those of `iterate_neighbors`, ``starts`` and ``stops``
+    (rows,) the columns within the lag, and ``screened`` is memory for the columns that pass.
+    """
     counts = np.empty(part.stop - part.start, np.int64)
     hits = screened[part]
     _kernels.screen_columns(

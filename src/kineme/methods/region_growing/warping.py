@@ -203,6 +203,7 @@ def _find_box(frames: tuple[int, int], name: str) -> tuple[int, int]:
 
 
 def _as_steps(steps: Sequence[Step]) -> NDArray[np.int64]:
+    """Return warping steps as an array (steps, 2); raise ParameterError for anything else."""
     try:
         pairs = np.array(steps)
     except ValueError:  # tuples of different lengths

@@ -227,6 +227,7 @@ class Part:
 
 
 def _merge_rows(part: Part, level: Level, first: int, last: int, *, like: int) -> Segmentation:
+    """Merge rows ``first`` to ``last`` of a level into one with the properties of row ``like``."""
     activities, primitives = part.activities, [*part.primitives]
     if level == "primitive":
         if primitives[first].activity != primitives[last].activity:
@@ -322,9 +323,9 @@ def reassign_primitives(
     borders = list_cuts(primitives)
     # A border of activities must be one of primitives: move the nearest one that was passed.
     if to not in borders:
-        passed = [border for border in borders if low <= border <= high]
+        crossed = [border for border in borders if low <= border <= high]
         primitives = move_border_rows(
-            primitives, min(passed, key=lambda border: abs(border - to)), to
+            primitives, min(crossed, key=lambda border: abs(border - to)), to
         )
     # Indices of the activity that lost frames, and of the one that got them.
     gave, took = (number - 1, number) if to < frame else (number, number - 1)

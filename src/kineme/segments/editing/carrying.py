@@ -147,13 +147,16 @@ def _spread_clusters(segmentation: Segmentation, level: Level) -> NDArray[np.int
     return clusters if len(clusters) else np.full(segmentation.n_frames, -1)
 
 
-def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> CarryResult:
-    """Carry names over to the new table, and list the names without a match."""
+def _carry_names(now: Segmentation, before: Segmentation, corrections: int) -> CarryResult:
+    """Carry names over to the new table, and list the names without a match.
+
+    ``corrections`` is the number of those carried over before.
+    """
     lost, new_names = [], dict[int, str]()
     present = set(now.table.cluster.tolist())
     names, singles = cluster_names(before), _find_own_names(before)
     if not names and not singles:
-        return CarryResult(now, fixed, 0, [])
+        return CarryResult(now, corrections, names=0, lost=[])
     for cluster, name in names.items():
         if cluster in present:
             new_names[cluster] = name
@@ -172,7 +175,7 @@ def _carry_names(now: Segmentation, before: Segmentation, fixed: int) -> CarryRe
     rows = [replace(row, label=labels.get(get_span(row), row.label)) for row in now]
     # Store empty names for clusters without one, so that none is inferred from labels.
     now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
-    return CarryResult(now, fixed, len(names) + len(singles), lost)
+    return CarryResult(now, corrections, len(names) + len(singles), lost)
 
 
 def _find_matching_segment(segmentation: Segmentation, row: Segment) -> Segment | None:

@@ -190,9 +190,9 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     ('jump', 8)
     """
     # Numbers must have no gaps: the only new number allowed is the next one.
-    following = int(segmentation.table.cluster.max(initial=-1)) + 1
-    if not -1 <= cluster <= following:
-        raise ParameterError(f"there is no cluster {cluster}; the next new one is {following}")
+    new_cluster = int(segmentation.table.cluster.max(initial=-1)) + 1
+    if not -1 <= cluster <= new_cluster:
+        raise ParameterError(f"there is no cluster {cluster}; the next new one is {new_cluster}")
     chosen = find_segment_at(segmentation, level, frame)
     members = [(level, chosen)]
     if level == "activity":
@@ -281,8 +281,8 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
         moved += [
             ("activity", row) for i, row in numbered if i in leaving and row.cluster == cluster
         ]
-    following = int(segmentation.table.cluster.max(initial=-1)) + 1
-    return _move_members(segmentation, moved, following)
+    new_cluster = int(segmentation.table.cluster.max(initial=-1)) + 1
+    return _move_members(segmentation, moved, new_cluster)
 
 
 def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
