@@ -146,6 +146,11 @@ def test_provenance_says_how_it_was_made() -> None:
     assert [*published.timings] == ["features", "neighbors", "activities", "primitives", "clusters"]
 
 
+def test_what_is_no_motion_is_refused_with_the_way_to_one() -> None:
+    with pytest.raises(ParameterError, match=r"takes a Motion or Signals, not \w+: kineme.read"):
+        segment("take.bvh")
+
+
 def test_an_unknown_constant_is_refused() -> None:
     with pytest.raises(
         ParameterError, match=r"no parameter 'min_acton'; did you mean min_action\?"
