@@ -348,3 +348,16 @@ def test_one_build_at_a_time(folder: Path) -> None:
 
     with lock_for_writing(folder, "build"), pytest.raises(WriteError, match="another process"):
         build((), folder)
+
+
+def test_copies_are_worked_on_once_and_each_is_named(takes: Path, tmp_path: Path) -> None:
+    own = tmp_path / "takes"
+    own.mkdir()
+    for name in ("a", "b", "c"):
+        shutil.copy(takes / "wrist.csv", own / f"{name}.csv")
+        shutil.copy(takes / "broken.bvh", own / f"{name}.bvh")
+    made = build(own, tmp_path / "library", jobs=1)
+    assert made.new == 1
+    assert all(f"{path.name}: " in said for path, said in made.failed.items())
+    assert len(made.failed) == 3
+    assert Library(tmp_path / "library").recordings["recording"] == ["a.csv", "b.csv", "c.csv"]
