@@ -24,7 +24,6 @@ import jsonschema
 import pytest
 from matplotlib import pyplot as plt
 
-import _figures
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.labels import read_segments, write_segments
@@ -167,22 +166,6 @@ def test_figures_say_what_measured_them() -> None:
         assert name.startswith(f"{script[1]}.")
         assert dt.date.fromisoformat(figure["date"])
         assert figure.keys() == {"value", "unit", "command", "version", "date"}
-
-
-def test_a_benchmark_records_only_when_asked(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    file = tmp_path / "figures.json"
-    monkeypatch.setattr(_figures, "FILE", file)
-    monkeypatch.setattr(sys, "argv", ["benchmarks/papers/noise.py", "--seeds", "3"])
-    _figures.record("noise.counts", 91.0, unit="%")
-    assert not file.exists()
-    monkeypatch.setattr(sys, "argv", [*sys.argv, "--record"])
-    _figures.record("noise.counts", 92.5, unit="%")
-    _figures.record("noise.borders", "3 of 4")
-    figures = json.loads(file.read_text(encoding="utf-8"))
-    assert figures["noise.counts"]["command"] == "python -m benchmarks noise --seeds 3"
-    assert FILL["show_figure"](figures["noise.counts"]) == "92.5 %"
 
 
 def test_results_are_the_recorded_figures() -> None:

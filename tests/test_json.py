@@ -13,8 +13,7 @@ from msgspec import Struct
 import kineme
 from kineme._util.json import DEEPEST, decode_json, load_json
 from kineme.datasets import bundled_truth
-from kineme.errors import ParameterError, ReadError
-from kineme.evaluation import Truth
+from kineme.errors import ReadError
 from kineme.evaluation.inputs import is_annotation_file, read_trials
 from kineme.labels.collections import find_labels
 from kineme.synthesis import MotionGraph
@@ -132,11 +131,6 @@ def test_marks_of_any_length_in_the_text(tmp_path: Path) -> None:
     path.write_text(f"86_01\nwalk 1 2 {'9' * 5000}\n")
     with pytest.raises(ReadError, match="expected the name of a trial"):
         read_trials(path)
-
-
-def test_labels_of_an_annotation_are_texts() -> None:
-    with pytest.raises(ParameterError, match="labels must be a list of texts"):
-        Truth((["walk"],), [], [], [], 10, 30.0)  # type: ignore[arg-type]
 
 
 def test_times_beyond_all_measure_are_cut_off(tmp_path: Path) -> None:

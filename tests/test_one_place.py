@@ -5,7 +5,6 @@ So is what can be said of reading and of segmenting: one class each, which all o
 
 from __future__ import annotations
 
-import ast
 import inspect
 import json
 import os
@@ -333,18 +332,6 @@ def test_options_are_the_keywords_of_read_and_segment() -> None:
     of_segment = {*inspect.signature(kineme.segment).parameters} - {*of_rows, "progress"}
     assert {*vars(ReadOptions())} == of_read == {*READING}
     assert {*vars(SegmentOptions())} == of_segment > {*SEGMENTING}
-
-
-def test_no_other_class_has_the_options_of_reading() -> None:
-    found = []
-    for path in Path(kineme.__file__).parent.rglob("*.py"):
-        text = path.read_text(encoding="utf-8")
-        for node in ast.walk(ast.parse(text)) if "    take: " in text else ():
-            if isinstance(node, ast.ClassDef):
-                parts = [part for part in node.body if isinstance(part, ast.AnnAssign)]
-                if {"take", "unit", "up"} <= {ast.unparse(part.target) for part in parts}:
-                    found.append(node.name)
-    assert found == ["ReadOptions"]
 
 
 def test_every_option_is_kept_in_files_and_sent(tmp_path: Path) -> None:

@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 
 import pytest
-from test_views import AXE, violations
 
 import kineme
+from axe import AXE, load_axe, violations
 from kineme.library import Library, build
 from screen import Screen, until
 from studio_server import StudioServer
@@ -62,14 +62,13 @@ def test_a_cluster_is_named_more_of_it_found_and_what_is_wrong_refused(new_tab, 
 def check_views(page) -> None:
     """Nothing is wider than the window, and axe-core has nothing to say, in both themes."""
     page.emulate_media(reduced_motion="reduce")  # buttons have their new colours at once
-    axe = AXE.exists()
-    if axe:
-        page.evaluate(AXE.read_text(encoding="utf-8"))
+    if axe := AXE.exists():
+        load_axe(page)
     for tab in ("Clusters", "Recordings", "Search"):
         page.get_by_role("tab", name=tab).click()
         for width in (390, 768, 1440, 2560):
             page.set_viewport_size({"width": width, "height": 900})
             until(page, lambda: page.evaluate(FITS), f"{tab} no wider than {width}")
-        assert not axe or violations(page, colors_only=False) == []
+        assert not axe or violations(page) == []
         page.get_by_role("button", name="Show the page").click()
         assert not axe or violations(page, colors_only=True) == []

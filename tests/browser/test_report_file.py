@@ -12,7 +12,7 @@ import pytest
 import kineme
 from kineme.datasets import bundled_recording
 from kineme.report.page import write_report
-from screen import DESKTOP, Screen, box_of, picture_of, until
+from screen import DESKTOP, Screen, box_of
 
 MEAN_RED = """() => {
     dispatchEvent(new Event("beforeprint"));
@@ -147,24 +147,6 @@ def test_signals_have_no_figure_but_lanes_and_matrix(
     assert (shown["hasMotion"], shown["name"], shown["duration"]) == (False, "wrist", 60)
 
 
-def test_a_click_on_a_primitive_moves_everything(
-    open_report: Callable[..., Screen], segmentation: kineme.Segmentation
-) -> None:
-    screen = open_report().opened()
-    before = screen.pixels()
-    row = next(row for row in segmentation.primitives if row.cluster >= 0 and row.start_s > 20)
-    box, gutter = box_of(screen.page.locator(".lanes canvas")), 78
-    share = (row.start_s + row.stop_s) / 2 / screen.state["duration"]
-    x = box["x"] + gutter + share * (box["width"] - gutter)
-    screen.page.mouse.click(x, box["y"] + 0.55 * box["height"])
-    screen.wait("k.selection !== null")
-    state = screen.state
-    assert state["selection"] == {"level": "primitive", "start_frame": row.start_frame}
-    assert (state["frame"], state["cluster"]) == (row.start_frame, row.cluster)
-    screen.changed(before, *before)
-    assert f"cluster {row.cluster}" in screen.page.locator(".clusters tr.shown").inner_text()
-
-
 def test_a_click_in_the_matrix_goes_there(
     open_report: Callable[..., Screen], segmentation: kineme.Segmentation
 ) -> None:
@@ -181,63 +163,3 @@ def test_a_click_in_the_matrix_goes_there(
     here = next(row for row in rows if row.start_frame <= state["frame"] < row.stop_frame)
     assert state["selection"]["start_frame"] == here.start_frame
     screen.changed(before, "lanes")
-
-
-def test_the_keyboard_is_enough(
-    open_report: Callable[..., Screen], segmentation: kineme.Segmentation
-) -> None:
-    screen = open_report().opened()
-    press = screen.page.keyboard.press
-    press("ArrowRight")
-    assert screen.state["frame"] == 1
-    press("Shift+ArrowRight")
-    second = segmentation.primitives[1]
-    assert screen.state["selection"]["start_frame"] == second.start_frame
-    press("l")
-    assert screen.state["loop"]["start_s"] == pytest.approx(second.start_s)
-    press("Space")
-    screen.wait("k.playing")
-    screen.page.wait_for_timeout(int(1500 * (second.stop_s - second.start_s)))
-    assert second.start_s <= screen.state["playhead"] <= second.stop_s
-    press("Space")
-    press("+")
-    assert screen.state["range"]["stop_s"] < screen.state["duration"]
-    press("0")
-    press("End")
-    assert screen.state["playhead"] == pytest.approx(screen.state["duration"])
-    press("Home")
-    assert screen.state["playhead"] == 0
-
-
-def test_members_of_a_cluster_play_in_step(open_report: Callable[..., Screen]) -> None:
-    screen = open_report().opened()
-    screen.page.locator(".clusters tbody tr").nth(1).click()
-    figure = screen.page.locator(".viewer canvas")
-    alone = picture_of(figure)
-    screen.page.get_by_role("button", name="In step").click()
-    together = picture_of(figure)
-    assert screen.state["inStep"]
-    assert together != alone
-    screen.page.keyboard.press("ArrowRight")
-    assert picture_of(figure) != together
-
-
-@pytest.mark.parametrize(("width", "height", "scheme"), [(1280, 720, "dark"), (1024, 768, "light")])
-def test_everything_is_in_view(
-    open_report: Callable[..., Screen], width: int, height: int, scheme: str
-) -> None:
-    page = open_report(size={"width": width, "height": height}, scheme=scheme).opened().page
-    overflow = "[document.documentElement.scrollWidth, document.documentElement.scrollHeight]"
-    until(page, lambda: page.evaluate(overflow) == [width, height], "all of it in the window")
-    places = (".viewer canvas", ".lanes", ".matrix-square", ".clusters", ".curves canvas",
-              ".transport")  # fmt: skip
-    for place in places:
-        box = box_of(page.locator(place).first)
-        assert box["width"] > 60
-        assert box["height"] > 25
-        assert box["x"] + box["width"] <= width + 1
-        assert box["y"] + box["height"] <= height + 1
-    theme = "document.documentElement.dataset.theme"
-    assert page.evaluate(theme) == scheme
-    page.get_by_role("button", name="Show the page").click()
-    until(page, lambda: page.evaluate(theme) != scheme, "the other theme")

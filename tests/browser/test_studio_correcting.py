@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import kineme
-from kineme.datasets import bundled_truth
-from kineme.transfer import KnowledgeBase
 from screen import Screen, box_of, until
 from studio_server import saved_table
 
@@ -24,37 +22,6 @@ def test_a_border_is_dragged_and_brought_back(page, take):
     assert saved_table(take).primitives.start_frame.tolist() == screen.starts()
     page.keyboard.press("Control+Shift+z")
     screen.wait(f"k.segments.some((row) => row.start_frame === {moved})")
-
-
-def test_the_keyboard_alone_is_enough(page, take):
-    screen = Screen(page)
-    untouched = screen.starts()
-    page.keyboard.press("Shift+ArrowRight")
-    page.keyboard.press("Shift+ArrowRight")
-    start = screen.state["selected"]["start_frame"]
-    page.keyboard.press("Alt+ArrowRight")
-    page.keyboard.press("Alt+Shift+ArrowRight")
-    screen.wait(f"k.segments.some((row) => row.start_frame === {start + 11})")
-    assert screen.state["selected"]["start_frame"] == start + 11
-    for _ in range(12):
-        page.keyboard.press("ArrowRight")
-    page.keyboard.press("s")
-    screen.wait(f"k.segments.some((row) => row.start_frame === {start + 23})")
-    page.keyboard.press("Delete")
-    screen.wait(f"!k.segments.some((row) => row.start_frame === {start + 23})")
-    page.keyboard.press("m")
-    screen.wait(f"k.segments.filter((row) => row.level === 'primitive').length < {len(untouched)}")
-    page.keyboard.press("n")
-    page.keyboard.type("both steps")
-    page.keyboard.press("Enter")
-    screen.wait("k.segments.some((row) => row.label === 'both steps')")
-    screen.saved()
-    assert "both steps" in saved_table(take).primitives.label.tolist()
-    for _ in range(6):
-        page.keyboard.press("Control+z")
-    screen.wait("k.unsent.length === 0")
-    assert screen.starts() == untouched
-    assert set(screen.labels()) == {""}
 
 
 def test_a_border_comes_to_the_playhead_and_a_held_key_is_one_step_back(page, take):
@@ -196,40 +163,6 @@ def test_kind_and_cluster_of_a_segment_can_be_set(page, take):
     screen.saved()
     row = saved_table(take).primitives[4]
     assert (row.kind, row.cluster) == ("transition", -1)
-
-
-def test_labels_come_from_a_knowledge_base(page, server, take):
-    screen = Screen(page)
-    page.keyboard.press("t")
-    page.get_by_text("There is no knowledge base").wait_for()
-    page.keyboard.press("Escape")
-    labels = kineme.read_segments(bundled_truth())
-    base = server.folder / "moves.npz"
-    KnowledgeBase.from_recording(kineme.read(take), labels).save(base)
-    page.reload()
-    screen.opened()
-    page.keyboard.press("t")
-    page.get_by_role("button", name="Transfer labels").click()
-    screen.wait("k.segments.some((row) => row.label === 'squat')")
-    base.unlink()
-
-
-def test_a_result_is_compared_with_an_annotation(page, server, take):
-    screen = Screen(page)
-    truth = server.folder / "truth.csv"
-    kineme.write_segments(kineme.read_segments(bundled_truth()), truth)
-    page.reload()
-    screen.opened()
-    before = screen.pixels()
-    page.keyboard.press("c")
-    page.get_by_role("button", name="truth.csv", exact=True).click()
-    scores = page.locator(".scores")
-    until(page, lambda: scores.locator("tr").count() > 2, "a table of scores")
-    assert "Cohen's kappa" in scores.inner_text()
-    screen.changed(before, "lanes")
-    page.get_by_role("button", name="Stop comparing").click()
-    scores.wait_for(state="detached")
-    truth.unlink()
 
 
 def test_naming_a_cluster_where_there_is_none_leaves_the_keyboard_to_the_player(page):

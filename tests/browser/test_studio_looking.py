@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 from test_views import FAULTS
 
@@ -47,17 +46,6 @@ def test_playing_moves_playhead_and_figure_until_it_is_stopped(page):
     assert screen.state["playhead"] == stopped
 
 
-def test_arrow_keys_step_by_a_frame_and_by_a_segment(page):
-    screen = Screen(page)
-    fps = 60
-    page.keyboard.press("ArrowRight")
-    screen.wait("k.playhead > 0")
-    assert screen.state["playhead"] == pytest.approx(1 / fps)
-    page.keyboard.press("Shift+ArrowRight")
-    screen.wait("k.selected")
-    assert screen.state["selected"] == screen.lane("primitive")[1]
-
-
 def test_all_members_of_a_cluster_play_in_step(page):
     screen = Screen(page)
     screen.click(screen.lane("primitive")[9])
@@ -66,27 +54,6 @@ def test_all_members_of_a_cluster_play_in_step(page):
     page.get_by_role("button", name="In step").click()
     screen.wait("k.inStep")
     screen.changed(alone, "figure")
-
-
-def test_curves_are_those_of_kineme_cycles(page, take):
-    """Angles, of one phase: the bundled recording has two walks, cut at different ones."""
-    screen = Screen(page)
-    page.get_by_role("tab", name="Clusters").click()
-    note = page.locator(".curves .note")
-    note.filter(has_text="5 inner of 9 repetitions, mean ± standard deviation; range").wait_for()
-    note.filter(has_text="; knee_r (dashed); 1 activity turned").wait_for()
-    assert page.get_by_label("Channel", exact=True).input_value() == "knee_l"
-    page.get_by_label("What is measured").select_option("speed")
-    page.get_by_label("Channel", exact=True).select_option("LeftFoot.speed")
-    note.filter(has_text="RightFoot.speed (dashed)").wait_for()
-    screen.click(screen.lane("primitive")[4])  # an edit is measured anew
-    screen.wait("k.selected")
-    page.keyboard.press("Delete")
-    screen.saved()
-    note.filter(has_text="of 8 repetitions").wait_for()
-    page.locator(".farthest button").first.click()
-    screen.wait("k.selected")
-    assert screen.state["selected"]["cluster"] == 0
 
 
 def test_a_repetition_is_left_out_of_the_mean_and_brought_back(page, take):
@@ -151,16 +118,6 @@ def test_labels_and_names_are_text_and_nothing_else(new_tab, server, take):
     page.locator(".recording .name", has_text=named.name).wait_for()  # one, not several
     assert page.locator("img, b:text('bold')").count() == 0
     assert page.title().startswith(named.name)
-
-
-def test_a_file_that_is_no_recording_is_refused_in_words(new_tab, server):
-    broken = server.folder / "broken.bvh"
-    broken.write_text("HIERARCHY\nnothing of the kind\n")
-    page = new_tab(server.address_of(broken))
-    notice = page.locator("[data-notice=problem]")
-    notice.filter(has_text="broken.bvh").wait_for()
-    page.get_by_text("Choose a recording on the left").wait_for()
-    broken.unlink()
 
 
 def test_what_is_told_covers_no_button_and_goes(new_tab, server, take):
@@ -233,21 +190,6 @@ def test_two_fingers_zoom_to_what_is_between_them(page, place):
     assert moved["stop_s"] - moved["start_s"] == pytest.approx(
         after["range"]["stop_s"] - after["range"]["start_s"]
     )
-
-
-def test_a_video_of_sensors_lies_beside_their_curves(page, server):
-    times = np.arange(900) / 60
-    path = server.folder / "gyro.csv"
-    table = np.column_stack([times, np.sin(6 * times)])
-    np.savetxt(path, table, delimiter=",", header="time,gyro_x", comments="")
-    shutil.copy(Path(__file__).with_name("clock.webm"), path.with_suffix(".webm"))
-    page.goto(server.address_of(path))
-    curves, video = page.locator(".channels canvas"), page.locator(".video video")
-    for each in (curves, video):
-        each.wait_for()
-    assert box_of(curves)["x"] + box_of(curves)["width"] < box_of(video)["x"]
-    for each in (path, path.with_suffix(".webm")):
-        each.unlink()
 
 
 def test_the_video_follows_the_playhead(page, take):

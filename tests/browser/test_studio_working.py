@@ -1,24 +1,8 @@
-"""Working in the studio: detail, curves, ghosts, many recordings, exports."""
+"""Working in the studio: curves, ghosts, many recordings, exports."""
 
 from __future__ import annotations
 
-import os
-
 from screen import PLACES, Screen, box_of, picture_of, until
-
-
-def test_detail_is_a_preview_until_it_is_applied(page):
-    screen = Screen(page)
-    before = screen.starts("activity")
-    page.keyboard.press(",")
-    screen.previewed()
-    page.keyboard.press(",")
-    assert screen.starts("activity") == before
-    page.get_by_role("slider", name="Detail").press("Home")
-    screen.previewed()
-    page.get_by_role("button", name="Apply").click()
-    screen.wait("k.saved !== '' && k.other === null")
-    assert set(screen.starts("activity")) < set(before)
 
 
 def test_curves_lie_under_the_timeline_and_follow_its_zoom(page):
@@ -94,7 +78,6 @@ def test_good_loops_come_first_and_are_saved(page):
     until(page, lambda: pressed.count() == 1, "one plays")
     first = figure.screenshot()
     until(page, lambda: figure.screenshot() != first, "the loop plays")
-    page.screenshot(path=os.environ.get("KINEME_SHOT", "/dev/null"), type="png")
     window.get_by_role("button", name="Pause").click()
     rest = picture_of(figure)
     until(page, lambda: figure.screenshot() == rest, "the loop rests")

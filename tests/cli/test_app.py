@@ -38,15 +38,6 @@ def test_info_as_json(kineme) -> None:
     assert facts["end_effectors"]["head"] in facts["joints"] + facts["end_sites"]
 
 
-def test_info_of_a_body_without_hands_is_no_failure(kineme, tmp_path: Path) -> None:
-    (tmp_path / "stick.bvh").write_text(
-        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
-        "End Site\n{\nOFFSET 0 90 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.01\n0 0 0\n"
-    )
-    done = kineme("info", "stick.bvh", "--unit", "cm")
-    assert "not found" in done.stdout
-
-
 def test_end_effectors_can_be_named(kineme) -> None:
     done = kineme("info", bundled_recording(), "--json", "--effectors", "left_wrist=LeftForeArm")
     assert json.loads(done.stdout)["end_effectors"]["left_wrist"] == "LeftForeArm"
@@ -78,12 +69,6 @@ def commands(group=None, words: tuple[str, ...] = ()) -> Iterator[tuple[str, ...
         yield from commands(group.commands[name], (*words, name))
 
 
-def test_all_commands_are_walked_over() -> None:
-    named = set(commands())
-    assert {("segment",), ("presets",), ("library",), ("library", "build")} < named
-    assert len(named) > 20
-
-
 @pytest.mark.parametrize("words", [*commands()], ids=" ".join)
 def test_help_fits_on_a_page(words: tuple[str, ...]) -> None:
     done = CliRunner().invoke(app, [*words, "--help"], env={"COLUMNS": "80"})
@@ -92,15 +77,6 @@ def test_help_fits_on_a_page(words: tuple[str, ...]) -> None:
     assert len(lines) <= 80
     assert max(map(len, lines)) <= 80
     assert "@" not in done.stdout.replace("@START", "").replace("bvh@", "")
-
-
-def test_options_stand_in_named_groups() -> None:
-    done = CliRunner().invoke(app, ["segment", "--help"], env={"COLUMNS": "80"})
-    for title in ("Arguments", "Input", "Method", "Output", "Reading options"):
-        assert f"─ {title} ─" in done.stdout
-    method = done.stdout[done.stdout.index("─ Method ─") :]
-    for name in ("--preset", "--detail", "NAME=VALUE", *PRESETS):
-        assert name in method
 
 
 @pytest.mark.parametrize(

@@ -71,13 +71,6 @@ def test_neither_missing_hands_nor_missing_frames_are_a_failure(
     assert (tmp_path / "cuts.csv").exists()
 
 
-def test_the_line_at_fault_is_named(kineme, tmp_path: Path) -> None:
-    (tmp_path / "words.bvh").write_text(BAD["words.bvh"])
-    done = kineme("info", "words.bvh", code=1)
-    assert done.stdout == ""
-    assert done.stderr.startswith("error: words.bvh, line 15: ")
-
-
 @pytest.mark.parametrize(
     ("option", "place", "reason"),
     [
@@ -105,9 +98,6 @@ def test_a_place_that_cannot_be_written(
         ("cut", "a.bvh"),
         ("segment", "a.bvh", "--preset", "voegele"),
         ("segment", "a.bvh", "--radius", "1"),
-        ("segment", "a.bvh", "--preset", "krueger2017", "--set", "radius=-1"),
-        ("segment", "a.bvh", "--preset", "krueger2017", "--set", "radius=wide"),
-        ("segment", "a.bvh", "--preset", "krueger2017", "--set", "growth=circles"),
         ("segment", "a.bvh", "--unit", "parsec"),
         ("segment", "a.bvh", "--fps", "0"),
         ("segment", "a.bvh", "--level", "phrase"),

@@ -42,21 +42,9 @@ def test_lines_become_events_a_table_and_a_recording(lines, tmp_path):
 
 
 def test_a_killed_run_is_recovered(lines, tmp_path):
-    with subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "kineme",
-            "live",
-            "--quiet",
-            "--fps",
-            str(FPS),
-            "--record",
-            str(tmp_path / "take"),
-        ],
-        stdin=subprocess.PIPE,
-        text=True,
-    ) as process:
+    options = ["--quiet", "--fps", str(FPS), "--record", str(tmp_path / "take")]
+    command = [sys.executable, "-m", "kineme", "live", *options]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, text=True) as process:
         process.stdin.write(lines)
         process.stdin.flush()
         journal = tmp_path / "take.journal.csv"

@@ -164,15 +164,6 @@ def test_the_demo_writes_table_and_picture(kineme, tmp_path: Path) -> None:
     assert len(package.read_segments(tmp_path / "exercises.csv")) > 20
 
 
-def test_a_real_recording(kineme, tmp_path: Path, data_dir: Path) -> None:
-    done = kineme(
-        "segment", data_dir / "cmu86" / "86_10.amc", "-o", tmp_path / "cuts.csv", errors=""
-    )
-    assert "63.2 s, 7583 frames at 120 Hz, kineme" in done.stdout
-    assert "frame rate 120 Hz assumed" in done.stdout
-    assert package.read_segments(tmp_path / "cuts.csv").n_frames == 7583
-
-
 def test_each_take_has_its_table_and_its_clips(kineme, tmp_path: Path) -> None:
     motion = package.read(package.bundled_recording())
     write_takes({"walk": motion[:240], "jump": motion[600:900]}, tmp_path / "two.fbx")

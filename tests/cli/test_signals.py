@@ -85,24 +85,9 @@ def test_what_is_missing_is_one_sentence(kineme, tmp_path, phone) -> None:
     kineme("segment", phone, "--columns", ",", code=2)
 
 
-def test_real_forces_and_joint_angles(kineme, data_dir: Path) -> None:
-    done = kineme("segment", data_dir / "formats" / "Eb015pi.c3d", "--columns", "FZ1,FZ2", "--json")
-    assert json.loads(done.stdout)["n_frames"] == 1800
-    done = kineme("info", data_dir / "formats" / "subject01_walk_IK.mot")
-    assert "10: pelvis_tilt, pelvis_tx" in done.stdout
-
-
 def test_force_plates_are_no_muscles(kineme, data_dir) -> None:
     done = kineme("segment", data_dir / "formats" / "Eb015pr.c3d", "--emg", code=1)
     assert "which analog channels are muscles" in " ".join(done.stderr.split())
-
-
-def test_a_result_of_signals_is_scored_against_labels(kineme, tmp_path, phone) -> None:
-    (tmp_path / "truth.csv").write_text("start_s,stop_s,label\n0,10,slow\n10,20,fast\n")
-    kineme("segment", phone, "-q", "-o", "cuts.csv")
-    kineme("evaluate", "cuts.csv", "--against", "truth.csv", "-o", "scores.json", errors="")
-    (scores,) = json.loads((tmp_path / "scores.json").read_text())["scores"]
-    assert scores["one_to_one"] > 0.9
 
 
 def test_a_result_is_scored_though_its_recording_was_read_otherwise(kineme, tmp_path, phone):

@@ -14,18 +14,8 @@ from kineme.datasets import bundled_recording, bundled_truth
 
 
 def test_split_takes_the_segments_it_would_find(kineme, tmp_path: Path) -> None:
-    done = kineme(
-        "split",
-        bundled_recording(),
-        "--level",
-        "primitive",
-        "--cluster",
-        1,
-        "-o",
-        "clips",
-        "--loop",
-        errors="",
-    )
+    options = ("--level", "primitive", "--cluster", 1, "--loop")
+    done = kineme("split", bundled_recording(), *options, "-o", "clips", errors="")
     manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
     rows = package.segment(package.read(bundled_recording())).primitives
     mine = [row for row in rows if row.cluster == 1]
@@ -50,14 +40,6 @@ def test_the_best_loops_in_place_straight_and_mirrored(kineme, tmp_path: Path) -
         assert np.abs(motion.positions[:, 0, [0, 2]].mean(axis=0)).max() < 1e-5
     done = kineme("split", bundled_recording(), "--best", 1, "-o", "more", "-q", code=1)
     assert "best needs loops: add loops (--loop)" in done.stderr
-
-
-def test_split_takes_coarser_segments(kineme, tmp_path: Path) -> None:
-    kineme("split", bundled_recording(), "--detail", 0.25, "-o", "clips", "-q", errors="")
-    found = package.segment(package.read(bundled_recording()))
-    manifest = pd.read_csv(tmp_path / "clips" / "manifest.csv")
-    assert manifest.start_frame.tolist() == found.at_detail(0.25).activities.start_frame.tolist()
-    assert len(manifest) < len(found.activities)
 
 
 def test_split_by_labels_that_a_person_corrected(kineme, tmp_path: Path) -> None:
@@ -93,13 +75,6 @@ def test_split_says_what_is_wrong_and_leaves_nothing(kineme, tmp_path, arguments
     assert reason in done.stderr
     assert len(done.stderr.splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["short.txt"]
-
-
-def test_segment_writes_labels_by_suffix(kineme, tmp_path: Path) -> None:
-    kineme("segment", bundled_recording(), "-q", "-o", "take.eaf", errors="")
-    result = package.segment(package.read(bundled_recording()))
-    back = package.read_segments(tmp_path / "take.eaf")
-    assert back.table.start_frame.tolist() == result.table.start_frame.tolist()
 
 
 def test_convert_goes_through_every_format_and_back(kineme, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from kineme.cli.tables import make_table
-from kineme.cli.terminal import Console, escape_controls, print_error
+from kineme.cli.terminal import Console, print_error
 
 STEERS = "\x1b[2J\x1b]0;owned\x07\x9b1A\u202e"
 
@@ -47,7 +47,3 @@ def test_a_row_is_a_line_where_there_is_no_edge() -> None:
     terminal = io.StringIO()
     Console(file=terminal, force_terminal=True, width=60).print(table)
     assert max(map(len, terminal.getvalue().splitlines())) < 100
-
-
-def test_a_text_without_them_stays() -> None:
-    assert escape_controls("Hüfte\t1\n") == "Hüfte\t1\n"

@@ -47,17 +47,6 @@ def test_labelling_twice_adds_nothing(kineme, recording, taught) -> None:
     assert KnowledgeBase.load(taught).counts() == before.counts()
 
 
-def test_activity_labels_of_another_program_suffice(kineme, tmp_path, recording) -> None:
-    truth = package.read_segments(bundled_truth())
-    package.write_segments(truth, tmp_path / "labels.txt")
-    done = kineme(
-        "label", recording, "--labels", "labels.txt", "--knowledge", "new.npz", "-q", errors=""
-    )
-    assert done.stdout == ""
-    names = {row.label for row in truth.activities if row.label}
-    assert set(KnowledgeBase.load(tmp_path / "new.npz").counts()) == names
-
-
 def test_of_labels_of_many_recordings_its_own_are_taken(kineme, tmp_path, recording) -> None:
     rows = "recording,start_s,stop_s,label\nother,0,99,run\nexercises,0,20,walk\n"
     (tmp_path / "labels.csv").write_text(rows)

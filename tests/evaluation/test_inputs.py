@@ -91,16 +91,6 @@ def test_silence_at_the_ends_counts_in_nothing(tmp_path) -> None:
     assert scores["cluster_ratio"] == scores["cut_ratio"] == 1.0
 
 
-def test_frames_of_the_recording_are_named_not_those_of_the_comparison(tmp_path) -> None:
-    path = tmp_path / "truth.csv"
-    path.write_text("start_s,stop_s,label\n0,40,walk\n")
-    words = (
-        r"40.000 s \(2000 frames at 50 fps\), but the recording lasts 35.160 s \(1758 frames at 50"
-    )
-    with pytest.raises(ReadError, match=words):
-        read_truth(path, result(1758, 50.0))
-
-
 def labels_as(path, rows: list[str], header: str = "start_s,stop_s,label") -> Segmentation:
     path.write_text("\n".join([header, *rows]) + "\n")
     return read_result(path, fps=10)
@@ -197,17 +187,6 @@ def test_labels_without_a_rate_need_one_only_where_they_count_frames(tmp_path) -
     (tmp_path / "found.txt").write_text("a\nb\n")
     with pytest.raises(ReadError, match=r"give fps \(--fps\)"):
         read_result(tmp_path / "found.txt")
-
-
-def test_labelled_intervals_are_clusters_by_their_names(tmp_path) -> None:
-    path = tmp_path / "found.csv"
-    path.write_text("start_s,stop_s,label\n0,2,a\n2,4,b\n4,6,a\n")
-    found = read_result(path, fps=10)
-    assert score_agreement(found, found)["one_to_one"] == 1.0
-    assert score_agreement(found, found)["cluster_ratio"] == 1.0
-    assert score_agreement(found, result(60))["cluster_ratio"] == 0.5
-    pause = from_rows([("activity", "transition", 0, 60, -1, "")], fps=10.0)
-    assert not score_agreement(pause, found)
 
 
 def test_where_two_people_differ_is_told_but_not_what_borders_leave_open(tmp_path) -> None:

@@ -230,11 +230,6 @@ def test_impossible_marks_are_one_clear_error(marks, words):
         Truth(("a", "b"), *marks, 60, 10.0)
 
 
-def test_overlapping_actions_are_one_clear_error():
-    with pytest.raises(ParameterError, match="action 2 \\(b\\) would last from frame 30 to 25"):
-        Truth(("a", "b", "c"), [20, 25], [25, 27], [30, 28], 60, 10.0)
-
-
 def test_labels_of_another_length_than_the_recording_are_one_clear_error():
     truth = Truth(("a",), [], [], [], 60, 10.0)
     with pytest.raises(ParameterError, match="cover 5.000 s .*lasts 6.000 s"):
@@ -245,11 +240,6 @@ def test_labels_of_another_length_than_the_recording_are_one_clear_error():
 def test_a_truth_without_actions_is_one_clear_error(labels):
     with pytest.raises(ParameterError, match="at least one action"):
         Truth(labels, [], [], [], 60, 10.0)
-
-
-def test_a_transition_before_the_first_action_is_no_action():
-    truth = Truth((TRANSITION, "a"), [20], [20], [20], 60, 10.0)
-    assert right(truth, truth.labelling()) == (1, 1)
 
 
 @pytest.mark.parametrize("borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5]])

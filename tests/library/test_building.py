@@ -16,10 +16,9 @@ import pytest
 from library_folders import contents, write_channels
 
 import kineme
-from kineme.errors import ParameterError, ReadError, WriteError
+from kineme.errors import ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.library import Library, build, gathering
-from kineme.library.gathering import Group
 from kineme.methods.segmenter import SegmentOptions
 
 
@@ -351,47 +350,14 @@ def test_one_build_at_a_time(folder: Path) -> None:
         build((), folder)
 
 
-def test_what_is_no_library_is_not_written_into(takes: Path, tmp_path: Path) -> None:
-    with pytest.raises(WriteError, match="is not a library"):
-        build(takes, takes)
-    with pytest.raises(ParameterError, match="nothing to build from"):
-        build((), tmp_path / "library")
-    with pytest.raises(ParameterError, match="nothing to build from"):
-        build((), tmp_path / "other", remove=[takes])
-    assert not (tmp_path / "other").exists()
-
-
-def test_progress_tells_how_far_it_is_and_what_is_left(takes: Path, tmp_path: Path) -> None:
-    told: list[str] = []
-    build(takes, tmp_path / "library", progress=told.append)
-    assert told[0] == "looking for recordings"
-    assert told[1].startswith("1 of 4, ")
-    assert told[1].endswith(" left")
-    assert told[4:] == ["4 of 4", "clusters in common"]
-
-
-def test_what_is_there_several_times_is_worked_on_once(
-    takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_copies_are_worked_on_once_and_each_is_named(takes: Path, tmp_path: Path) -> None:
     own = tmp_path / "takes"
     own.mkdir()
     for name in ("a", "b", "c"):
         shutil.copy(takes / "wrist.csv", own / f"{name}.csv")
         shutil.copy(takes / "broken.bvh", own / f"{name}.bvh")
-    read: list[str] = []
-    whole = gathering.read_quietly
-    monkeypatch.setattr(
-        gathering,
-        "read_quietly",
-        lambda path, options: read.append(path.name) or whole(path, options),
-    )
-    made = build(own, tmp_path / "once", jobs=1)
-    assert [name for name in read if name.endswith("csv")] == ["a.csv"]
+    made = build(own, tmp_path / "library", jobs=1)
     assert made.new == 1
     assert all(f"{path.name}: " in said for path, said in made.failed.items())
-    monkeypatch.setattr(
-        "kineme.library.gathering.group_by_content",
-        lambda tasks, _: [Group([task], "") for task in tasks],
-    )
-    build(own, tmp_path / "each", jobs=1)
-    assert contents(tmp_path / "once") == contents(tmp_path / "each")
+    assert len(made.failed) == 3
+    assert Library(tmp_path / "library").recordings["recording"] == ["a.csv", "b.csv", "c.csv"]

@@ -49,6 +49,11 @@ def features(change: Callable[[np.ndarray], np.ndarray]) -> Damage:
     return damage
 
 
+def no_arrays(folder: Path) -> None:
+    for path in (folder / "pieces").glob("*.npy"):
+        path.write_bytes(b"nothing")
+
+
 def local(change: Callable[[pa.Table], pa.Table]) -> Damage:
     def damage(folder: Path) -> None:
         (path,) = (folder / "tables").glob("*/local_clusters.parquet")
@@ -97,6 +102,7 @@ DAMAGES: dict[str, Damage] = {
     "features too large": features(lambda array: array + np.float32(1e30)),
     "features of another type": features(lambda array: array.astype("f8")),
     "features in a row": features(np.ravel),
+    "features that are no array": no_arrays,
     "a table without a column": local(lambda table: table.drop_columns(["spread"])),
     "a table with a column twice": local(
         lambda table: table.append_column("spread", table.column("spread"))

@@ -5,12 +5,9 @@ from __future__ import annotations
 import csv
 import json
 import shutil
-import subprocess
-import sys
 from itertools import pairwise
 from pathlib import Path
 
-import numpy as np
 import pytest
 from library_folders import write_channels
 from matplotlib.image import imread
@@ -19,17 +16,8 @@ from pyarrow import parquet
 import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
 from kineme.library import Example, Library, build
-from kineme.library.descriptions import describe
 from kineme.library.storage.tables import DESCRIBED
-from kineme.methods.segmenter import SegmentOptions
 from kineme.segments.table import COLUMNS
-
-
-def test_columns_are_those_described(library: Library) -> None:
-    for name, columns in DESCRIBED.items():
-        assert sorted(library.table(name).column_names) == sorted(columns)
-    pieces = {path.name.split(".")[0] for path in (library.folder / "pieces").iterdir()}
-    assert pieces == set(library.recordings["piece"])
 
 
 def test_segments_are_those_of_each_recording_alone(library: Library) -> None:
@@ -91,17 +79,6 @@ def test_channels_are_searched_in_their_own_features(library: Library) -> None:
         library.search([Example("wrist.csv", 2.0, 6.0), Example("walk.bvh", 0.5, 1.6)])
     with pytest.raises(ParameterError, match="the library has"):
         library.search(kineme.Signals([[0.0, 1.0, 2.0]] * 300, 30.0))
-
-
-def test_how_far_channels_are_apart_does_not_depend_on_how_many_there_are() -> None:
-    random = np.random.default_rng(0)
-    values = np.cumsum(random.normal(size=(900, 2)), axis=0)
-    few, many = (
-        describe(kineme.Signals(np.tile(values, (1, copies)), 30.0), SegmentOptions()).features
-        for copies in (1, 6)
-    )
-    apart = [np.linalg.norm(rows[1:] - rows[:-1], axis=1) for rows in (few, many)]
-    np.testing.assert_allclose(apart[0], apart[1], rtol=1e-4)
 
 
 def test_several_examples_find_what_each_finds(library: Library) -> None:
@@ -250,17 +227,6 @@ def test_readers_of_another_schema_are_told_to_build_anew(folder: Path) -> None:
         Library(folder)
 
 
-def test_a_damaged_file_is_one_error(folder: Path) -> None:
-    key = Library(folder).recordings["piece"][0]
-    (folder / "pieces" / f"{key}.npy").write_bytes(b"nothing")
-    with pytest.raises(ReadError, match="damaged"):
-        Library(folder).search("walk.bvh", 0.5, 1.6)
-    for path in (folder / "tables").rglob("segments.parquet"):
-        path.write_bytes(b"nothing")
-    with pytest.raises(ReadError):
-        Library(folder)
-
-
 def test_columns_of_the_docs_are_those_of_the_tables() -> None:
     text = (Path(__file__).parents[2] / "docs" / "library.md").read_text(encoding="utf-8")
     types = {str: "text", int: "whole number", float: "number"}
@@ -279,20 +245,6 @@ def test_each_cluster_has_a_picture(library: Library, tmp_path: Path) -> None:
         f"cluster-{number}.png" for number in numbers[1:]
     }
     assert imread(written[0]).shape[0] > imread(written[1]).shape[0]
-
-
-def test_tables_are_made_and_read_without_pandas(folder: Path) -> None:
-    # It takes a third of a second to load, in each process of a build.
-    code = (
-        "import sys, kineme; library = kineme.Library(sys.argv[1]); library.name(0, 'walk');"
-        "names = 'segments', 'local_clusters', 'embeddings', 'clusters';"
-        "[library.table(name) for name in names];"
-        "print('pandas' in sys.modules)"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(folder)], capture_output=True, text=True, check=True
-    )
-    assert done.stdout.strip() == "False"
 
 
 def test_an_example_that_stops_beyond_its_end_is_said_to_be_cut(library: Library) -> None:

@@ -12,10 +12,9 @@ from starlette.testclient import TestClient
 
 from kineme.library import Library
 from kineme.studio.http.events import Hub
-from kineme.studio.library import Searches, StudioLibrary
-from kineme.studio.open_recordings import OpenRecordings, SupersededError
+from kineme.studio.library import StudioLibrary
+from kineme.studio.open_recordings import OpenRecordings
 from kineme.studio.routes import create_app
-from kineme.web.library_messages import SearchRequest, Span
 
 TOKEN, PORT = "the token", 8750
 WALK = {"recording": "walk.bvh", "start_s": 0.5, "stop_s": 1.6}
@@ -108,19 +107,6 @@ def test_figures_are_of_bodies_or_channels_and_only_of_what_is_there(client, tak
     assert figure(recording="/etc/hostname", start=0, stop=1).status_code == 400
     assert figure(recording="walk.bvh", start=2, stop=1).status_code == 400
     assert figure(recording="walk.bvh").status_code == 400
-
-
-def test_a_newer_search_ends_the_one_before(library):
-    searches = Searches()
-    sent = SearchRequest(like=[Span(**WALK)], unlike=[], threshold=0.85, top=5, mirror=False)
-
-    class Newer(Library):
-        def search(self, *args: Any, client: Any, **rest: Any) -> Any:
-            searches._newest += 1
-            return super().search(*args, client=client, **rest)
-
-    with pytest.raises(SupersededError):
-        searches.search(Newer(library.folder), sent)
 
 
 @pytest.fixture

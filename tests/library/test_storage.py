@@ -50,15 +50,6 @@ def test_a_library_in_a_store_is_the_same_as_on_a_disk(
     assert len(store.ls("/data/lib/tables")) == 1
 
 
-def test_takes_here_fill_a_library_in_a_store(
-    store: fsspec.AbstractFileSystem, takes: Path
-) -> None:
-    build(takes / "wrist.csv", "memory://data/other")
-    assert len(build((), "memory://data/other").paths) == 1
-    assert Library("memory://data/other").recordings["path"] == [str(takes / "wrist.csv")]
-    assert store.exists("/data/other/library.json")
-
-
 def test_takes_in_a_store_fill_a_library_here(
     store: fsspec.AbstractFileSystem, tmp_path: Path
 ) -> None:

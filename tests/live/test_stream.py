@@ -7,7 +7,7 @@ import pytest
 
 import kineme
 from kineme.errors import ParameterError, ReadError
-from kineme.live import ActivityEnded, ActivityStarted, Gap, Notice, Repetition, Stream
+from kineme.live import ActivityEnded, ActivityStarted, Gap, Repetition, Stream
 from streams import FPS, make_stream, push_pieces, two_exercises
 
 
@@ -82,14 +82,6 @@ def test_a_stream_goes_on_after_it_was_saved(rows, told, tmp_path):
     again = Stream.load(tmp_path / "stream.npz")
     assert events + list(push_pieces(again, rows[407:], [10])) == told[1]
     assert again.segmentation == told[0].segmentation
-
-
-def test_new_clusters_are_saved_with_the_seconds_at_their_last_comparison(rows, tmp_path):
-    stream = make_stream()
-    stream.push(rows)
-    stream._state.past.compared = {4: 6.1}
-    stream.save(tmp_path / "stream.npz")
-    assert Stream.load(tmp_path / "stream.npz")._state.past.compared == {4: 6.1}
 
 
 def test_a_file_that_is_no_stream_is_refused(tmp_path):
@@ -167,14 +159,6 @@ def test_rows_that_do_not_fit_are_refused_and_the_stream_goes_on():
     stream.push([1.0, 2.0])
     stream.finish()
     assert stream.segmentation.n_frames == 2
-
-
-def test_a_clock_that_is_set_back_is_told(rows):
-    times = np.arange(len(rows)) / FPS
-    times[450:] -= 7
-    events = list(push_pieces(make_stream(), rows, [50], times))
-    assert any(isinstance(e, Notice) and "goes back" in e.text for e in events)
-    assert any(isinstance(e, Gap) for e in events)
 
 
 @pytest.mark.parametrize(

@@ -22,20 +22,6 @@ from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014
 VALUES = arrays.arrays(
     np.float64, st.tuples(st.integers(1, 40), st.integers(1, 4)), elements=st.floats(-1e3, 1e3)
 )
-RATES = st.floats(5, 500)
-
-
-@given(VALUES, RATES, RATES)
-def test_resampled_values_are_means_of_what_is_there(values, fps, new) -> None:
-    found = resample_channels(values, fps, new, smoothing=0.1)
-    assert len(found) == int((len(values) - 1) * new / fps + 1e-9) + 1
-    assert (found >= values.min(axis=0) - 1e-6).all()
-    assert (found <= values.max(axis=0) + 1e-6).all()
-
-
-@given(VALUES, RATES)
-def test_the_same_rate_without_smoothing_changes_nothing(values, fps) -> None:
-    assert np.allclose(resample_channels(values, fps, fps, smoothing=0), values, atol=1e-6)
 
 
 def naive_mean(values: np.ndarray, fps: float, at: float, width: float) -> np.ndarray:
@@ -55,12 +41,6 @@ def test_resampling_is_what_it_says(values, fps, new, smoothing) -> None:
     width = max(smoothing, 1 / fps, 1 / new)
     for i in range(0, len(found), 5):
         assert np.allclose(found[i], naive_mean(values, fps, i / new, width), atol=1e-6)
-
-
-def test_what_is_too_fast_for_the_new_rate_does_not_fold_back() -> None:
-    t = np.arange(5000) / 1000
-    hum = np.sin(2 * np.pi * 59 * t)[:, None]  # every 33rd sample of it would look like 1 Hz
-    assert np.abs(resample_channels(hum, 1000, 30, smoothing=0.1)[3:-3]).max() < 0.1
 
 
 @given(VALUES)
@@ -126,15 +106,6 @@ def test_a_preset_made_for_signals_is_used_as_it_is(name: str) -> None:
     assert passed_on.provenance == by_name.provenance
     estimator = Segmenter(made, fps=60).fit(recording())
     assert estimator.segmentation_.provenance["parameters"] == by_name.provenance["parameters"]
-
-
-def test_what_a_preset_object_says_is_kept() -> None:
-    said = segment(Signals(recording(), 60), preset=KINEME.replace(two_movements=0.3))
-    assert said.provenance["parameters"]["two_movements"] == 0.3
-    assert (
-        resolve_preset(resolve_preset("krueger2017", signals=True, radius=0.5), signals=True).radius
-        == 0.5
-    )
 
 
 def test_the_unit_of_lengths_is_in_the_provenance_and_is_not_an_option() -> None:

@@ -85,18 +85,6 @@ def test_a_body_without_a_pelvis_is_taken_by_its_distances() -> None:
     assert any("between 5 of its 5 points" in note for note in found.provenance["notes"])
 
 
-def test_a_gap_is_a_transition_and_what_lies_around_goes_together() -> None:
-    motion = legs()
-    gap = (120, 150)
-    positions = motion.positions.copy()
-    positions[gap[0] : gap[1]] = 100.0
-    found = segment(replace(motion, positions=positions, gaps=(gap,)))
-    rows = found.activities
-    place = rows.start_frame.tolist().index(gap[0])
-    assert (rows.stop_frame[place], rows.kind[place]) == (gap[1], "transition")
-    assert rows.cluster[place - 1] == rows.cluster[place + 1] >= 0
-
-
 def test_mirroring_is_refused() -> None:
     with pytest.raises(ParameterError, match="left and right are unknown: name five joints"):
         segment(legs(), preset="krueger2017", mirror=True)

@@ -12,21 +12,16 @@ import pytest
 from agreement import CONFIGURATIONS
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
-from kineme.evaluation import Labelling
 from kineme.evaluation.score import write_records
-from kineme.methods.region_growing.preset import VOEGELE2014
 from kineme_reproduction.benchmark import (
     METHODS,
     as_records,
     mean,
-    mean_scores,
-    method,
     preset_method,
     run,
     score_published_cuts,
     scores_of,
 )
-from kineme_reproduction.figures import markdown_scores
 from kineme_reproduction.figures.reoccurrence import reoccurring
 from kineme_reproduction.trials import Trial, find_folder, load_trials
 
@@ -64,32 +59,6 @@ def test_the_promised_accuracies_hold(folder):
     assert means["uniform"]["strict"] > means["voegele2014"]["strict"]
     assert means["uniform"]["border_f1"] < 0.2
     assert means["uniform"]["one_to_one"] < 0.1
-
-
-def test_every_call_reports_every_score(results):
-    wanted = {
-        *("strict", "tolerant", "majority", "majority_agreed"),
-        *("mof", "one_to_one", "one_to_one_agreed", "rand_index", "mutual_information"),
-        "cohen_kappa",
-        *("edit", "f1@10", "f1@25", "f1@50"),
-        *("border_precision", "border_recall", "border_f1", "covering"),
-        *("border_ratio", "cut_ratio", "cluster_ratio"),
-        *("cloud_distance", "cloud_variance", "feature_distance", "feature_variance"),
-        *("length_mean", "length_variance", "seconds"),
-    }
-    for result in results:
-        assert set(result.scores) == wanted
-
-
-def test_a_changed_preset_is_a_method_too(trial):
-    coarse = VOEGELE2014.replace(min_primitive=3.0)
-    fine, rough = (len(preset_method(preset)(trial).primitives) for preset in (VOEGELE2014, coarse))
-    assert rough < fine
-
-
-def test_an_unknown_method_is_named_with_those_there_are():
-    with pytest.raises(ParameterError, match=r"no method 'kmeans'; there are .*haca"):
-        method("kmeans")
 
 
 @pytest.mark.parametrize(
@@ -175,13 +144,6 @@ def test_records_as_csv_and_json(results, tmp_path):
         write_records(records, tmp_path / "scores.txt")
 
 
-def test_markdown_has_a_column_per_method(results):
-    table = markdown_scores(mean_scores(results))
-    assert table.splitlines()[0] == "|  | voegele2014 | gmm | uniform |"
-    assert any(line.startswith("| border F1 |") for line in table.splitlines())
-    assert len({line.count("|") for line in table.splitlines()}) == 1
-
-
 def test_poses_reoccur_in_repetitions_and_not_in_a_single_motion():
     squats = synthesize([Action("squat", 5)], seed=1).motion
     single = synthesize([Action("squat", 1)], seed=1).motion
@@ -211,16 +173,3 @@ def test_the_papers_figures_and_tables_are_made_anew(results, folder, tmp_path, 
     assert all(2_000 < path.stat().st_size < 200_000 for path in out.iterdir())
     assert set(tables) >= {"means", "86_11", "uniform cuts", "published cuts", "reoccurrence"}
     assert "| HACA 86_14 |" in tables["published cuts"]
-
-
-def test_a_cluster_has_the_colour_of_the_class_it_is_assigned_to():
-    from kineme_reproduction.figures.segments import _colors
-
-    truth = Labelling.from_cuts([10], ["walk", "run"], frames=20, fps=10.0)
-    found = Labelling.from_cuts([8, 10], ["a", "b", "c"], frames=20, fps=10.0)
-    own = {"walk": ("#000001", 0.0), "run": ("#000002", 0.0)}
-    colors = _colors(truth, found, own)
-    assert colors["a"] == own["walk"]
-    assert colors["c"] == own["run"]
-    assert colors["b"][0] == "#000001"
-    assert colors["b"][1] > 0

@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 from kineme.errors import ParameterError, ReadError
 from kineme.labels import read_segments, write_segments
 from kineme.segments import editing
-from kineme.segments.annotation import NO_ANNOTATION, Annotation
+from kineme.segments.annotation import Annotation
 from kineme.segments.segmentation import Segmentation
-from kineme.web.encoding import to_json
 from segmentations import LABELS, from_rows, segmentations
 
 LEVELS = st.sampled_from(["activity", "primitive"])
@@ -47,13 +46,6 @@ def walk() -> Segmentation:
     return from_rows(rows, provenance={"notes": ["a"]})
 
 
-@given(ANNOTATIONS)
-def test_it_is_the_same_in_json(annotation: Annotation) -> None:
-    read = Annotation.from_json(json.loads(json.dumps(annotation.to_json())))
-    assert read == annotation
-    assert to_json(read) == to_json(annotation)  # whole for the pages, too
-
-
 @pytest.mark.parametrize("suffix", [".csv", ".json", ".parquet"])
 @given(segmentations(), ANNOTATIONS)
 def test_it_is_kept_in_files(folder: Path, suffix: str, table, annotation) -> None:
@@ -61,12 +53,6 @@ def test_it_is_kept_in_files(folder: Path, suffix: str, table, annotation) -> No
     annotated = replace(table, annotation=annotation)
     write_segments(annotated, path)
     assert read_segments(path) == annotated
-
-
-def test_a_table_that_nobody_touched_has_none(tmp_path: Path) -> None:
-    assert walk().annotation == NO_ANNOTATION
-    write_segments(walk(), tmp_path / "walk.json")
-    assert "annotation" not in json.loads((tmp_path / "walk.json").read_text())
 
 
 def test_edits_leave_the_provenance_and_keep_the_annotation() -> None:
@@ -114,11 +100,6 @@ def test_one_of_another_shape_is_refused(tmp_path: Path, said: object) -> None:
         read_segments(tmp_path / "walk.json")
     with pytest.raises(ParameterError, match="annotation"):
         Annotation.from_json(said)
-
-
-def test_what_is_none_is_refused() -> None:
-    with pytest.raises(ParameterError, match="Annotation"):
-        replace(walk(), annotation={"checked": []})  # type: ignore[arg-type]
 
 
 def test_what_is_left_out_of_means_stays_left_out_whatever_becomes_of_its_borders() -> None:

@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 import kineme
 from kineme.errors import ParameterError, ReadError
 from kineme.labels import read_segments, write_segments
-from kineme.methods import segments
 from kineme.segments.editing import name_cluster
 from kineme.segments.hierarchy import Hierarchy
 from kineme.segments.segmentation import Segmentation
+from segmentations import make_activities
 
 FPS = 30.0
 
@@ -136,25 +136,6 @@ def test_an_edit_leaves_one_detail() -> None:
 
 
 def test_tables_that_are_not_nested_are_refused() -> None:
-    def table(*cuts: int):
-        borders = [0, *cuts, 90]
-        n = len(borders) - 1
-        columns = {"level": ["activity"] * n, "kind": ["activity"] * n}
-        columns |= {"start_frame": borders[:-1], "stop_frame": borders[1:]}
-        return Segmentation.from_columns(columns, n_frames=90, fps=30).table
-
+    coarse, fine = (make_activities(*stops, 90).table for stops in ((40,), (50, 60)))
     with pytest.raises(ParameterError, match="border at frame 40"):
-        Hierarchy((0.5, 1.0), (table(40), table(50, 60)))
-    with pytest.raises(ParameterError, match="must increase"):
-        Hierarchy((1.0, 0.5), (table(), table()))
-    kept = Hierarchy.of({0.25: table(), 0.5: table(), 1.0: table(40), 2.0: table(40)})
-    assert kept.details == (0.25, 1.0)
-
-
-def test_costs_decide_what_is_joined_first() -> None:
-    far = np.array([[0.0, 2.0, 40.0], [2.0, 0.0, 40.0], [40.0, 40.0, 0.0]])
-    pieces = segments.FineSegments(np.arange(0, 13, 4), np.zeros(3, int), far)
-    at = segments.assign_clusters(pieces, (2.0, 4.0, 100.0), border_price=1.0, cluster_price=1.0)
-    counts = [len(set(labels.tolist())) for labels in at.values()]
-    assert counts == sorted(counts)
-    assert at[2.0][0] == at[2.0][1] != at[2.0][2]
+        Hierarchy((0.5, 1.0), (coarse, fine))

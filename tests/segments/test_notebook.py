@@ -8,9 +8,9 @@ import numpy as np
 from hypothesis import given, settings
 
 from kineme.segments import display
-from kineme.segments.display import FIRST_ROWS, choose_label_colors, get_cluster_color
+from kineme.segments.display import FIRST_ROWS, choose_label_colors
 from kineme.segments.segmentation import Segmentation
-from segmentations import segmentations
+from segmentations import make_activities, segmentations
 
 
 def long_result(n: int) -> Segmentation:
@@ -44,14 +44,7 @@ def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None
 
 
 def test_a_label_cannot_be_markup() -> None:
-    columns = {
-        "level": ["activity"],
-        "kind": ["activity"],
-        "start_frame": [0],
-        "stop_frame": [9],
-        "label": ["<script>alert(1)</script>"],
-    }
-    page = Segmentation.from_columns(columns, n_frames=9, fps=30.0)._repr_html_()
+    page = make_activities(9, label=["<script>alert(1)</script>"])._repr_html_()
     assert "<script>" not in page
     assert "&lt;script&gt;" in page
 
@@ -63,10 +56,3 @@ def test_a_day_of_segments_stays_small() -> None:
     assert len(bars) <= 1 + display.WIDTH
     assert len(page) < 200_000
     assert f"and {86_401 - FIRST_ROWS} more" in result.table._repr_html_()
-
-
-def test_bars_lie_where_their_segments_do() -> None:
-    bars = parsed(long_result(4)._repr_html_()).findall(".//rect")[1:]
-    assert [float(bar.get("x")) for bar in bars] == [0, 180, 360, 540]
-    assert all(170 < float(bar.get("width")) < 180 for bar in bars)
-    assert [bar.get("fill") for bar in bars] == [get_cluster_color(i) for i in range(4)]

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,7 +9,7 @@ from hypothesis import strategies as st
 
 from kineme.errors import ParameterError
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS
+from kineme.segments.table import COLUMNS, SegmentTable
 from segmentations import segmentations
 
 WALK_JUMP = {
@@ -35,14 +32,6 @@ WALK_JUMP = {
 
 def walk_jump(**changes: object) -> Segmentation:
     return Segmentation.from_columns({**WALK_JUMP, **changes}, n_frames=90, fps=30.0)  # type: ignore[dict-item]
-
-
-def test_rows_carry_frames_and_seconds() -> None:
-    transition = walk_jump().activities[1]
-    assert (transition.start_frame, transition.stop_frame) == (40, 50)
-    assert (transition.start_s, transition.stop_s) == (40 / 30, 50 / 30)
-    assert (transition.kind, transition.activity, transition.label) == ("transition", 1, "")
-    assert np.isnan(transition.confidence)
 
 
 def test_cuts_repetitions_and_frames() -> None:
@@ -166,10 +155,28 @@ def test_provenance_must_fit_into_json() -> None:
         Segmentation(walk_jump().table, 90, 30.0, provenance={"radius": object()})
 
 
-def test_the_table_needs_neither_pandas_nor_matplotlib() -> None:
-    code = (
-        "import sys, kineme.segments.segmentation;"
-        "print({'pandas', 'pyarrow', 'matplotlib'} & set(sys.modules))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "set()"
+def test_a_table_has_the_declared_columns_and_no_others() -> None:
+    columns = {"level": ["activity"], "kind": ["activity"], "start_frame": [0], "stop_frame": [9]}
+    table = Segmentation.from_columns({**columns, "colour": ["red"]}, n_frames=9, fps=30).table
+    assert list(table.columns()) == list(COLUMNS)
+    with pytest.raises(AttributeError, match="colour"):
+        table.colour  # noqa: B018
+    with pytest.raises(TypeError, match="colour"):
+        SegmentTable(**table.columns(), colour=np.array(["red"]))
+    named = table.with_columns(label=np.array(["hop"]))
+    assert (named.label.tolist(), table.label.tolist()) == (["hop"], [""])
+
+
+def test_kinds_are_those_of_the_levels() -> None:
+    columns = {"level": ["activity", "primitive"], "start_frame": [0, 0], "stop_frame": [9, 9]}
+
+    def kinds(*given: str) -> list[str]:
+        made = Segmentation.from_columns({**columns, "kind": [*given]}, n_frames=9, fps=30)
+        kinds: list[str] = made.table.kind.tolist()
+        return kinds
+
+    assert kinds("activity", "primitive") == ["activity", "primitive"]
+    assert kinds("activity", "activity") == ["activity", "primitive"]  # as older tables say
+    assert kinds("transition", "transition") == ["transition", "transition"]
+    with pytest.raises(ParameterError, match="not a primitive"):
+        kinds("primitive", "primitive")

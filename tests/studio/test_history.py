@@ -7,7 +7,6 @@ Restarts are a second studio on the same folder, which reads what the first one 
 from __future__ import annotations
 
 import json
-import random
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -186,52 +185,3 @@ def test_a_folder_that_leads_elsewhere_is_not_written_to(studio, folder: Path, t
     assert answer.status_code == 400
     assert "link" in answer.json()["error"]
     assert not studio.table.exists()
-
-
-def test_random_edits_undone_and_redone_give_the_same_tables(make_studio) -> None:
-    """A robot of requests; its sister in tests/browser uses the page."""
-    chance = random.Random(2)
-    studio = make_studio()
-    message = studio.recording()
-    past, present, revision = [], message["segmentation"], message["revision"]
-    for _ in range(25):
-        if chance.random() < 0.1:
-            studio = make_studio()
-            assert studio.recording()["segmentation"] == present
-        kind = chance.choice(["split", "move_border", "name_segment", "segment", "undo", "merge"])
-        answer = _random_edit(studio, revision, kind, present, chance)
-        if answer.status_code != 200:
-            continue
-        state = {**answer.json(), "segmentation": studio.recording()["segmentation"]}
-        if kind == "undo":
-            assert state["segmentation"] == past.pop()
-        else:
-            past.append(present)
-        present, revision = state["segmentation"], state["revision"]
-        assert kineme.read_segments(studio.table).cuts().tolist() == studio.starts()[1:]
-    last = present
-    for table in reversed(past):
-        state = studio.done(revision, "undo")
-        revision = state["revision"]
-        assert state["segmentation"] == table
-    for _ in past:
-        state = studio.done(revision, "redo")
-        revision = state["revision"]
-    assert state["segmentation"] == last
-
-
-def _random_edit(
-    studio: Studio, revision: int, kind: str, table: dict[str, Any], chance: random.Random
-) -> Any:
-    rows = [row for row in table["segments"] if row["level"] == "activity"]
-    row = chance.choice(rows)
-    frame = row["start_frame"]
-    rest: dict[str, dict[str, Any]] = {
-        "split": {"level": "activity", "frame": chance.randrange(1, 240)},
-        "move_border": {"level": "activity", "frame": frame, "to": frame + chance.randint(-9, 9)},
-        "name_segment": {"level": "activity", "frame": frame, "label": f"n{chance.random()}"},
-        "merge": {"level": "activity", "start_frame": frame, "stop_frame": rows[-1]["stop_frame"]},
-        "segment": {"preset": chance.choice(["kineme", "voegele2014"]), "parameters": {}},
-        "undo": {},
-    }
-    return studio.edit(revision, kind, **rest[kind])

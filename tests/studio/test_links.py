@@ -7,8 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from kineme.studio.storage.sidecars import read_video_offset
-
 ACTS: dict[str, Callable[..., object]] = {
     "labels.json": lambda studio: studio.post("/api/labels", {"labels": ["walk"]}),
     "take.bvh.video.json": lambda studio: studio.post(f"{studio.one}/video", {"offset_s": 2.0}),
@@ -73,9 +71,3 @@ def test_a_linked_folder_gets_nothing(studio, folder: Path, name: str, there: bo
     assert "is a link" in answer.json()["error"]
     assert contents(elsewhere) == before
     assert (elsewhere / "take.segments").exists() == there
-
-
-def test_without_links_all_of_it_is_kept(studio, folder: Path) -> None:
-    assert ACTS["labels.json"](studio).status_code == 200
-    assert ACTS["take.bvh.video.json"](studio).status_code == 200
-    assert read_video_offset(folder / "take.bvh") == 2.0

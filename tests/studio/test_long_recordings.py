@@ -18,16 +18,13 @@ from studio_clients import change_rows
 import kineme
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions, sketch
-from kineme.methods.kineme import primitives
-from kineme.segments import editing
 from kineme.studio.downloads import export_download
 from kineme.studio.folder import Folder
-from kineme.studio.jobs import STAGE_SHARES, Run
+from kineme.studio.jobs import Run
 from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.open_recordings import OpenRecordings
 from kineme.web.encoding import to_json
 from kineme.web.requests import EditRequest, Split
-from kineme.web.tables import make_table_change
 
 COST = kineme.PRESETS["kineme"].segment_cost
 News = queue.Queue[tuple[str, int]]
@@ -270,28 +267,6 @@ def test_each_edit_changes_the_rows_that_an_answer_has_of_it(studio):
         assert change["cluster_names"] == state["segmentation"]["cluster_names"]
 
 
-def test_an_answer_has_few_rows_whatever_the_length(tmp_path):
-    n = 4000
-    frames = np.arange(n + 1) * 10
-    columns = {
-        "level": ["activity"] * n,
-        "kind": ["activity"] * n,
-        "start_frame": frames[:-1],
-        "stop_frame": frames[1:],
-        "cluster": np.arange(n) % 8,
-    }
-    table = kineme.Segmentation.from_columns(columns, n_frames=10 * n, fps=60.0)
-    for now, removed, count in [
-        (editing.move_border(table, "activity", 500, 503), 1, 2),
-        (editing.split(table, "activity", 505), 0, 2),
-        (editing.name_segment(table, "activity", 500, "hop"), 0, 1),
-        (editing.name_cluster(table, 3, "hop"), 0, n // 8),
-        (editing.check(table, "activity", [510], checked=True), 0, 1),
-    ]:
-        change = make_table_change(table, now, revision=1)
-        assert (len(change.removed), len(change.rows)) == (removed, count)
-
-
 def held_at(monkeypatch: pytest.MonkeyPatch, name: str) -> tuple[threading.Event, threading.Event]:
     """Segmentations wait at the end of a stage; the events say that one has come, and may go on."""
     there, wanted, stage = threading.Event(), threading.Event(), Run.start_stage
@@ -345,32 +320,6 @@ def test_a_segmentation_that_is_cancelled_leaves_what_stood(studio, monkeypatch)
     studio.done(before["revision"], "segment", **again)
 
 
-def test_a_segmentation_that_is_cancelled_ends_within_its_stage(studio, monkeypatch):
-    before = studio.recording()
-    there, wanted = threading.Event(), threading.Event()
-
-    def waiting(*args: object) -> object:
-        there.set()
-        wanted.wait(60)
-        return find_repetitions(*args)
-
-    find_repetitions = primitives.find_repetitions  # of one segment
-    monkeypatch.setattr(primitives, "find_repetitions", waiting)
-    again = {"preset": "kineme", "parameters": {"segment_cost": 0.9 * COST}}
-    stages: list[str] = []
-    stage = Run.start_stage
-    monkeypatch.setattr(
-        Run, "start_stage", lambda run, name: stages.append(name) or stage(run, name)
-    )
-    with ThreadPoolExecutor() as pool:
-        answer = pool.submit(studio.edit, before["revision"], "segment", **again)
-        assert there.wait(60)
-        studio.client.post(f"{studio.one}/cancel")
-        wanted.set()
-        assert answer.result().json()["error"] == "it was cancelled"
-    assert stages[-1] == "repetitions"
-
-
 def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
     studio.recording()
     there, wanted = held_at(monkeypatch, "features")
@@ -387,22 +336,3 @@ def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):
         assert ended.wait(60)
         wanted.set()
         assert (first.result().status_code, second.result().status_code) == (400, 200)
-
-
-def test_how_far_a_segmentation_is_follows_from_its_stages_and_its_pace():
-    seconds = 0.0
-    run = Run("kineme", clock=lambda: seconds)
-    assert run.progress().stage == ""
-    run.start_stage("features")
-    assert run.progress().share == 0
-    seconds = 4.0
-    run.start_stage("views")
-    assert run.progress().share == pytest.approx(0.08)
-    seconds = 5.0
-    assert run.progress().share == pytest.approx(0.1)
-    seconds = 50.0
-    assert run.progress().share == pytest.approx(0.13)  # the stage takes longer than others
-    assert sum(STAGE_SHARES["kineme"].values()) == pytest.approx(1)
-    other = Run("of another package")
-    other.start_stage("thinking")
-    assert (other.progress().stage, other.progress().share) == ("thinking", None)

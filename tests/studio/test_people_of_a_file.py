@@ -10,11 +10,9 @@ from studio_clients import Studio
 from typer.testing import CliRunner
 
 import kineme
-from kineme._util import json as _json
 from kineme.cli.app import app
 from kineme.cli.studio import _split_people
 from kineme.formats import ReadOptions
-from kineme.studio.storage import sidecars
 from kineme.studio.storage.sidecars import ListedRecording, make_file_id
 from people_files import write_people
 
@@ -111,32 +109,6 @@ def test_reading_it_as_it_is_read_makes_no_table_anew(duet: Studio) -> None:
     revision = bob.recording()["revision"]
     assert choose(bob, person="Bob", fps=15.0) == [bob.id]
     assert (labels(bob), bob.recording()["revision"]) == ({"before"}, revision)
-
-
-def test_the_side_file_of_people_is_read_once_for_a_list(duet: Studio, monkeypatch) -> None:
-    choose(duet, everybody=True)
-    read: list[Path] = []
-
-    def loaded(path: Path, shape: Any) -> Any:
-        read.append(path)
-        return _json.load_json(path, shape)
-
-    monkeypatch.setattr(sidecars, "load_json", loaded)
-    assert [each.person for each in sidecars.list_recordings([duet.path])] == ["Anna", "Bob"]
-    assert len(read) == 1
-
-
-def test_the_command_line_takes_the_table_of_a_person(duet: Studio) -> None:
-    choose(duet, everybody=True)
-    for person in ("Anna", "Bob"):
-        one = of(duet, person)
-        call = {"cluster": 0, "label": f"by {person}"}
-        one.done(one.recording()["revision"], "name_cluster", **call)
-    for person in ("Anna", "Bob"):
-        asked = ["cycles", duet.path, "--person", person, "--segments", duet.folder]
-        done = CliRunner().invoke(app, [*map(str, asked), "--ends", "-q", "-o", f"{duet.path}.csv"])
-        assert done.exit_code == 0, done.output
-        assert f"by {person}" in Path(f"{duet.path}.csv").read_text()
 
 
 def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch) -> None:

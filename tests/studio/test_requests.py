@@ -7,9 +7,7 @@ import copy
 import json
 import math
 import shutil
-import threading
 import zipfile
-from concurrent.futures import ThreadPoolExecutor
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
@@ -24,8 +22,6 @@ import kineme
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
 from kineme.studio.http.events import Hub
-from kineme.studio.loading import RecordingCache
-from kineme.studio.storage.sidecars import ListedRecording
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
 from kineme.web.encoding import to_json
@@ -176,15 +172,8 @@ def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
 @pytest.mark.parametrize(
     ("kind", "rest"),
     [
-        ("split", {"level": "activity", "frame": 0}),
         ("move_border", {"level": "activity", "frame": 1, "to": 2}),
-        ("merge", {"level": "primitive", "start_frame": 0, "stop_frame": 1}),
-        ("delete_border", {"level": "activity", "frame": 10**9}),
-        ("name_cluster", {"cluster": 99, "label": "a"}),
-        ("name_segment", {"level": "activity", "frame": 0, "label": "a\nb"}),
-        ("set_cluster", {"level": "activity", "frame": 0, "cluster": 10**9}),
         ("segment", {"preset": "best", "parameters": {}}),
-        ("segment", {"preset": "kineme", "parameters": {"averaging": 1e12}}),
         ("segment", {"preset": "kineme", "parameters": {"segment_cost": 1e12}}),
         ("transfer", {"knowledge_base": "../secret.npz"}),
         ("undo", {}),
@@ -287,20 +276,6 @@ def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
     assert studio.get(f"{studio.one}/export/json?level=both").status_code == 400
 
 
-def test_a_body_without_hands_is_segmented_by_the_distances_between_its_points(
-    studio, folder: Path
-) -> None:
-    (folder / "stick.bvh").write_text(
-        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
-        "End Site\n{\nOFFSET 0 90 0\n}\n}\nMOTION\nFrames: 40\nFrame Time: 0.1\n" + "0 0 0\n" * 40
-    )
-    files = studio.ids()
-    message = studio.get(f"/api/recordings/{files['stick.bvh']}").json()
-    assert {row["stop_frame"] for row in message["segmentation"]["segments"]} == {40}
-    notes = message["segmentation"]["provenance"]["notes"]
-    assert any("by the distances between 2 of its 2 points" in note for note in notes)
-
-
 def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
     (folder / "point.csv").write_text(
         "p_x,p_y,p_z,time\n" + "".join(f"{i},1,0,{i / 10}\n" for i in range(40))
@@ -341,24 +316,6 @@ def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
         answer = studio.get(f"/api/recordings/{files[name]}")
         assert answer.status_code == 400
         assert name in answer.json()["error"]
-
-
-NAMES = ["take.bvh", "other.bvh"]
-
-
-def test_recordings_are_read_at_the_same_time(folder: Path, monkeypatch) -> None:
-    shutil.copy(folder / "take.bvh", folder / "other.bvh")
-    both = threading.Barrier(2, timeout=300)
-
-    def read_together(path: Path, _: object) -> str:
-        both.wait()
-        return path.name
-
-    monkeypatch.setattr("kineme.studio.loading.read_quietly", read_together)
-    cache = RecordingCache()
-    with ThreadPoolExecutor(2) as threads:
-        found = threads.map(cache.read, [ListedRecording(folder / each) for each in NAMES])
-        assert list(found) == NAMES
 
 
 def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> None:

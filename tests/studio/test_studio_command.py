@@ -39,12 +39,6 @@ def test_what_files_do_not_say_can_be_said(start) -> None:
     assert notes == expected.provenance["notes"]
 
 
-def test_what_no_file_could_mean_is_said_at_once(folder: Path) -> None:
-    done = CliRunner().invoke(app, ["studio", "--no-browser", str(folder), "--unit", "feet"])
-    assert done.exit_code == 2
-    assert "feet" in done.stderr
-
-
 def test_pages_from_their_sources_may_ask_and_a_port_in_use_is_refused(start) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import shutil
 import zipfile
 import zlib
@@ -104,22 +103,6 @@ def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -
     (told,) = studio.get("/api/tables").json()["recordings"]
     assert (told["table"]["checked"], told["table"]["comments"]) == ([0], 1)
     assert told["table"]["confidence"] == [row["confidence"] for row in rows]
-
-
-@pytest.mark.parametrize("damage", ["half", "gap"])
-def test_a_table_that_is_not_as_it_was_written_is_read_as_every_table(
-    studio: Studio, damage: str
-) -> None:
-    message = studio.recording()
-    studio.done(message["revision"], "name_segment", level="activity", frame=0, label="walk")
-    table = next(studio.folder.glob("*.segments.json"))
-    content = json.loads(table.read_text())
-    if damage == "half":
-        table.write_text(table.read_text()[:500])
-    else:
-        content["segments"][0]["stop_frame"] -= 1
-        table.write_text(json.dumps(content))
-    assert read_brief(table) is None
 
 
 def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> None:
@@ -230,49 +213,6 @@ def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
     made = after["segmentation"]["provenance"]  # as the table was made before
     assert (made["preset"], made["parameters"]["radius"]) == ("voegele2014", 0.5)
     assert after["can_undo"] is False or after["saved"]
-
-
-SIDES = {
-    "shoulder": (20, 40),
-    "elbow": (25, 75),
-    "wrist": (27, 105),
-    "hip": (12, 105),
-    "knee": (12, 150),
-    "ankle": (12, 195),
-}
-UPRIGHT = {"nose": (0, 10)}  # pixels
-UPRIGHT |= {f"left_{name}": (-x, y) for name, (x, y) in SIDES.items()}
-UPRIGHT |= {f"right_{name}": place for name, place in SIDES.items()}
-
-
-def test_one_of_several_people_is_chosen_from_a_list(studio: Studio) -> None:
-    head = [
-        "scorer" + ",net" * 78,
-        "individuals" + ",ann" * 39 + ",bob" * 39,
-        "bodyparts" + "".join(f",{name}" * 3 for name in UPRIGHT) * 2,
-        "coords" + ",x,y,likelihood" * 26,
-    ]
-    body = np.array(list(UPRIGHT.values()))
-    rows = [
-        ",".join([str(i), *(f"{x + far},{y + i % 9},0.9" for far in (0, 400) for x, y in body)])
-        for i in range(120)
-    ]
-    path = studio.folder / "two.csv"
-    path.write_text("\n".join([*head, *rows]))
-    address = f"/api/recordings/{make_file_id(path)}"
-    said = studio.get(address).json()
-    assert said["reading"] is True
-    assert said["people"] == ["ann", "bob"]
-    refused = studio.post(f"{address}/reading", {"options": {"person": "bob"}})
-    assert (refused.status_code, refused.json()["people"]) == (400, [])
-    assert "fps" in refused.json()["error"]
-    chosen = {"options": {"fps": 30.0, "person": "bob"}}
-    answered = studio.post(f"{address}/reading", chosen)
-    assert answered.status_code == 200
-    (bob,) = answered.json()
-    shown = studio.get(f"/api/recordings/{bob}").json()
-    assert (shown["name"], shown["read_options"]) == ("two.csv · bob", {"fps": 30.0})
-    assert (shown["person"], shown["people"]) == ("bob", ["ann", "bob"])
 
 
 def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:

@@ -119,19 +119,6 @@ def test_without_inner_repetitions_all_are_in_the_mean() -> None:
     assert curves.sd == [None] * 101
 
 
-def test_an_edit_is_measured_anew(measured: CycleCurves) -> None:
-    row = next(row for row in TRUTH.primitives if row.kind == "primitive")
-    before = measured.make_curves(TRUTH, row.cluster, "knee_l")
-    columns = dict(TRUTH.table.columns())
-    kept = [cluster if cluster != row.cluster else 99 for cluster in columns["cluster"]]
-    edited = kineme.Segmentation.from_columns(
-        {**columns, "cluster": kept}, n_frames=TRUTH.n_frames, fps=TRUTH.fps
-    )
-    assert measured.make_curves(edited, row.cluster, "knee_l") is None
-    after = measured.make_curves(edited, 99, "knee_l")
-    assert after.mean == before.mean
-
-
 def test_what_people_left_out_is_in_no_mean_and_can_be_found(measured: CycleCurves) -> None:
     cluster = next(row.cluster for row in TRUTH.primitives if row.kind == "primitive")
     before = measured.make_curves(TRUTH, cluster, "knee_l")
@@ -167,12 +154,6 @@ def test_another_session_is_the_one_that_the_command_compares_with() -> None:
     unnamed = name_cluster(tables[1], tables[1].primitives.cluster.max(), "")
     assert first.compare_with(tables[0], cluster, "knee_l", second, unnamed).beside is None
     assert first.make_curves(tables[0], cluster, "knee_l").beside is None
-
-
-def test_what_is_not_there_is_none(measured: CycleCurves) -> None:
-    assert measured.make_curves(TRUTH, 0, "tail_l") is None
-    assert measured.make_curves(TRUTH, 1000) is None
-    assert measured.make_curves(TRUTH, -1) is None
 
 
 def test_signals_and_gaps() -> None:

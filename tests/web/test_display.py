@@ -44,11 +44,6 @@ def test_every_second_frame_of_60_hz_comes_back_within_a_step() -> None:
     np.testing.assert_allclose(decoded(head, data), RECORDING.positions[::2], atol=0.51 * head.step)
 
 
-def test_slow_recordings_keep_their_rate() -> None:
-    head, _ = display_motion(moving(RECORDING.positions[:50], fps=12.5))
-    assert (head.sample_fps, head.n_samples) == (12.5, 50)
-
-
 @pytest.mark.parametrize("fps", [29.97, 40.0, 59.94, 100.0, 119.88, 1000.0])
 def test_samples_lie_on_the_line_between_frames(fps: float) -> None:
     line = np.linspace(0, 1, 500)[:, None, None] * np.array([1.0, 2.0, -3.0])

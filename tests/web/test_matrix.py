@@ -11,7 +11,6 @@ from PIL import Image
 
 import kineme
 from kineme.datasets import bundled_recording, bundled_truth
-from kineme.errors import ParameterError
 from kineme.features.similarity import (
     MAX_CELLS,
     SimilarityMatrix,
@@ -86,12 +85,6 @@ def test_a_gap_is_like_nothing(motion: Motion) -> None:
         assert picture[start - 10, start - 10] == 1
 
 
-def test_there_are_no_tiles_outside() -> None:
-    for place in ((0, 2, 0), (0, 0, 2), (2, 0, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1)):
-        assert make_tile(MATRIX, *place) is None
-    assert make_tile(MATRIX, 0, 1, 1) is not None
-
-
 @pytest.mark.parametrize("channels", [1, 3, 40])
 def test_signals_repeat_where_they_repeat(channels: int) -> None:
     times = np.arange(1200) / 60
@@ -116,15 +109,6 @@ def test_signals_that_are_still_or_missing_in_part() -> None:
     assert holed[5, 5] == holed[45, 45] == 1
     np.testing.assert_array_equal(shown(compare_frames_of_signal(np.full(9, np.nan), 10.0)), 0)
     assert shown(compare_frames_of_signal(np.ones(1), 0.01)).shape == (1, 1)
-
-
-@pytest.mark.parametrize(
-    ("values", "fps"),
-    [(np.ones((0, 3)), 10), (np.ones((3, 0)), 10), (1.0, 1), (np.ones(3), 0), ([["a"]], 1)],
-)
-def test_what_is_no_signal_is_refused(values: object, fps: float) -> None:
-    with pytest.raises(ParameterError):
-        compare_frames_of_signal(values, fps)
 
 
 def test_what_a_report_keeps_covers_the_recording_and_stays_within_its_bytes() -> None:

@@ -64,11 +64,3 @@ def test_what_neither_side_explains_is_a_transition(off: int) -> None:
     assert abs(starts[1] - 6.25 * fps) <= 4
     starts, stops = refine_borders(noise + (at >= 6 * fps)[:, None], borders, KINEME)
     assert starts[1] == stops[0]
-
-
-def test_too_short_a_side_tells_nothing() -> None:
-    ends = [3 * FPS, 3 * FPS + SECOND, 7 * FPS]
-    borders = np.array([0, *ends])
-    borders[1] += 10
-    starts, stops = refine_borders(quiet_and_loud(0, ends), borders, SENSORS)
-    assert [*starts, stops[-1]] == [0, *stops] == borders.tolist()

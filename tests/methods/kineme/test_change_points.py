@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 import naive
 from kineme.methods.kineme import _tree_kernels as kernels
-from kineme.methods.segments import number_by_appearance
 
 seconds = settings(max_examples=60)
 
@@ -45,11 +44,3 @@ def test_no_division_is_cheaper(similarity, width, penalty) -> None:
     assert naive.compute_division_cost(similarity, found, penalty) == pytest.approx(
         min(costs), abs=1e-4
     )
-
-
-@given(st.lists(st.integers(-1, 4), max_size=20))
-@seconds
-def test_labels_are_counted_by_first_appearance(labels) -> None:
-    found = number_by_appearance(np.array(labels, np.int64)).tolist()
-    known = [label for label in dict.fromkeys(labels) if label >= 0]
-    assert found == [known.index(label) if label >= 0 else -1 for label in labels]

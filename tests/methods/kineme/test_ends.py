@@ -89,13 +89,6 @@ def test_two_of_one_action_stay_apart() -> None:
     assert (found.stops[0], found.starts[1]) == (STOP - 12, STOP - 3)
 
 
-def test_with_nothing_between_two_cuts_the_ends_stay() -> None:
-    for cuts in ([], CUTS[:1]):
-        found = ends(shaken(7), 46, 60 + 2 * PERIOD, cuts)
-        assert (found.starts, found.firsts) == (46, 46)
-        assert (found.stops, found.lasts) == (60 + 2 * PERIOD, 60 + 2 * PERIOD)
-
-
 @given(st.integers(0, 400), st.integers(1, 400), st.sets(st.integers(1, 399), max_size=9))
 @settings(max_examples=60)
 def test_repetitions_lie_in_their_activity_whatever_is_cut(start, length, places) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import hypothesis.strategies as st
 import numpy as np
 import pytest
@@ -12,7 +10,7 @@ from hypothesis import given, settings
 import naive
 from gestures import insert_gestures, make_wandering, stack_features
 from kineme.methods.kineme import _event_kernels as kernels
-from kineme.methods.kineme.events import Occurrences, find_occurrences, split_path
+from kineme.methods.kineme.events import Occurrences, find_occurrences
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
 
@@ -62,35 +60,6 @@ def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
         assert partners[[0, -1]].tolist() == [each[1], each[3]]
         assert other_partners[[0, -1]].tolist() == [each[0], each[2]]
         assert (np.diff(partners) > 0).all()
-
-
-@given(walks(), st.integers(1, 5))
-@seconds
-def test_a_long_path_is_followed(walk, leg) -> None:
-    samples, costs, begins = walk
-    columns = np.ascontiguousarray(samples.T)
-    options = columns, costs, begins, 1, 30
-    whole, whole_scores, _ = kernels.find_local_paths(*options, 99, 0.8, -2.0, 1.0)
-    ends, scores, passed = kernels.find_local_paths(*options, leg, 0.8, -2.0, 1.0)
-    assert ends[:, :4].tolist() == whole[:, :4].tolist()
-    assert scores.tolist() == whole_scores.tolist()
-    for each, score in zip(ends, scores, strict=True):
-        pairs, latest = [each[2:4]], each[4]
-        while latest >= 0:
-            pairs.append(passed[latest, :2])
-            latest = passed[latest, 2]
-        rows = np.array([*pairs, each[:2]])[::-1, 0]
-        assert (leg <= np.diff(rows)[:-1]).all()
-        assert np.diff(rows).max() <= leg + 1  # a step is two samples at most
-        forth, sums, back, back_sums = split_path(columns, costs, each, passed, 0.8)
-        assert forth[[0, -1]].tolist() == [each[1], each[3]]
-        assert back[[0, -1]].tolist() == [each[0], each[2]]
-        assert (np.diff(forth) > 0).all()
-        assert len(forth) == len(sums) == each[2] - each[0] + 1
-        assert len(back) == len(back_sums) == each[3] - each[1] + 1
-        assert sums[-1] == pytest.approx(back_sums[-1])
-        best = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
-        assert score - 1e-9 <= sums[-1] <= best + 1e-9
 
 
 def paths_of(rng: np.random.Generator, n: int) -> list[tuple[int, np.ndarray, np.ndarray]]:
@@ -203,21 +172,6 @@ def test_what_is_counted_for_sure_keeps_its_repetitions() -> None:
     assert found.segments.clusters.max() == 0
     assert found.segments.not_periodic.size == 0
     assert found.doubts(found.columns(), 30.0) == []
-
-
-def test_a_note_says_what_is_not_periodic() -> None:
-    found = analyze(
-        np.tile(stack_features(make_wandering(np.random.default_rng(0), 90)), (6, 1)), KINEME
-    )
-    loose = replace(found, segments=replace(found.segments, not_periodic=np.array([0])))
-    notes = loose.doubts(loose.columns(), 30.0)
-    assert (
-        "not periodic: 0.00 to 18.00 s; their primitives are movements that repeat elsewhere"
-        in notes
-    )
-    nothing = loose.columns()
-    nothing["cluster"] = np.where(nothing["level"] == "primitive", -1, nothing["cluster"])
-    assert "not periodic: 0.00 to 18.00 s; nothing in them repeats" in loose.doubts(nothing, 30.0)
 
 
 def test_standing_still_does_not_recur() -> None:

@@ -64,14 +64,6 @@ def found_in(rows: np.ndarray, leg: float) -> Occurrences:
         return events.find_occurrences(rows, np.ones(len(rows), np.bool_), KINEME)
 
 
-def test_paths_that_fit_into_a_leg_are_found_as_without_one() -> None:
-    rows = np.vstack([insert_gestures(1, [100, 310, 555, 790])] * 2)
-    whole, in_legs = found_in(rows, 3600), found_in(rows, 60)
-    assert len(whole) > 2
-    for name in ("starts", "stops", "clusters", "similarity"):
-        np.testing.assert_array_equal(getattr(in_legs, name), getattr(whole, name))
-
-
 def test_paths_that_are_longer_than_a_leg_are_found_as_without_one() -> None:
     rows = np.vstack([insert_gestures(1, [100, 310, 555, 790])] * 4)
     rows += np.random.default_rng(0).normal(0, 0.01, rows.shape)

@@ -48,12 +48,3 @@ def test_a_fast_set_is_one_wherever_the_hand_moves(moved: float) -> None:
 )
 def test_two_activities_stay_apart(other: np.ndarray) -> None:
     assert joined(swings(1), other).labels.tolist() == [0, 1]
-
-
-def test_a_single_activity_stays_as_it_is() -> None:
-    rows = np.ascontiguousarray(swings(1), np.float32)
-    cuts = [find_repetitions(rows, 0, HALF, KINEME)]
-    found = Sets(np.array([0]), np.array([HALF]), np.array([0]), cuts)
-    same = join_sets(rows, found, KINEME)
-    assert [values.tolist() for values in same[:3]] == [[0], [HALF], [0]]
-    assert same.cuts[0].tolist() == cuts[0].tolist()

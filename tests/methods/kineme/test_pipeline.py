@@ -178,13 +178,6 @@ def assert_whole(found: KinemeFound, frames: int) -> None:
     assert len(sure.cuts) == len(found.primitives) - 1
 
 
-def test_activities_alternate_and_are_counted_by_first_appearance() -> None:
-    for seed in range(4):
-        found = analysis_of(seed)
-        assert_whole(found, len(recorded(seed)))
-        assert (found.segments.labels >= 0).sum() >= 4
-
-
 @given(
     st.integers(1, 90), st.integers(1, 4), st.integers(0, 2**32 - 1),
     st.sampled_from(["held", "noise", "drift", "far"]),
@@ -299,16 +292,16 @@ def test_a_constant_out_of_range_is_named(name: str, value: object) -> None:
         resolve_preset("kineme", **{name: value})
 
 
-@pytest.mark.parametrize("shape", [(0, 3), (50, 0), (50,)])
-def test_features_of_another_shape_are_refused(shape) -> None:
-    with pytest.raises(ParameterError, match="frames x dims"):
-        analyze(np.zeros(shape), KINEME)
-
-
-def test_a_gap_in_the_features_is_named() -> None:
-    rows = np.zeros((50, 2))
-    rows[20, 1] = np.nan
-    with pytest.raises(ParameterError, match="not finite, first in frame 20"):
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        (np.zeros((0, 3)), "frames x dims"),
+        (np.zeros(50), "frames x dims"),
+        (np.array([[0.0], [np.nan]]), "not finite, first in frame 1"),
+    ],
+)
+def test_rows_that_are_no_features_are_refused(rows, message) -> None:
+    with pytest.raises(ParameterError, match=message):
         analyze(rows, KINEME)
 
 

@@ -10,7 +10,6 @@ import pytest
 from kineme.methods.kineme.events import Occurrences
 from kineme.methods.kineme.primitives import (
     Segments,
-    average_by_cluster,
     drop_still_clusters,
     replace_by_occurrences,
 )
@@ -48,11 +47,6 @@ def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
     assert found.not_periodic.tolist() == [1]
 
 
-def test_without_occurrences_a_free_activity_has_no_primitive() -> None:
-    found = replace_by_occurrences(segments(), occurring(), FREE)
-    assert found.clusters.tolist() == [0, 0, -1, -1, 0]
-
-
 def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
     parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
     found = replace_by_occurrences(parts, occurring((140, 180), (220, 260)), FREE)
@@ -62,18 +56,18 @@ def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
     assert untouched.not_periodic.size == 0
 
 
-def test_borders_go_to_the_nearer_end_of_an_occurrence() -> None:
-    found = replace_by_occurrences(segments(), occurring((120, 180), (220, 260)), FREE)
-    assert found.borders.tolist() == [0, 100, 120, 300, 400]
-    found = replace_by_occurrences(segments(), occurring((100, 135), (220, 260)), FREE)
-    assert found.borders.tolist() == [0, 100, 135, 300, 400]
-
-
-def test_a_transition_that_an_occurrence_takes_is_gone() -> None:
-    found = replace_by_occurrences(segments(), occurring((100, 270), (280, 300)), FREE)
-    assert found.borders.tolist() == [0, 100, 300, 400]
-    assert found.labels.tolist() == [0, 1, 0]
-    assert found.clusters.tolist() == [0, 0, 2, -1, 2, 0]
+@pytest.mark.parametrize(
+    ("spans", "borders", "labels"),
+    [
+        (((120, 180), (220, 260)), [0, 100, 120, 300, 400], [0, -1, 1, 0]),  # the nearer end
+        (((100, 135), (220, 260)), [0, 100, 135, 300, 400], [0, -1, 1, 0]),
+        (((100, 270), (280, 300)), [0, 100, 300, 400], [0, 1, 0]),  # the transition is taken
+    ],
+)
+def test_no_border_cuts_an_occurrence(spans, borders, labels) -> None:
+    found = replace_by_occurrences(segments(), occurring(*spans), FREE)
+    assert found.borders.tolist() == borders
+    assert found.labels.tolist() == labels
 
 
 def alone() -> Segments:
@@ -98,18 +92,3 @@ def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
     assert found.clusters.tolist() == [0 if kept else -1, 1, 1, -1, 3, -1]
     assert found.not_periodic.tolist() == ([2] if kept else [0, 2])
     assert found.counts.tolist() == [int(kept), 2, 0]
-
-
-def test_shares_are_those_of_actions() -> None:
-    shares = np.array([0.8, np.nan, 0.5, 0.2])
-    found = average_by_cluster(shares, np.diff(BORDERS), LABELS)
-    np.testing.assert_allclose(found, [0.5, 0, 0.5, 0.5])
-    found = average_by_cluster(shares, np.diff(BORDERS) * [True, True, False, False], LABELS)
-    np.testing.assert_allclose(found, [0.8, 0, 0, 0.8])
-
-
-def test_occurrences_within_some_segments_recur_there() -> None:
-    found = occurring((140, 180), (220, 260), (310, 350))
-    kept = found.select_within(BORDERS, FREE)
-    assert kept.starts.tolist() == [140, 220]
-    assert not len(occurring((140, 180), (310, 350)).select_within(BORDERS, FREE))

@@ -1,4 +1,4 @@
-"""Segments that repeat: kernels against naive versions, and savings."""
+"""Segments that repeat: kernels against naive versions, and exercises that are counted."""
 
 from __future__ import annotations
 
@@ -7,14 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import kineme
 import naive
-from gestures import make_wandering, stack_features
-from kineme.datasets import random_recording
+from gestures import stack_features
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.pipeline import KinemeFound
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repetitions import Repeating, measure_channel_energies
+from kineme.methods.kineme.repetitions import measure_channel_energies
 
 seconds = settings(max_examples=60)
 FPS = round(KINEME.working_fps)
@@ -91,15 +89,6 @@ def test_the_spread_is_that_of_the_naive_version(seed, n, start, length) -> None
     )
 
 
-def test_few_samples_tell_the_spread_of_many() -> None:
-    view = np.random.default_rng(0).normal(size=(2000, 4)).astype(np.float32)
-    whole, some = (kernels.measure_spread(view, 0, 2000, most) for most in (2000, 32))
-    assert some == pytest.approx(whole, rel=0.1)
-
-
-# --- what is saved ----------------------------------------------------------------------------
-
-
 def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) -> np.ndarray:
     """Make slow squats that become slower and less deep, with noise."""
     rng = np.random.default_rng(seed)
@@ -126,63 +115,6 @@ def test_what_times_allow_is_that_of_the_naive_version(visits, limits) -> None:
     assert found == pytest.approx(naive.score_durations(visits, 30.0, *limits), abs=1e-12)
 
 
-def standing(seconds: float, seed: int = 0) -> np.ndarray:
-    return np.random.default_rng(seed).normal(0, 0.005, (round(seconds * FPS), 6))
-
-
-def share_saved(rows: np.ndarray) -> float:
-    """Return the saved share of the spread of poses, which are also the view."""
-    view = np.ascontiguousarray(rows[:: round(FPS / KINEME.rate)], np.float32)
-    repeating = Repeating(np.ascontiguousarray(rows, np.float32), KINEME)
-    saved = repeating.measure_saving(view, 2.0, 0, len(view))
-    assert 2 * saved == pytest.approx(repeating.measure_saving(view, 1.0, 0, len(view)))
-    return 2.0 * saved / max(kernels.measure_spread(view, 0, len(view), 10_000), 1e-12)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_slow_repetitions_save_most_of_what_they_spread(seed: int) -> None:
-    """Drift of pace and depth does not matter."""
-    assert share_saved(squats(10, seed=seed)) > 0.5
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_more_repetitions_save_a_larger_share(seed: int) -> None:
-    shares = [share_saved(squats(count, seed=seed)) for count in (2, 5, 10)]
-    assert shares == sorted(shares)
-
-
-def test_two_repetitions_save_nothing() -> None:
-    """Hardly anything is saved: slow movements up and down look alike."""
-    assert share_saved(squats(2)) < 0.05
-    assert share_saved(squats(2, period=3.0)) < 0.05
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_who_stands_or_never_does_the_same_saves_nothing(seed: int) -> None:
-    assert share_saved(standing(30, seed)) == 0
-    assert share_saved(make_wandering(np.random.default_rng(seed), 30 * FPS)) < 0.1
-    assert share_saved(np.zeros((20 * FPS, 6))) == 0
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> None:
-    one, other = squats(6, seed=seed), squats(6, seed=seed + 10, first=3)
-    assert min(share_saved(one), share_saved(other)) > 0.3
-    rows = np.concatenate([one, other]).astype(np.float32)
-    view = np.ascontiguousarray(rows[::6])
-    repeating, (border, end) = Repeating(rows, KINEME), (len(one) / FPS, len(rows) / FPS)
-    found = repeating.find_division(0, len(view))
-    if found is not None:
-        start, stop = found.start / KINEME.rate, found.stop / KINEME.rate
-        assert 0 <= start < stop <= end + 1 / KINEME.rate
-        assert found.share < 0.05 or min(border - start, stop - border) < 2
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_four_slow_repetitions_save_some(seed: int) -> None:
-    assert share_saved(squats(4, seed=seed, period=5.5)) > 0.25
-
-
 def parting_of_channels(*sizes: np.ndarray) -> float:
     """Score repetitions of one shape with these sizes (repetitions, channels)."""
     angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
@@ -195,14 +127,6 @@ def test_other_channels_are_another_movement_and_another_size_is_not() -> None:
     assert parting_of_channels(arms, arms, arms, legs, legs, legs) < KINEME.same_channels - 0.1
     shrinking = [size * arms for size in np.linspace(1, 0.1, 6)]
     assert parting_of_channels(*shrinking) > KINEME.same_channels + 0.1
-
-
-def test_what_is_too_short_or_too_long_saves_nothing() -> None:
-    assert share_saved(squats(10)[:20]) == 0
-    assert share_saved(np.tile(squats(10), (3, 1))) == 0  # asked in parts
-
-
-# --- recordings -------------------------------------------------------------------------------
 
 
 def found_in(*parts: np.ndarray) -> KinemeFound:
@@ -223,15 +147,3 @@ def test_two_exercises_one_after_the_other_are_two_activities(seed: int) -> None
     assert found.segments.labels.tolist() == [0, 1]
     assert abs(found.borders[1] - len(one)) <= FPS
     assert found.segments.counts.tolist() == [8, 9]
-
-
-@pytest.mark.parametrize("seconds", [2, 20, 90])
-def test_where_nothing_moves_is_one_activity_without_primitives(seconds: int) -> None:
-    motion = random_recording(0).motion
-    held = kineme.Motion(
-        motion.skeleton, np.repeat(motion.positions[:1], round(seconds * 30), axis=0), 30.0
-    )
-    found = kineme.segment(held)
-    assert found.activities.stop_frame.tolist() == [held.n_frames]
-    assert (found.primitives.cluster == -1).all()
-    assert not any(found.repetitions().values())

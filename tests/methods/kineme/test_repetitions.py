@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import naive
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repetitions import Candidate, find_repetitions, shift_to_rest
+from kineme.methods.kineme.repetitions import find_repetitions
 from loops import make_nods, make_swings
 
 seconds = settings(max_examples=60)
@@ -96,14 +96,6 @@ def test_a_rest_between_repetitions_changes_no_count(movement, rest: float) -> N
 
 
 @movements
-def test_repetitions_begin_at_equal_phase(movement) -> None:
-    found = count(movement(8, period=1.2))
-    lengths = [b - a for a, b in pairwise([0, *found.tolist(), 8 * 36])]
-    assert max(abs(length - 36) for length in lengths[1:-1]) <= 1
-    assert max(lengths) - min(lengths) <= 18
-
-
-@movements
 @pytest.mark.parametrize("rest", [0.5, 1.0, 2.0])
 def test_repetitions_begin_where_somebody_rests_between_them(movement, rest: float) -> None:
     found = count(movement(6, period=1.2, rest=rest))
@@ -112,21 +104,6 @@ def test_repetitions_begin_where_somebody_rests_between_them(movement, rest: flo
 
 
 speeds = st.lists(st.sampled_from([0.0, 0.01, 0.5, 1.0, 3.0]), min_size=2, max_size=60)
-
-
-@given(speeds, st.data(), st.integers(0, 4))
-@seconds
-def test_as_many_repetitions_follow_each_other_at_rest(moved, data, averaged: int) -> None:
-    at = st.sets(st.integers(1, len(moved) - 1), max_size=6)
-    cuts = np.array(sorted(data.draw(at)), np.int64)
-    found = shift_to_rest(cuts, np.append(0, np.cumsum(moved)), averaged)
-    assert len(found) == len(cuts)
-    assert (np.diff(found, prepend=0, append=len(moved)) > 0).all()
-
-
-def test_where_nobody_rests_repetitions_begin_where_their_poses_tell() -> None:
-    cuts = np.array([30, 60, 90])
-    assert shift_to_rest(cuts, np.arange(121.0), 3).tolist() == cuts.tolist()
 
 
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
@@ -195,17 +172,6 @@ def test_left_and_right_are_halves_of_one_repetition() -> None:
 def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
     rows = np.random.default_rng(seed).normal(0, 0.01, (frames, 15))
     assert len(count(rows)) == 0
-
-
-@pytest.mark.parametrize("times", [2, 3, 5, 10, 40])
-def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
-    """Repetitions of a movement correlate by 0.5, random ones by 0.3."""
-    rng = np.random.default_rng(times)
-    for common, is_chance in ((0.5, False), (0.3, True)):
-        shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))
-        parts = shared + np.sqrt(1 - common) * rng.normal(0, 1, (times, 1000, 15))
-        left = float(kernels.measure_unexplained(parts, 1.0).mean())
-        assert Candidate(np.arange(times + 1), 0, 0, 0, left, KINEME).is_chance(0.6) == is_chance
 
 
 @st.composite

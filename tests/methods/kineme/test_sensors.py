@@ -91,29 +91,6 @@ def test_the_cheapest_grouping_is_that_of_the_naive_version(
     assert sorted(np.flatnonzero(labels == g).tolist() for g in np.unique(labels)) == groups
 
 
-def test_two_stretches_of_much_movement_are_one_sooner_than_two_postures() -> None:
-    rng = np.random.default_rng(0)
-    lively, still = rng.normal(size=(40, 8)), 2 + 0.05 * rng.normal(size=(40, 8))
-    still[20:] += 1.0
-    features = np.concatenate([lively, still]).astype(np.float32)
-    sums = tree.sum_between_segments(features, np.arange(0, 81, 20), 1.0)
-    labels = np.empty(4, np.int64)
-    for share, expected in ((0.0, [0, 1, 2, 2]), (SENSORS.spread_share, [0, 0, 2, 3])):
-        kernels.find_cheapest_grouping(sums.copy(), np.full(4, 20.0), 3, 0.0, 1.0, share, labels)
-        assert labels.tolist() == expected
-
-
-@given(samples(), st.data())
-@settings(max_examples=60)
-def test_each_level_has_the_borders_of_the_coarser_ones(features, data) -> None:
-    cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
-    borders = np.array([0, *sorted(cuts), len(features)])
-    levels = tree.list_levels(borders, tree.sum_between_segments(features, borders, 1.0))
-    assert [len(level) - 1 for level in levels] == list(range(1, len(borders)))
-    for coarse, fine in pairwise(levels):
-        assert set(coarse.tolist()) <= set(fine.tolist())
-
-
 def test_activities_of_sensors_are_found_and_known_again() -> None:
     for seed in range(5):
         rows, borders = worn(seed)
@@ -195,26 +172,6 @@ def test_parts_are_whole_and_none_is_too_long(n: int, longest: int, side: int, s
     assert 1 <= lengths.min() <= lengths.max() <= max(2, longest * (1 + 2 * MAX_SHIFT))
 
 
-def test_parts_meet_where_the_recording_changes() -> None:
-    rows = np.repeat([[0.0, 1.0], [1.0, 0.0], [0.0, 1.0]], [95, 110, 95], axis=0)
-    assert choose_part_ends(rows, 100, 10) == [0, 95, 205, 300]
-
-
-def test_what_channels_share_is_held_down() -> None:
-    rng = np.random.default_rng(0)
-    channels = rng.standard_normal((4000, 1)) + 0.5 * rng.standard_normal((4000, 6))
-    channels = (channels - channels.mean(axis=0)) / channels.std(axis=0)
-
-    def shared(of: np.ndarray) -> float:
-        return float(np.linalg.eigvalsh(np.corrcoef(of.T))[-1])
-
-    assert shared(channels) > 4.5
-    held = reduce_shared(channels, 0.3).apply(channels)
-    assert shared(held) < 1.5
-    np.testing.assert_allclose(held.std(axis=0), 1.0)
-    assert reduce_shared(channels, 1e4) is None
-
-
 @pytest.mark.parametrize("shape", [(400, 12), (12, 400)])
 @pytest.mark.parametrize("most", [0.3, 1.0, 5.0])
 def test_reducing_shared_variance_equals_the_whole_matrix(shape, most) -> None:
@@ -227,22 +184,6 @@ def test_reducing_shared_variance_equals_the_whole_matrix(shape, most) -> None:
     mixed = channels @ mixing
     expected = mixed / mixed.std(axis=0)
     np.testing.assert_allclose(reduce_shared(channels, most).apply(channels), expected, atol=1e-9)
-
-
-def test_the_order_of_channels_changes_nothing() -> None:
-    rows = worn()[0] * [1, -2, 3, 1, 1, 1]
-    rows[:, 3:] = np.cumsum(rows[:, 3:], axis=0)  # slower ones
-    order = np.random.default_rng(0).permutation(6)
-    given, turned = (kineme.segment(kineme.Signals(each, FPS)) for each in (rows, rows[:, order]))
-    assert given.cuts().tolist() == turned.cuts().tolist()
-    assert given.table.cluster.tolist() == turned.table.cluster.tolist()
-
-
-def test_one_channel_has_no_halves_and_one_view_no_rivals() -> None:
-    alone = SENSORS.replace(shared=(0.3,), weights=(1.0,), restless_over=(1.0,))
-    assert len(compute_views(worn()[0], SENSORS).halves) == 4
-    assert not compute_views(worn()[0][:, :1], SENSORS).halves
-    assert not compute_views(worn()[0], alone).halves
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=2, max_size=40))

@@ -79,22 +79,6 @@ def test_scaling_the_features_with_all_lengths_changes_nothing(preset, seed, fac
 
 
 @presets
-def test_a_reach_beyond_the_recording_is_no_limit(preset: RegionGrowingPreset) -> None:
-    rows = recorded(1, preset)
-    far = analyze_regions(rows, preset.replace(max_lag=len(rows) / preset.working_fps))
-    assert_same(far, found_in(1, preset))
-
-
-@presets
-def test_recordings_have_something_to_find(preset: RegionGrowingPreset) -> None:
-    for seed in range(4):
-        found = found_in(seed, preset)
-        assert found.repeats.sum() >= 3
-        assert len(found.primitives) > 2 * len(found.borders)
-        assert len(set(found.clustering.labels.tolist())) < len(found.primitives) - 5
-
-
-@presets
 def test_threads_and_repetition_change_nothing(preset, set_threads) -> None:
     set_threads(1)
     alone = analyze_regions(recorded(2, preset), preset)
@@ -151,18 +135,6 @@ def test_segments_tile_whatever_the_constants(points, preset) -> None:
     assert_tiles(analyze_regions(points, preset, mirror=np.negative), len(points))
 
 
-def test_progress_and_timings_name_the_stages() -> None:
-    stages = ["neighbors", "activities", "primitives", "clusters"]
-    for name, expected in (
-        ("voegele2014", stages),
-        ("krueger2017", ["bundling", *stages]),
-    ):
-        names: list[str] = []
-        found = analyze_regions(np.zeros((40, 2)), PUBLISHED[name], progress=names.append)
-        assert names == [*found.timings] == expected
-        assert all(seconds >= 0 for seconds in found.timings.values())
-
-
 @pytest.mark.parametrize(
     ("name", "value"),
     [
@@ -184,8 +156,3 @@ def test_progress_and_timings_name_the_stages() -> None:
 def test_a_constant_out_of_range_is_named(name: str, value: object) -> None:
     with pytest.raises(ParameterError, match=name):
         resolve_preset("krueger2017", **{name: value})
-
-
-def test_an_unknown_preset_is_answered_with_the_known_ones() -> None:
-    with pytest.raises(ParameterError, match=r"'best'.*voegele2014, krueger2017"):
-        resolve_preset("best")

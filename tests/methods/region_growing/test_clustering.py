@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,7 +10,6 @@ import naive
 from graphs import as_lists, flatten_paths, sparse_graphs, staircases
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.activities import cluster_segments
-from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.methods.region_growing.warping import BASIC_STEPS, warping_paths
 
 seconds = settings(max_examples=60)
@@ -74,24 +72,3 @@ def test_clusters_are_those_of_the_naive_rules(
             if h != g and labels[g] == labels[h]:
                 scores[g], scores[h] = max(scores[g], share), max(scores[h], share)
     np.testing.assert_allclose(found.scores, scores)
-
-
-@pytest.mark.parametrize("interpolate", [True, False])
-@pytest.mark.parametrize("connection", ["weak", "strong"])
-def test_equal_segments_share_a_cluster(interpolate: bool, connection: str) -> None:
-    rng = np.random.default_rng(4)
-    a, b = np.cumsum(rng.normal(size=(2, 30, 3)), axis=1)
-    b += 40
-    features = np.concatenate([a, b, a, a, b])
-    found = cluster_segments(
-        neighbor_graph(features, radius=0.1),
-        np.array([0, 30, 60, 90, 120, 149]),
-        min_nodes=15,
-        max_slope=2.0,
-        coverage=0.66,
-        interpolate=interpolate,
-        connection=connection,
-        **CONSTANTS,
-    )
-    assert found.labels.tolist() == [0, 1, 0, 0, 1]
-    assert (found.scores > 0.9).all()

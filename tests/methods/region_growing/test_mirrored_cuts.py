@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 import naive
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError
-from kineme.features import mirror, mirror_features
-from kineme.methods.prepare import compute_motion_features
+from kineme.features import mirror
 from kineme.methods.region_growing.activities import merge_cuts
 from kineme.methods.region_growing.analysis import RegionsFound, analyze_regions
 from kineme.methods.region_growing.preset import KRUEGER2017, VOEGELE2014, RegionGrowingPreset
@@ -77,12 +76,3 @@ def test_a_kick_with_the_other_leg_has_the_same_cuts(preset: RegionGrowingPreset
 def test_features_without_sides_are_refused() -> None:
     with pytest.raises(ParameterError, match="mirror=False"):
         analyze_regions(np.zeros((30, 2)), MIRRORING["krueger2017"])
-
-
-def test_stages_are_named() -> None:
-    motion = synthesize([Action("walk", 3)], fps=30).motion
-    features = compute_motion_features(motion, KRUEGER2017)
-    found = analyze_regions(features, MIRRORING["krueger2017"], mirror=mirror_features)
-    assert [*found.timings] == [
-        "bundling", "neighbors", "activities", "primitives", "mirroring", "clusters",
-    ]  # fmt: skip

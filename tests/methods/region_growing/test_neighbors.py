@@ -120,43 +120,6 @@ def test_restricting_drops_the_far_and_the_near_diagonal(graph, radius, min_lag)
     assert as_pairs(graph.restrict(radius=radius, min_lag=min_lag)) == kept
 
 
-@given(features(min_frames=2), SHARES)
-@seconds
-def test_restricting_is_searching_with_less(points, share) -> None:
-    radius = share * spread(points)
-    wide = neighbor_graph(points, radius=radius)
-    assert as_pairs(wide.restrict(radius=radius / 2)) == as_pairs(
-        neighbor_graph(points, radius=radius / 2)
-    )
-
-
-@given(features(min_frames=2), SHARES, st.integers(0, 10))
-@seconds
-def test_max_lag_beyond_the_recording_changes_nothing(points, share, more) -> None:
-    radius = share * spread(points)
-    whole = as_pairs(neighbor_graph(points, radius=radius))
-    assert as_pairs(neighbor_graph(points, radius=radius, max_lag=len(points) + more)) == whole
-    assert as_pairs(neighbor_graph(points, radius=radius, max_lag=len(points) - 1)) == whole
-
-
-@given(features(min_frames=2), SHARES, st.data())
-@seconds
-def test_a_query_finds_the_rows_of_the_joint_graph(points, share, data) -> None:
-    cut = data.draw(st.integers(1, len(points) - 1))
-    radius = share * spread(points)
-    joint = as_pairs(neighbor_graph(points, radius=radius))
-    query = as_pairs(neighbor_graph(points[:cut], points[cut:], radius=radius))
-    assert query == {(i, j - cut): d for (i, j), d in joint.items() if i < cut <= j}
-
-
-@given(features(), SHARES)
-@seconds
-def test_neighbourhood_is_mutual_and_contains_oneself(points, share) -> None:
-    pairs = as_pairs(neighbor_graph(points, radius=share * spread(points)))
-    assert all(pairs[j, i] == distance for (i, j), distance in pairs.items())
-    assert all(pairs[i, i] == 0 for i in range(len(points)))
-
-
 @pytest.mark.parametrize("shape", [(3000, 3), (1, 5), (700, 1)])
 @pytest.mark.parametrize("lag", [1, 40, 2000])
 def test_blocks_of_the_search_join_without_seams(monkeypatch, shape, lag) -> None:

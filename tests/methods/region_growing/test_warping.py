@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from graphs import as_graph, as_lists, as_pairs, sparse_graphs
+from graphs import as_lists, as_pairs, sparse_graphs
 from kineme.errors import ParameterError
 from kineme.methods.region_growing.neighbors import neighbor_graph
 from kineme.methods.region_growing.warping import BASIC_STEPS, label_components, warping_paths
@@ -89,40 +89,6 @@ def test_short_and_steep_paths_are_dropped(graph, min_nodes, max_slope) -> None:
     ]
     assert sorted(as_lists(kept)) == sorted(wanted)
     assert (kept.n_nodes >= min_nodes).all()
-
-
-def test_a_path_ends_where_its_component_ends() -> None:
-    pairs = {(0, 4): 1, (1, 5): 1, (2, 6): 1, (2, 5): 0, (7, 0): 1}
-    graph = as_graph({pair: np.float32(d) for pair, d in pairs.items()}, 8)
-    paths = warping_paths(graph, (0, 8), (0, 8))
-    assert as_lists(paths) == [[(0, 4), (1, 5), (2, 5)]]
-    assert paths.costs[0] == pytest.approx(2 + 1e-6)
-    assert [x.tolist() for x in (*paths.starts, *paths.ends)] == [[0], [4], [2], [5]]
-
-
-def test_two_repetitions_are_matched_frame_by_frame() -> None:
-    steps = np.linspace(0, 2 * np.pi, 25, endpoint=False)
-    circle = np.stack([np.cos(steps), np.sin(steps)], axis=1)
-    slower = np.repeat(circle, 2, axis=0)
-    graph = neighbor_graph(np.concatenate([circle, slower]), radius=0.1)
-    paths = warping_paths(graph, (0, 25), (25, 75))
-    rows, columns = max(paths, key=len)
-    np.testing.assert_array_equal(rows, (np.arange(50) // 2)[1:-1])  # ends are free: the
-    np.testing.assert_array_equal(columns, np.arange(25, 75)[1:-1])  # shortest costs least
-
-
-def test_no_separation_keeps_a_path_to_every_end() -> None:
-    pairs = {(0, 0): 1, (1, 0): 2, (1, 1): 1, (1, 2): 3}
-    graph = as_graph({pair: np.float32(d) for pair, d in pairs.items()}, 3)
-    paths = warping_paths(graph, (0, 3), (0, 3), separation=0)
-    assert [path[-1] for path in as_lists(paths)] == [(1, 1), (1, 0), (1, 2)]
-
-
-def test_an_index_beyond_the_paths_is_an_error() -> None:
-    paths = warping_paths(neighbor_graph(np.zeros((3, 1)), radius=0), (0, 3), (0, 3))
-    assert len(paths) == 1
-    with pytest.raises(IndexError, match="path 1 of 1"):
-        paths[1]
 
 
 @pytest.mark.parametrize("steps", [(), ((0, 0),), ((1, -1),)])

@@ -23,9 +23,9 @@ from kineme_reproduction.baselines._kernels import (
     propagate,
     window_alignments,
 )
-from kineme_reproduction.baselines.aca import State, aca, improve, majority_segments
+from kineme_reproduction.baselines.aca import aca, majority_segments
 from kineme_reproduction.baselines.haca import haca_levels
-from kineme_reproduction.baselines.reduction import block_starts, frame_kernel
+from kineme_reproduction.baselines.reduction import frame_kernel
 from kineme_reproduction.baselines.segments import Segments
 from kineme_reproduction.benchmark import OF_TRIALS, aca_accuracy
 
@@ -97,22 +97,6 @@ def test_first_segmentation_repeats_the_programs_slip(seed, shortest, more):
     assert np.diff(state.borders).tolist() == expected
 
 
-def test_search_improves_until_segments_repeat():
-    kernel = random_kernel(3, 60)
-    start = State(np.arange(0, 61, 6), np.arange(10) % 2)
-    weights = np.ones(60)
-    end = improve(kernel, weights, start, 2, 8, ACA)
-    again = improve(kernel, weights, end, 2, 8, ACA)
-    assert end.same(again)
-    assert end.objective == again.objective
-
-
-def test_a_lost_class_is_no_result():
-    kernel = np.ones((12, 12))
-    start = State(np.array([0, 6, 12]), np.array([0, 1]))
-    assert improve(kernel, np.ones(12), start, 2, 12, ACA).objective == np.inf
-
-
 def test_two_movements_in_turn_are_told_apart():
     """Borders may be off by as much as a segment: nothing but its length holds one in place."""
     truth = np.repeat([0, 1] * 2, 480)
@@ -140,12 +124,6 @@ def test_second_level_segments_are_made_of_first_level_ones():
     assert coarse.n_frames == fine.n_frames == 1920
 
 
-def test_blocks_are_runs_of_one_centre_of_at_most_five_frames():
-    features = np.repeat([[0.0], [5.0], [0.0]], [7, 3, 11], axis=0)
-    starts = block_starts(features, ACA.replace(centres=2), np.random.RandomState(0))
-    assert starts.tolist() == [0, 5, 7, 10, 15, 20]
-
-
 @pytest.mark.parametrize(
     ("values", "message"),
     [
@@ -164,13 +142,6 @@ def test_motions_without_the_joints_are_refused(data_dir):
     motion = kineme.read(data_dir / "formats" / "cmu_131_01_bvh11.bvh")
     with pytest.raises(MotionError, match="no joint 'upperback'"):
         compute_joint_quaternions(motion)
-
-
-def test_log_maps_are_half_the_rotation_vector():
-    angle = np.array([0.0, 1e-9, 0.5, np.pi])
-    q = np.stack([np.cos(angle / 2), 0 * angle, np.sin(angle / 2), 0 * angle], axis=1)
-    expected = np.stack([0 * angle, angle / 2, 0 * angle], axis=1)
-    np.testing.assert_allclose(compute_log_maps(q[:, None]), expected, atol=1e-15)
 
 
 def test_accuracy_agrees_with_the_original_program(data_dir: Path):

@@ -103,14 +103,6 @@ def test_a_start_from_rest_is_cut_without_a_warning(method):
     assert cut(method, np.concatenate([still, moving])).cuts.size > 0
 
 
-@pytest.mark.parametrize("method", ["pca", "ppca"])
-def test_bad_features_are_refused(method):
-    with pytest.raises(ParameterError, match="shape"):
-        cut(method, np.zeros(4))
-    with pytest.raises(ParameterError, match="finite"):
-        cut(method, np.full((4, 2), np.nan))
-
-
 def test_gaussians_are_clusters_that_come_back():
     first, second, third = changing(1)[:60], changing(1)[60:130], changing(1)[:60]
     segments = gmm(np.concatenate([first, second, third]), PRESETS["gmm"].replace(n_classes=2))
