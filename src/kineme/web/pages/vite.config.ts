@@ -39,7 +39,11 @@ export default defineConfig(({ mode }) => {
         output: { ...OUTPUT_NAMES, codeSplitting: false },
       },
     },
-    test: { include: ["tests/**/*.test.{ts,tsx}"] },
+    test: {
+      include: ["tests/**/*.test.{ts,tsx}"],
+      environment: "happy-dom",
+      setupFiles: ["tests/browser.ts"],
+    },
   };
 });
 

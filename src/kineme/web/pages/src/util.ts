@@ -30,6 +30,34 @@ export function memoize<Key extends object, Value>(
   };
 }
 
+/** A map that drops its least recently used entries above a limit. */
+export class RecentMap<Value> {
+  private readonly entries = new Map<string, Value>();
+
+  constructor(private readonly limit: number) {}
+
+  get(key: string): Value | undefined {
+    const value = this.entries.get(key);
+    if (value !== undefined) this.set(key, value);
+    return value;
+  }
+
+  set(key: string, value: Value): void {
+    this.entries.delete(key); // a map is in the order of insertion
+    this.entries.set(key, value);
+    const [oldest] = this.entries.keys();
+    if (this.entries.size > this.limit) this.entries.delete(oldest!);
+  }
+
+  delete(key: string): void {
+    this.entries.delete(key);
+  }
+
+  values(): Iterable<Value> {
+    return this.entries.values();
+  }
+}
+
 /** Add event listeners and return a function that removes them. */
 export function listen(
   target: EventTarget,

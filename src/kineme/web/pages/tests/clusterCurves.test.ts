@@ -1,7 +1,6 @@
-// @vitest-environment happy-dom
 import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
-import { MARGIN_LEFT, findNearestCurve, MARGIN_RIGHT } from "../src/clusters/curveDrawing";
+import { MARGIN_LEFT, MARGIN_RIGHT, findNearestCurve } from "../src/panels/curveDrawing";
 import type { ClusterCurves, CycleCurve, ReportCurves } from "../src/messages";
 import { EmbeddedData } from "../src/recordingData";
 

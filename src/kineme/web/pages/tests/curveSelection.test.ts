@@ -11,11 +11,11 @@ const list: CurveList = {
   tile: 1024,
   levels: 1,
 };
-let chosen: typeof import("../src/channels/curveSelection");
+let chosen: typeof import("../src/panels/Channels");
 
 beforeAll(async () => {
   vi.stubGlobal("localStorage", { getItem: () => null, setItem: () => undefined });
-  chosen = await import("../src/channels/curveSelection");
+  chosen = await import("../src/panels/Channels");
 });
 
 test("before anybody chose, both hands and both feet are shown", () => {

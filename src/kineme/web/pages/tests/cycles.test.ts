@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { summarizeRanges } from "../src/clusters/cycles";
+import { summarizeRanges } from "../src/panels/Curves";
 import type { CycleCurve } from "../src/messages";
 
 function createCycle(values: (number | null)[]): CycleCurve {

@@ -3,9 +3,9 @@ import { beforeEach, expect, test } from "vitest";
 import type { Recording } from "../src/messages";
 import type { RecordingData } from "../src/recordingData";
 import { Store, type Drag } from "../src/store";
-import { TimelineGestures } from "../src/timeline/gestures";
-import { GUTTER_WIDTH, layOutLanes, type Lane } from "../src/timeline/lanes";
-import { segment, createTable } from "./recordings";
+import { TimelineGestures } from "../src/panels/Timeline";
+import { GUTTER_WIDTH, layOutLanes, type Lane } from "../src/panels/lanes";
+import { createTable, segment } from "./recordings";
 
 const FPS = 10;
 const PIXELS = 4; // to a frame

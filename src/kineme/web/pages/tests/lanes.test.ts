@@ -2,11 +2,11 @@ import { expect, test } from "vitest";
 import {
   findBorder,
   findLane,
-  layOutLanes,
-  getBorderLimits,
   findVisible,
-} from "../src/timeline/lanes";
-import { segment, createTable } from "./recordings";
+  getBorderLimits,
+  layOutLanes,
+} from "../src/panels/lanes";
+import { createTable, segment } from "./recordings";
 
 const primitives = [segment(0, 10), segment(10, 30), segment(30, 40)];
 const activities = [segment(0, 40, { level: "activity" })];

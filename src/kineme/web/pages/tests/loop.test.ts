@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { computeLoopPose, getRoundDuration } from "../src/viewer/loop";
+import { computeLoopPose, getRoundDuration } from "../src/viewer/placement";
 import { motion } from "./recordings";
 
 // One joint that goes a metre along z in a round of four frames; then a quarter turn.

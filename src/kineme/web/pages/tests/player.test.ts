@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
-import { fitPicture } from "../src/video/keypoints";
-import { advance } from "../src/player";
+import { fitPicture } from "../src/panels/Video";
+import { advance } from "../src/page";
 
 const loop = { start_s: 2, stop_s: 4 };
 

@@ -1,11 +1,11 @@
 import { expect, test } from "vitest";
 import {
-  findStoredTile,
   chooseLevel,
-  getParent,
   chooseRows,
+  findStoredTile,
+  getParent,
   listTiles,
-} from "../src/matrix/pyramid";
+} from "../src/panels/matrixDrawing";
 
 const head = { fps: 10, tile: 256, sizes: [1000, 500, 250] };
 

@@ -1,15 +1,15 @@
 /** Buttons and fields that all pages use. */
-import { type Signal, useSignal } from "@preact/signals";
+import { useSignal, type Signal } from "@preact/signals";
 import type {
   ComponentChildren,
   ComponentProps,
+  Ref,
   TargetedEvent,
   TargetedKeyboardEvent,
-  Ref,
 } from "preact";
-import { useRef } from "preact/hooks";
-import { theme, toggleTheme } from "../theme";
-import { useStore, findDetailIndex } from "../store";
+import { useLayoutEffect, useRef } from "preact/hooks";
+import { theme, toggleTheme } from "../drawing";
+import { findDetailIndex, useStore } from "../store";
 
 /** Render a button that submits no form; `busy` adds a spinner. */
 export function Button(props: ComponentProps<"button"> & { busy?: boolean }) {
@@ -51,26 +51,6 @@ export function CloseButton(props: { label: string; title?: string; onClick: () 
 /** Render a small square in the colour of a cluster or label. */
 export function Swatch({ color }: { color: string }) {
   return <span class="swatch" style={{ background: color }} />;
-}
-
-/** Render the head of a table; a column is its title, or title and tooltip. */
-export function TableHead(props: {
-  columns: readonly (string | readonly [title: string, tooltip: string])[];
-}) {
-  return (
-    <thead>
-      <tr>
-        {props.columns.map((column) => {
-          const [title, tooltip] = typeof column === "string" ? [column] : column;
-          return (
-            <th key={title} {...(title && { scope: "col" })} {...(tooltip && { title: tooltip })}>
-              {title}
-            </th>
-          );
-        })}
-      </tr>
-    </thead>
-  );
 }
 
 type TextInputProps = Omit<ComponentProps<"input">, "value"> & { value: Signal<string> };
@@ -128,6 +108,70 @@ export function Checkbox(props: {
       {children}
     </label>
   );
+}
+
+/** Choose one of several values by radio buttons, named `name` in their form. */
+export function RadioGroup<Value extends string>(props: {
+  name: string;
+  value: Value;
+  options: readonly (readonly [value: Value, text: string, disabled?: boolean])[];
+  onSelect: (value: Value) => void;
+}) {
+  const { name, value, options, onSelect } = props;
+  return (
+    <fieldset>
+      {options.map(([each, text, disabled = false]) => (
+        <label class="check" key={each}>
+          <input
+            type="radio"
+            name={name}
+            checked={value === each}
+            disabled={disabled}
+            onChange={() => onSelect(each)}
+          />
+          {text}
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+/** Show a modal dialog; Escape and a click outside close it. */
+export function Dialog(props: { title: string; close: () => void; children: ComponentChildren }) {
+  const { title, close, children } = props;
+  const dialog = useRef<HTMLDialogElement>(null);
+  useLayoutEffect(() => dialog.current?.showModal(), []);
+  return (
+    <dialog
+      ref={dialog}
+      aria-label={title}
+      onClose={close}
+      onClick={(event) => event.target === dialog.current && close()}
+    >
+      <div class="dialog-body">
+        <div class="panel-head">
+          <h1>{title}</h1>
+          <span class="spacer" />
+          <CloseButton label="Close" onClick={close} />
+        </div>
+        {children}
+      </div>
+    </dialog>
+  );
+}
+
+/** Return the name of the work that is being done, "" if none, and a function that does one. */
+export function useBusy(): [string, (name: string, work: () => Promise<unknown>) => Promise<void>] {
+  const busy = useSignal("");
+  const run = async (name: string, work: () => Promise<unknown>): Promise<void> => {
+    busy.value = name;
+    try {
+      await work();
+    } finally {
+      busy.value = "";
+    }
+  };
+  return [busy.value, run];
 }
 
 /** Return the set with a value added, or removed if it is a member. */

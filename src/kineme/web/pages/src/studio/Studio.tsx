@@ -1,38 +1,39 @@
-/** Render the studio: the parts of every page and those that edit a result. */
+/** Render the studio: its header, notices, and the panels of every page and those that edit. */
 import type { JSX } from "preact";
-import { About, getAboutTitle } from "../about/About";
-import { Channels } from "../channels/Channels";
-import { Clusters } from "../clusters/Clusters";
+import { About, Keys, getAboutTitle } from "../panels/About";
+import { Channels } from "../panels/Channels";
+import { Clusters } from "../panels/Clusters";
 import { useStore } from "../store";
-import { Layout } from "../layout/Layout";
-import { Tabs } from "../layout/Tabs";
-import { MatrixPanel } from "../matrix/Matrix";
-import { PrintedReport } from "../print/Repetitions";
-import { Timeline } from "../timeline/Timeline";
-import { Transport } from "../transport/Transport";
+import { Layout, Tabs } from "../layout/Layout";
+import { MatrixPanel } from "../panels/Matrix";
+import { PrintedReport } from "../panels/Repetitions";
+import { Timeline } from "../panels/Timeline";
+import { Transport } from "../panels/Transport";
 import { Viewer } from "../viewer/Viewer";
-import { type DialogName, useStudio } from "./context";
-import { type DialogProps, HelpDialog } from "./dialogs/Dialog";
+import { useStudio, type DialogName, type DialogProps } from "./context";
 import { CompareDialog, VersionsDialog } from "./dialogs/CompareDialog";
 import { ComparePanel } from "./panels/ComparePanel";
-import { DropZone, FolderPanel, OpeningProgress } from "./panels/FolderPanel";
-import { ExportDialog, LoopsDialog } from "./dialogs/ExportDialog";
+import { DropZone, FolderPanel, OpeningProgress } from "./folder/FolderPanel";
+import { ExportDialog } from "./dialogs/ExportDialog";
 import { FolderPage } from "./folder/FolderPage";
 import { QueueBar, ReviewPanel } from "./review/ReviewPanel";
-import { Header } from "./Header";
-import { Notices } from "./Notices";
-import { PosesOffer } from "./poses/PosesOffer";
+import { PosesOffer } from "./panels/PosesOffer";
 import { PresetPanel } from "./panels/PresetPanel";
 import { ReadingPanel } from "./panels/ReadingPanel";
 import { SegmentPanel } from "./panels/SegmentPanel";
 import { SegmentTable } from "./table/SegmentTable";
 import { TransferDialog } from "./dialogs/TransferDialog";
 import type { Level } from "../messages";
-import { createDeletion, createMerge } from "./editing/commands";
-import { Button } from "../layout/controls";
-import { type Signal, useSignal, useSignalEffect, type ReadonlySignal } from "@preact/signals";
-import { RecordingVideo } from "../video/RecordingVideo";
-import { readOpenIds } from "./server/address";
+import { createDeletion, createMerge } from "./editing/edits";
+import { Button, CloseButton, Dialog, ThemeButton } from "../layout/controls";
+import { useSignal, useSignalEffect, type ReadonlySignal, type Signal } from "@preact/signals";
+import { RecordingVideo } from "../panels/Video";
+import { buildPageAddress, readOpenIds } from "./server/address";
+import { formatCount } from "../util";
+import type { EditedRecording } from "./editing/editedRecording";
+import { LoopsDialog } from "./dialogs/LoopsDialog";
+import { PAGE_KEYS } from "../page";
+import { STUDIO_KEYS } from "./keys";
 
 export function Studio() {
   const store = useStore();
@@ -209,4 +210,176 @@ function useStageReady(): ReadonlySignal<boolean> {
     else if (review.folder.isReady.value) setTimeout(() => (isReady.value = true), DRAW_DELAY);
   });
   return isReady;
+}
+
+const DIALOG_BUTTONS: readonly (readonly [DialogName, text: string, title: string])[] = [
+  ["versions", "History…", "Tables that were replaced: look at them, bring them back (H)"],
+  ["transfer", "Labels…", "Labels from a knowledge base (T)"],
+  ["compare", "Compare…", "Compare with another result (C)"],
+  ["export", "Export…", "Write the segments as a file (E)"],
+];
+
+function Header() {
+  const { session, view } = useStudio();
+  const edited = session.edited.value;
+  const recording = edited?.confirmed.value;
+  const news = session.notifications.news.value;
+  return (
+    <>
+      <h1>kineme</h1>
+      {session.state.value?.of_library && <a href={buildPageAddress(session.api.token)}>Library</a>}
+      <span class="folder quiet" title={session.state.value?.folder}>
+        {recording?.name ?? session.state.value?.folder}
+      </span>
+      <div class="spacer news-place" role="status">
+        {news && <span class={news.refused ? "news refused" : "news"}>{news.text}</span>}
+      </div>
+      <span class="group">
+        <Button
+          disabled={!recording?.can_undo && !session.unsent.value.length}
+          title="Undo (Ctrl+Z)"
+          onClick={() => edited?.undo()}
+        >
+          ↶ Undo
+        </Button>
+        <Button
+          disabled={!recording?.can_redo}
+          title="Redo (Ctrl+Shift+Z)"
+          onClick={() => void edited?.edit({ kind: "redo" })}
+        >
+          ↷ Redo
+        </Button>
+      </span>
+      <SaveState />
+      <span class="group">
+        {DIALOG_BUTTONS.map(([name, text, title]) => (
+          <Button key={name} title={title} disabled={!recording} onClick={() => view.show(name)}>
+            {text}
+          </Button>
+        ))}
+      </span>
+      <ThemeButton />
+      <Button
+        class="icon"
+        title="Keys and help (?)"
+        aria-label="Keys and help"
+        onClick={() => view.show("help")}
+      >
+        ?
+      </Button>
+    </>
+  );
+}
+
+/** Show whether segments are being computed, the file name, or the number of unsaved edits. */
+function SaveState() {
+  const { session } = useStudio();
+  const { saved, finding } = session.edited.value?.confirmed.value ?? {};
+  const waiting = session.unsent.value.length;
+  const text = finding
+    ? "finding the segments…"
+    : waiting
+      ? `saving ${formatCount(waiting, "edit")}…`
+      : saved
+        ? `saved as ${saved}`
+        : "not corrected yet";
+  return (
+    <span class="save-state quiet" role="status" data-unsent={waiting} title={text}>
+      {finding && <span class="busy" />} {session.edited.value ? text : ""}
+    </span>
+  );
+}
+
+export function Notices() {
+  const { session } = useStudio();
+  const { notifications, trouble, unsent } = session;
+  return (
+    <div class="notices">
+      <div role="alert">
+        {trouble.value && (
+          <div class="notice danger" data-notice="trouble">
+            <p>
+              {trouble.value} {unsent.value.length > 0 && <UnsentEdits edits={unsent.value} />}
+            </p>
+          </div>
+        )}
+        {!trouble.value &&
+          session.blocked.value.map((edited) => <BlockedEdits key={edited.id} edited={edited} />)}
+        {notifications.problems.value.map(({ text }) => (
+          <div class="notice danger" data-notice="problem" key={text}>
+            <p>{text}</p>
+            <CloseButton
+              label="Dismiss"
+              title="Dismiss (Escape)"
+              onClick={() => notifications.dismiss(text)}
+            />
+          </div>
+        ))}
+      </div>
+      <NameOfferNotice />
+    </div>
+  );
+}
+
+/** Ask whether to apply edits that were made on an older table. */
+function BlockedEdits({ edited }: { edited: EditedRecording }) {
+  return (
+    <div class="notice" data-notice="held">
+      <p>
+        {edited.confirmed.value.name}: {edited.blocked.value}. It is shown as it is now.{" "}
+        <UnsentEdits edits={edited.describeUnsent()} />
+      </p>
+      <Button class="primary" onClick={() => edited.retry()}>
+        Make them here
+      </Button>
+      <Button onClick={() => edited.discardEdits()}>Drop them</Button>
+    </div>
+  );
+}
+
+function UnsentEdits({ edits }: { edits: string[] }) {
+  const last = edits.slice(-3);
+  const more = edits.length - last.length;
+  return (
+    <span class="waiting">
+      Not saved yet: {more > 0 && `${more} earlier, `}
+      {last.join("; ")}.
+    </span>
+  );
+}
+
+/** Offer to apply a cluster's new name to all recordings. */
+function NameOfferNotice() {
+  const { review } = useStudio();
+  const { offer } = review;
+  const { value: present } = offer.present;
+  if (!present) return <div role="status" />;
+  const { cluster, before, label } = present;
+  return (
+    <div class="notice" role="status">
+      <p>
+        Cluster {cluster} is “{label}” here.{" "}
+        {offer.isLibrary()
+          ? "The library knows it in other recordings, too."
+          : `In other recordings it is known by its name, “${before}”.`}
+      </p>
+      <Button class="primary" onClick={() => void offer.accept()}>
+        “{label}” in all recordings
+      </Button>
+      <CloseButton label="Here only" onClick={() => (offer.present.value = null)} />
+    </div>
+  );
+}
+
+/** Show the keys and what the mouse does. */
+function HelpDialog({ close }: DialogProps) {
+  return (
+    <Dialog title="Keys" close={close}>
+      <Keys keys={[...PAGE_KEYS, ...STUDIO_KEYS]} />
+      <p class="quiet">
+        Drag a border in the timeline to move it. Every edit is saved at once beside the recording,
+        and can be undone.
+      </p>
+    </Dialog>
+  );
 }

@@ -3,12 +3,16 @@ import { signal, type Signal } from "@preact/signals";
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { Editor } from "./editing/editor";
-import type { Poses } from "./poses/poses";
+import type { Poses } from "./poses";
 import type { Review } from "./review/review";
-import type { Uploads } from "./server/uploads";
+import type { Uploads } from "./folder/folder";
 import type { Session } from "./session";
 
 export type DialogName = "versions" | "transfer" | "compare" | "export" | "help" | "loops";
+
+export interface DialogProps {
+  close: () => void;
+}
 
 /** Which dialog, tab and page are shown. */
 export class StudioView {

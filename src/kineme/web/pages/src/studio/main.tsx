@@ -1,25 +1,21 @@
 /** Start the studio. */
-import { effect, computed, untracked } from "@preact/signals";
+import { computed, effect, untracked } from "@preact/signals";
 import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
-import "./folder/folder.css";
-import { StoreProvider, Store } from "../store";
-import { startPrinting } from "../print/Repetitions";
-import { listenToKeys } from "../keys";
-import { startPlayer } from "../player";
-import { StudioView, StudioProvider } from "./context";
+import { Store, StoreProvider } from "../store";
+import { StudioProvider, StudioView } from "./context";
 import { Api } from "./server/api";
 import { Editor } from "./editing/editor";
 import { getStudioCommand } from "./keys";
-import { Poses } from "./poses/poses";
+import { Poses } from "./poses";
 import { Review } from "./review/review";
 import { Session } from "./session";
-import { exposeSnapshot } from "../snapshot";
 import { Studio } from "./Studio";
 import { readOpenIds, readToken } from "./server/address";
-import { announceTab } from "./editing/unsent";
-import { Uploads } from "./server/uploads";
+import { announceTab } from "./editing/editedRecording";
+import { Uploads } from "./folder/folder";
+import { startPage } from "../page";
 
 function start(): void {
   const store = new Store();
@@ -44,8 +40,7 @@ function start(): void {
     if (session.notifications.problems.value.length) view.dialog.value = null;
   });
   rememberLevel(store);
-  startPlayer(store);
-  exposeSnapshot(store, () => {
+  const getState = (): object => {
     const { segments } = store.table.value ?? { segments: [] };
     return {
       recordings: store.opened.value.map((opened) => opened.recording.value.name),
@@ -54,9 +49,8 @@ function start(): void {
       selected: store.selected.value ?? null,
       unsent: session.unsent.value,
     };
-  });
-  startPrinting();
-  listenToKeys(store, (event) => getStudioCommand(event, services));
+  };
+  startPage(store, (event) => getStudioCommand(event, services), getState);
   for (const what of ["keyup", "blur"]) addEventListener(what, () => editor.release());
   render(
     <StoreProvider value={store}>

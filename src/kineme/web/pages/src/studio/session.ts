@@ -4,21 +4,21 @@ import type { Changed, ReadRequest, Recording, State } from "../messages";
 import { loadMotion, type OpenRecording } from "../recordingData";
 import type { Store } from "../store";
 import {
-  type Api,
-  explainError,
-  Refused,
   RETRY_INTERVAL,
-  Unreachable,
-  needsPoses,
-  getUnreadPeople,
+  Refused,
   ServerData,
+  Unreachable,
+  explainError,
+  getUnreadPeople,
+  needsPoses,
   shareToken,
+  type Api,
 } from "./server/api";
 import { Comparisons, PeopleComparison } from "./editing/comparisons";
 import { EditedRecording } from "./editing/editedRecording";
-import { readOpenIds, writeOpenIds, readStartTime } from "./server/address";
+import { readOpenIds, readStartTime, writeOpenIds } from "./server/address";
 import { Notifications } from "./notifications";
-import { RecordingList } from "./recordingList";
+import { RecordingList } from "./folder/recordingList";
 
 const NO_ANSWER =
   "The studio’s server does not answer. What is shown is saved; nothing can be edited until it is back.";

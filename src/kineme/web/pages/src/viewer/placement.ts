@@ -1,6 +1,8 @@
-/** Compute where figures stand and which time they show. Pure functions. */
-import type { Segment } from "../messages";
-import { getHeading, computePose, findRoot, type Motion } from "../motion";
+/** Compute where figures stand, which time they show and how thick they are. Pure functions. */
+import type { MotionHead, PlayedLoop, Segment } from "../messages";
+import { computePose, findRoot, getHeading, unpackMotion, type Motion } from "../motion";
+import { memoize } from "../util";
+import { decodeBase64 } from "../recordingData";
 
 /** A figure and its placement. */
 export interface PlacedFigure {
@@ -135,4 +137,140 @@ export function movePose(pose: Float32Array, place: Placement, root: number): vo
     pose[i] = place.slot[0] + x * cos + z * sin;
     pose[i + 2] = place.slot[1] - x * sin + z * cos;
   }
+}
+
+/** Radii in metres; a bone tapers from `bones[i]` to `TAPER` times that. */
+export interface Anatomy {
+  /** Height of the body, or the extent of the recorded part, metres. */
+  size: number;
+  /** Height of the ground, metres. */
+  ground: number;
+  bones: Float32Array;
+  joints: Float32Array;
+  /** Index of the bone drawn as a head; -1 if unknown. */
+  skull: number;
+}
+
+export const TAPER = 0.62;
+
+function measureAnatomy(motion: Motion): Anatomy {
+  const { head } = motion;
+  const pose = new Float32Array(head.joints.length * 3);
+  const lowest: number[] = [];
+  const extents: number[] = [];
+  const lengths = head.bones.map(() => [] as number[]);
+  const seconds = head.n_samples / head.sample_fps;
+  for (let i = 0; i < 100; i++) {
+    computePose(motion, (seconds * i) / 100, pose);
+    const box = computeBox(pose);
+    if (!box) continue;
+    lowest.push(box.low[1]);
+    extents.push(Math.max(...box.high.map((high, axis) => high - box.low[axis]!)));
+    head.bones.forEach(([a, b], bone) => {
+      const length = computeDistance(pose, a, b);
+      if (Number.isFinite(length)) lengths[bone]!.push(length);
+    });
+  }
+  const size = computeQuantile(extents, 0.5) || 1;
+  const bones = computeBoneRadii(
+    head,
+    size,
+    lengths.map((all) => computeQuantile(all, 0.5)),
+  );
+  const joints = computeJointRadii(head, size, bones);
+  const skull = head.bones.findIndex(([, tip]) => tip === head.effectors["head"]);
+  return { size, ground: computeQuantile(lowest, 0.05) - 0.008 * size, bones, joints, skull };
+}
+
+/** Return bone radii in metres: long bones are thick, fingers thin, the spine thickest. */
+function computeBoneRadii(head: MotionHead, size: number, lengths: number[]): Float32Array {
+  const spine = tracePathToRoot(head, head.effectors["head"] ?? -1);
+  return Float32Array.from(lengths, (length, bone) => {
+    const [from, to] = head.bones[bone]!;
+    const share = 0.03 * Math.sqrt(length / (0.23 * size));
+    const thick = spine.has(from) && spine.has(to) ? 1.5 : 1;
+    return size * Math.min(Math.max(share * thick, 0.005), 0.036);
+  });
+}
+
+/** Return joint radii in metres; a joint covers the ends of its bones. */
+function computeJointRadii(head: MotionHead, size: number, bones: Float32Array): Float32Array {
+  const radii = new Float32Array(head.joints.length);
+  head.bones.forEach(([from, to], bone) => {
+    radii[from] = Math.max(radii[from]!, 1.12 * bones[bone]!);
+    radii[to] = Math.max(radii[to]!, 1.2 * TAPER * bones[bone]!);
+  });
+  const crown = head.effectors["head"] ?? -1;
+  return radii.map((radius, joint) => {
+    const inside = joint === crown && radius > 0; // hidden inside the head
+    return inside ? 0 : radius || 0.011 * size;
+  });
+}
+
+function tracePathToRoot(head: MotionHead, joint: number): Set<number> {
+  const path = new Set<number>();
+  for (let at = joint; at >= 0 && !path.has(at); at = head.parents[at] ?? -1) path.add(at);
+  return path;
+}
+
+/** Return the bounding box of the joints that are not missing; null if all are. */
+function computeBox(
+  pose: Float32Array,
+): { low: [number, number, number]; high: [number, number, number] } | null {
+  const low: [number, number, number] = [Infinity, Infinity, Infinity];
+  const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < pose.length; i++) {
+    const value = pose[i]!;
+    if (Number.isNaN(value)) continue;
+    const axis = (i % 3) as 0 | 1 | 2;
+    if (value < low[axis]) low[axis] = value;
+    if (value > high[axis]) high[axis] = value;
+  }
+  return low[0] <= high[0] ? { low, high } : null;
+}
+
+function computeDistance(pose: Float32Array, a: number, b: number): number {
+  const at = (joint: number, axis: number): number => pose[3 * joint + axis]!;
+  return Math.hypot(at(a, 0) - at(b, 0), at(a, 1) - at(b, 1), at(a, 2) - at(b, 2));
+}
+
+/** Return a quantile; 0 of no values. */
+function computeQuantile(values: readonly number[], share: number): number {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)] ?? 0;
+}
+
+/** Return the cached anatomy of a motion. */
+export const getAnatomy = memoize(measureAnatomy);
+
+/** One round, ending with its first pose, and the displacement to the next round. */
+export interface Loop {
+  motion: Motion;
+  step: Pick<PlayedLoop, "turn" | "x" | "z">;
+}
+
+export async function unpackLoop({ motion, numbers, ...step }: PlayedLoop): Promise<Loop> {
+  return { motion: await unpackMotion(motion, decodeBase64(numbers).buffer), step };
+}
+
+/** Return the duration of a round in seconds. */
+export function getRoundDuration({ motion: { head } }: Loop): number {
+  return Math.max(head.n_samples - 1, 1) / head.sample_fps;
+}
+
+/** Write the pose at a time (seconds since the first round began) to `out`, like `computePose`. */
+export function computeLoopPose(loop: Loop, seconds: number, out: Float32Array): void {
+  const lasts = getRoundDuration(loop);
+  const round = Math.floor(seconds / lasts);
+  computePose(loop.motion, seconds - round * lasts, out);
+  movePose(out, computeLoopPlacement(loop, round), 0);
+}
+
+/** Return a round's placement; the first is where it was recorded. */
+function computeLoopPlacement({ step }: Loop, round: number): Placement {
+  const [cos, sin] = [Math.cos(step.turn), Math.sin(step.turn)];
+  let [x, z] = [0, 0];
+  for (let each = 0; each < round; each++)
+    [x, z] = [x * cos + z * sin + step.x, z * cos - x * sin + step.z];
+  return { slot: [x, z], from: [0, 0], turn: round * step.turn, isFixed: false };
 }

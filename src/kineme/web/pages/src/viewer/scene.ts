@@ -2,23 +2,22 @@
 import * as THREE from "three";
 import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
-import { getHeading, computePose, findRoot, type Motion } from "../motion";
+import { computePose, findRoot, getHeading, type Motion } from "../motion";
 import { formatPerson } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
-import { readColor, theme } from "../theme";
-import { getAnatomy } from "./anatomy";
+import { readColor, theme } from "../drawing";
 import {
-  placeInStep,
-  isFree,
+  getAnatomy,
   getFigureTime,
+  isFree,
   movePose,
+  placeInStep,
   placeSideBySide,
   type PlacedFigure,
 } from "./placement";
-import { Figure, Ghost } from "./figure";
+import { Figure, Ghost, Trails } from "./figure";
 import { Stage } from "./stage";
-import { Trails } from "./trails";
 
 const TRAIL_LENGTH = 1.2; // seconds
 const CATCH_UP = 3; // rate per second at which the camera follows during playback

@@ -1,5 +1,3 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { expect, it } from "vitest";
 import type { State } from "../../src/messages";
 import { Store } from "../../src/store";
@@ -7,7 +5,6 @@ import { type Api, Refused } from "../../src/studio/server/api";
 import { Session } from "../../src/studio/session";
 import { createBrief, listing } from "../studio/briefs";
 import { recording } from "../studio/tables";
-import "./browser";
 
 /** Open a session whose recording is still being read or segmented. */
 async function openSession(

@@ -1,11 +1,8 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { cleanup, fireEvent, render, waitFor } from "@testing-library/preact";
 import { afterEach, expect, test } from "vitest";
 import { NameInput, NumberInput } from "../../src/layout/controls";
 import { SegmentPanel } from "../../src/studio/panels/SegmentPanel";
 import { row, table } from "../studio/tables";
-import "./browser";
 import { show } from "./page";
 
 afterEach(cleanup);

@@ -1,9 +1,6 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { cleanup } from "@testing-library/preact";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { FPS, starts, table } from "../studio/tables";
-import "./browser";
 import { show, type Page } from "./page";
 
 let page: Page;

@@ -1,5 +1,3 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { expect, it } from "vitest";
 import type { BriefTable, FolderTables, State } from "../../src/messages";
 import { Store } from "../../src/store";
@@ -11,7 +9,6 @@ import { Session } from "../../src/studio/session";
 import { brief, createBrief, listing } from "../studio/briefs";
 import { Server } from "../studio/server";
 import { recording } from "../studio/tables";
-import "./browser";
 
 /** Create a server of several recordings that accept edits. */
 function createFolder(tables: Record<string, BriefTable>): { session: Session; folder: Folder } {

@@ -1,12 +1,9 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { act, cleanup, fireEvent } from "@testing-library/preact";
 import { afterEach, expect, test, vi } from "vitest";
 import type { State } from "../../src/messages";
-import { OpeningProgress } from "../../src/studio/panels/FolderPanel";
+import { OpeningProgress } from "../../src/studio/folder/FolderPanel";
 import { listing } from "../studio/briefs";
 import { table } from "../studio/tables";
-import "./browser";
 import { show } from "./page";
 
 afterEach(() => {

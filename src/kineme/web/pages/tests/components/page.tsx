@@ -1,14 +1,14 @@
 /** Render studio components with an open recording and a server that edits it. */
 import { render, type RenderResult } from "@testing-library/preact";
 import type { JSX } from "preact";
-import { StoreProvider, Store } from "../../src/store";
+import { Store, StoreProvider } from "../../src/store";
 import type { Segments, State } from "../../src/messages";
-import { StudioView, StudioProvider, type StudioServices } from "../../src/studio/context";
+import { StudioProvider, StudioView, type StudioServices } from "../../src/studio/context";
 import { Editor } from "../../src/studio/editing/editor";
-import { Poses } from "../../src/studio/poses/poses";
+import { Poses } from "../../src/studio/poses";
 import { Review } from "../../src/studio/review/review";
 import type { Api } from "../../src/studio/server/api";
-import { Uploads } from "../../src/studio/server/uploads";
+import { Uploads } from "../../src/studio/folder/folder";
 import { Session } from "../../src/studio/session";
 import { Server } from "../studio/server";
 import { recording } from "../studio/tables";

@@ -1,11 +1,8 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { cleanup, fireEvent, waitFor } from "@testing-library/preact";
 import { afterEach, expect, test } from "vitest";
-import { Notices } from "../../src/studio/Notices";
+import { Notices } from "../../src/studio/Studio";
 import { ReviewPanel } from "../../src/studio/review/ReviewPanel";
 import { row, table } from "../studio/tables";
-import "./browser";
 import { show, type Page } from "./page";
 
 afterEach(cleanup);

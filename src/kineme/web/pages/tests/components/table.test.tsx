@@ -1,10 +1,7 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { cleanup, fireEvent, waitFor, within } from "@testing-library/preact";
 import { afterEach, expect, test } from "vitest";
 import { SegmentTable } from "../../src/studio/table/SegmentTable";
 import { row, table } from "../studio/tables";
-import "./browser";
 import { show, type Page } from "./page";
 
 afterEach(cleanup);

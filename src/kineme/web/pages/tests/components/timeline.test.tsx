@@ -1,11 +1,9 @@
-// @vitest-environment happy-dom
-import "./offscreen";
 import { cleanup, fireEvent, waitFor } from "@testing-library/preact";
 import { afterEach, beforeEach, expect, test } from "vitest";
-import { Timeline } from "../../src/timeline/Timeline";
-import { GUTTER_WIDTH, layOutLanes } from "../../src/timeline/lanes";
+import { Timeline } from "../../src/panels/Timeline";
+import { GUTTER_WIDTH, layOutLanes } from "../../src/panels/lanes";
 import { row, table } from "../studio/tables";
-import { HEIGHT, readTexts, WIDTH } from "./browser";
+import { HEIGHT, WIDTH, readTexts } from "../browser";
 import { show, type Page } from "./page";
 
 const FRAMES = 100;

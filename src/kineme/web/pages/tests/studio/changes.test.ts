@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Edit, Segment, Segments } from "../../src/messages";
-import { applyChange, retargetEdit } from "../../src/studio/editing/changes";
+import { applyChange, retargetEdit } from "../../src/studio/editing/edits";
 import { row, table } from "./tables";
 
 const starts = ({ segments }: Segments): [string, number, number][] =>

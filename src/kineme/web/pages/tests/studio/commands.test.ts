@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import * as commands from "../../src/studio/editing/commands";
+import * as commands from "../../src/studio/editing/edits";
 import { getLane } from "../../src/segments";
 import { table } from "./tables";
 

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import { formatCount } from "../../src/util";
-import { describeEdit } from "../../src/studio/editing/describeEdit";
+import { describeEdit } from "../../src/studio/editing/edits";
 
 it("says edits in words, with seconds", () => {
   const move = { kind: "move_border", level: "primitive", frame: 30, to: 40 } as const;

@@ -2,13 +2,13 @@ import { signal } from "@preact/signals";
 import { expect, it } from "vitest";
 import type { BriefTable, Segments } from "../../src/messages";
 import {
+  computeTally,
   getLowestConfidence,
   getStrip,
   unpackTable,
-  computeTally,
 } from "../../src/studio/folder/briefTables";
-import { type Folder, NameOffer } from "../../src/studio/folder/folder";
-import { COLUMNS, fitColumns, sortRows, createRow } from "../../src/studio/folder/rows";
+import { NameOffer, type Folder } from "../../src/studio/folder/folder";
+import { COLUMNS, createRow, fitColumns, sortRows } from "../../src/studio/folder/FolderPage";
 import { brief, listing } from "./briefs";
 
 it("offers a name for all recordings where another one has the name of before", () => {

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import type { LibraryCluster, LibraryHit } from "../../src/messages";
-import { findWidestDirection } from "../../src/studio/library/drawing";
-import { toCsv, toJson, sortClusters, countByCluster } from "../../src/studio/library/hits";
+import { findWidestDirection } from "../../src/studio/library/Figure";
+import { countByCluster, sortClusters, toCsv, toJson } from "../../src/studio/library/libraryPage";
 
 const hit = (some: Partial<LibraryHit>): LibraryHit => ({
   recording: "a.bvh",

@@ -1,62 +1,59 @@
 /** Choose another result to compare with: a preset's or a label file's. */
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { useStudio } from "../context";
-import type { CompareRequest, AnnotatorChoice, Version } from "../../messages";
-import { Dialog, type DialogProps } from "./Dialog";
-import { Button, Checkbox, toggleMember } from "../../layout/controls";
+import { useStudio, type DialogProps } from "../context";
+import type { AnnotatorChoice, CompareRequest, Version } from "../../messages";
+import { Button, Checkbox, Dialog, toggleMember, useBusy } from "../../layout/controls";
 import { formatCount } from "../../util";
-import { describeEdit } from "../editing/describeEdit";
+import { describeEdit } from "../editing/edits";
+import { Table } from "../../layout/tables";
 
 export function CompareDialog({ close }: DialogProps) {
   const { session } = useStudio();
-  const busy = useSignal("");
+  const [busy, run] = useBusy();
   useEffect(() => void session.refresh(), [session]); // files may have been added
   const { presets = [], annotations = [] } = session.state.value ?? {};
-  const compare = async (name: string, request: CompareRequest): Promise<void> => {
-    busy.value = name;
-    if (await session.comparisons.compare(request)) close();
-    busy.value = "";
-  };
+  const compare = (name: string, request: CompareRequest): Promise<void> =>
+    run(name, async () => {
+      if (await session.comparisons.compare(request)) close();
+    });
   return (
     <Dialog title="Compare with another result" close={close}>
       <p class="quiet">Its segments are laid below the shown ones, with how well they agree.</p>
       <h2>Several people’s labels, over the folder</h2>
       <PeopleChoice close={close} />
       <h2>What a preset finds</h2>
-      <table class="methods">
-        <tbody>
-          {presets.map(({ name, help }) => (
-            <tr key={name}>
-              <td>
-                <Button
-                  disabled={busy.value !== ""}
-                  onClick={() => void compare(name, { preset: name })}
-                  busy={busy.value === name}
-                >
-                  {name}
-                </Button>
-              </td>
-              <td class="quiet">{help}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        class="methods"
+        rows={presets.map(({ name, help }) => ({
+          key: name,
+          cells: [
+            <Button
+              disabled={busy !== ""}
+              onClick={() => void compare(name, { preset: name })}
+              busy={busy === name}
+            >
+              {name}
+            </Button>,
+            <span class="quiet">{help}</span>,
+          ],
+        }))}
+      />
       <h2>A label file of the folder</h2>
       <div class="choices">
         {annotations.map(({ id, name }) => (
           <span class="group" key={id}>
             <Button
-              disabled={busy.value !== ""}
+              disabled={busy !== ""}
               onClick={() => void compare(name, { annotation: id })}
-              busy={busy.value === name}
+              busy={busy === name}
             >
               {name}
             </Button>
             <Button
               aria-label={`Work on ${name}: it becomes the table`}
               title="It becomes the table you work on; the present one is kept in History"
-              disabled={busy.value !== ""}
+              disabled={busy !== ""}
               onClick={() => {
                 void session.edited.value?.edit({ kind: "take_labels", annotation: id });
                 close();
@@ -84,7 +81,7 @@ function PeopleChoice({ close }: { close: () => void }) {
   const { session, view } = useStudio();
   const people = useSignal<AnnotatorChoice[]>([]);
   const ticked = useSignal<ReadonlySet<string>>(new Set());
-  const busy = useSignal(false);
+  const [busy, run] = useBusy();
   useEffect(() => {
     void session.notifications.attempt("agreement", async () => {
       const found = await session.api.loadAnnotators();
@@ -94,13 +91,10 @@ function PeopleChoice({ close }: { close: () => void }) {
     });
   }, [session, people, ticked]);
   const compare = async (): Promise<void> => {
-    busy.value = true;
-    if (await session.people.compare([...ticked.value])) {
-      view.tab.value = "compare";
-      view.folder.value = null;
-      close();
-    }
-    busy.value = false;
+    if (!(await session.people.compare([...ticked.value]))) return;
+    view.tab.value = "compare";
+    view.folder.value = null;
+    close();
   };
 
   if (people.value.length < 2)
@@ -125,9 +119,9 @@ function PeopleChoice({ close }: { close: () => void }) {
       </fieldset>
       <Button
         class="primary"
-        disabled={busy.value || ticked.value.size < 2}
-        onClick={() => void compare()}
-        busy={busy.value}
+        disabled={busy !== "" || ticked.value.size < 2}
+        onClick={() => void run("people", compare)}
+        busy={busy !== ""}
       >
         Compare {ticked.value.size} people
       </Button>
@@ -160,36 +154,34 @@ export function VersionsDialog({ close }: DialogProps) {
         whole tables come back, and what is shown now is kept in turn.
       </p>
       {versions.value?.length === 0 && <p>No table of this recording has been replaced yet.</p>}
-      <table class="formats versions">
-        <tbody>
-          {versions.value?.map((version) => (
-            <tr key={version.number}>
-              <td class="quiet">{new Date(version.at).toLocaleString()}</td>
-              <td>
-                {version.edit ? `last: ${describeEdit(version.edit, fps)}` : "as it was found"}
-                <br />
-                <span class="quiet">
-                  {formatCount(version.segments, "segment")}, {formatCount(version.names, "name")},{" "}
-                  {formatCount(version.corrections, "correction")}
-                </span>
-              </td>
-              <td>
-                <span class="group">
-                  <Button onClick={() => void look(version)}>Look</Button>
-                  <Button
-                    onClick={() => {
-                      void edited?.edit({ kind: "restore", version: version.number });
-                      close();
-                    }}
-                  >
-                    Bring back
-                  </Button>
-                </span>
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        class="formats versions"
+        rows={(versions.value ?? []).map((version) => ({
+          key: version.number,
+          cells: [
+            <span class="quiet">{new Date(version.at).toLocaleString()}</span>,
+            <>
+              {version.edit ? `last: ${describeEdit(version.edit, fps)}` : "as it was found"}
+              <br />
+              <span class="quiet">
+                {formatCount(version.segments, "segment")}, {formatCount(version.names, "name")},{" "}
+                {formatCount(version.corrections, "correction")}
+              </span>
+            </>,
+            <span class="group">
+              <Button onClick={() => void look(version)}>Look</Button>
+              <Button
+                onClick={() => {
+                  void edited?.edit({ kind: "restore", version: version.number });
+                  close();
+                }}
+              >
+                Bring back
+              </Button>
+            </span>,
+          ],
+        }))}
+      />
     </Dialog>
   );
 }

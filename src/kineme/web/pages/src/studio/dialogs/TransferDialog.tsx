@@ -1,9 +1,16 @@
 /** Transfer labels from a knowledge base of the folder. */
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { useStudio } from "../context";
-import { Dialog, type DialogProps } from "./Dialog";
-import { Checkbox, Select, TextInput, toggleMember, Field } from "../../layout/controls";
+import { useStudio, type DialogProps } from "../context";
+import {
+  Checkbox,
+  Dialog,
+  Field,
+  Select,
+  TextInput,
+  toggleMember,
+  useBusy,
+} from "../../layout/controls";
 
 export function TransferDialog({ close }: DialogProps) {
   const { session } = useStudio();
@@ -75,12 +82,10 @@ function NewKnowledge() {
   const named = (session.state.value?.recordings ?? []).filter((each) => each.named > 0);
   const excluded = useSignal<ReadonlySet<string>>(new Set());
   const name = useSignal("moves");
-  const busy = useSignal(false);
+  const [busy, run] = useBusy();
   useEffect(() => void session.refresh(), [session]); // names may have been added
-  const makeKnowledge = async (event: Event): Promise<void> => {
-    event.preventDefault();
-    busy.value = true;
-    await session.notifications.attempt("knowledge", async () => {
+  const makeKnowledge = (): Promise<boolean> =>
+    session.notifications.attempt("knowledge", async () => {
       const recordings = named.map(({ id }) => id).filter((id) => !excluded.value.has(id));
       const made = await session.api.makeKnowledge({ name: name.value.trim(), recordings });
       session.notifications.tell(
@@ -88,10 +93,13 @@ function NewKnowledge() {
       );
       await session.refresh();
     });
-    busy.value = false;
-  };
   return (
-    <form class="new-knowledge" onSubmit={(event) => void makeKnowledge(event)}>
+    <form
+      onSubmit={(event) => {
+        event.preventDefault();
+        void run("knowledge", makeKnowledge);
+      }}
+    >
       <h2>Make a knowledge base of recordings with names</h2>
       {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
       <div class="choices">
@@ -107,8 +115,8 @@ function NewKnowledge() {
       </div>
       <p class="actions">
         <TextInput aria-label="Name of the knowledge base" value={name} />
-        <button type="submit" disabled={busy.value || !name.value.trim() || !named.length}>
-          Make it {busy.value && <span class="busy" />}
+        <button type="submit" disabled={busy !== "" || !name.value.trim() || !named.length}>
+          Make it {busy && <span class="busy" />}
         </button>
       </p>
     </form>

@@ -22,7 +22,8 @@ export interface Proposal {
   revision: number;
 }
 
-interface Dependencies {
+/** What comparisons need of the session. */
+interface PageServices {
   api: Api;
   store: Store;
   notifications: Notifications;
@@ -33,15 +34,13 @@ interface Dependencies {
 export class Comparisons {
   /** The previewed segmentation, while it is shown below the table. */
   readonly proposal = computed(() =>
-    this.proposed.value?.shown === this.dependencies.store.others.value[0]
-      ? this.proposed.value
-      : null,
+    this.proposed.value?.shown === this.page.store.others.value[0] ? this.proposed.value : null,
   );
   /** The comparison shown below the table. */
   readonly comparison = computed(() =>
     this.proposal.value
       ? null
-      : (this.compared.value.get(this.dependencies.store.others.value[0]!) ?? null),
+      : (this.compared.value.get(this.page.store.others.value[0]!) ?? null),
   );
 
   /** The choice whose preview is being computed. */
@@ -51,11 +50,11 @@ export class Comparisons {
   private readonly compared = signal(new WeakMap<OtherResult, Comparison>());
   private requestCount = 0;
 
-  constructor(private readonly dependencies: Dependencies) {}
+  constructor(private readonly page: PageServices) {}
 
   /** Preview a segmentation without changing the table. */
   async propose(choice: SegmentationChoice, keep: boolean): Promise<void> {
-    const edited = this.dependencies.edited.value;
+    const edited = this.page.edited.value;
     if (!edited) return;
     const turn = ++this.requestCount;
     this.draft.value = choice;
@@ -63,15 +62,15 @@ export class Comparisons {
     try {
       const { preset, values: parameters, detail } = choice;
       const request = { preset, parameters, detail, keep };
-      const preview = await this.dependencies.api.loadPreview(edited.id, request);
-      if (turn !== this.requestCount || this.dependencies.edited.peek() !== edited) return;
+      const preview = await this.page.api.loadPreview(edited.id, request);
+      if (turn !== this.requestCount || this.page.edited.peek() !== edited) return;
       const shown = { name: "Preview", segmentation: preview.segmentation, marked: true };
       this.proposed.value = { choice, keep, preview, shown, revision };
-      this.dependencies.store.others.value = [shown];
-      this.dependencies.notifications.clearProblem("preview");
+      this.page.store.others.value = [shown];
+      this.page.notifications.clearProblem("preview");
     } catch (error) {
       if (turn === this.requestCount)
-        this.dependencies.notifications.reportProblem(explainError(error), "preview");
+        this.page.notifications.reportProblem(explainError(error), "preview");
     } finally {
       if (turn === this.requestCount) this.draft.value = null;
     }
@@ -86,10 +85,10 @@ export class Comparisons {
   /** Replace the table by the previewed segmentation. */
   apply(): void {
     const { value: proposal } = this.proposal;
-    if (!proposal || !this.dependencies.edited.value?.acceptsEdits()) return;
+    if (!proposal || !this.page.edited.value?.acceptsEdits()) return;
     const { choice, keep } = proposal;
     this.discard();
-    void this.dependencies.edited.value?.edit({
+    void this.page.edited.value?.edit({
       kind: "segment",
       preset: choice.preset,
       parameters: choice.values,
@@ -100,16 +99,16 @@ export class Comparisons {
 
   discard(): void {
     this.cancel();
-    if (this.proposal.value) this.dependencies.store.others.value = [];
+    if (this.proposal.value) this.page.store.others.value = [];
     this.proposed.value = null;
   }
 
   /** Compare with another result; return whether that worked. */
   async compare(request: CompareRequest): Promise<boolean> {
-    const edited = this.dependencies.edited.value;
+    const edited = this.page.edited.value;
     if (!edited) return false;
-    return this.dependencies.notifications.attempt("compare", async () =>
-      this.showBelow(await this.dependencies.api.compare(edited.id, request)),
+    return this.page.notifications.attempt("compare", async () =>
+      this.showBelow(await this.page.api.compare(edited.id, request)),
     );
   }
 
@@ -117,11 +116,11 @@ export class Comparisons {
   showBelow(comparison: Comparison, marked = false): void {
     const shown = { name: comparison.name, segmentation: comparison.segmentation, marked };
     this.compared.value.set(shown, comparison);
-    this.dependencies.store.others.value = [shown];
+    this.page.store.others.value = [shown];
   }
 
   stop(): void {
-    this.dependencies.store.others.value = [];
+    this.page.store.others.value = [];
   }
 }
 
@@ -131,15 +130,15 @@ export class PeopleComparison {
   readonly agreement = signal<Agreement | null>(null);
   /** Agreement on the active recording; undefined if fewer than two labelled it. */
   readonly recordingAgreement = computed(() => {
-    const id = this.dependencies.store.recording.value?.id;
+    const id = this.page.store.recording.value?.id;
     return this.agreement.value?.recordings.find((each) => each.id === id);
   });
 
   private chosen: string[] = [];
   private lanes: { recording: string; shown: OtherResult[] } | null = null;
 
-  constructor(private readonly dependencies: Dependencies) {
-    const { store } = dependencies;
+  constructor(private readonly page: PageServices) {
+    const { store } = page;
     effect(() => {
       const id = store.recording.value?.id;
       if (!this.agreement.value || !id || store.others.value.length) return;
@@ -149,26 +148,26 @@ export class PeopleComparison {
 
   /** Compare people and open a recording that two of them labelled; return whether that worked. */
   compare(annotators: string[]): Promise<boolean> {
-    const { api, store, notifications } = this.dependencies;
+    const { api, store, notifications } = this.page;
     return notifications.attempt("agreement", async () => {
       const found = await api.loadAgreement({ annotators });
       this.chosen = annotators;
       this.lanes = null;
       store.others.value = [];
       this.agreement.value = found;
-      if (!this.recordingAgreement.value) await this.dependencies.open(found.recordings[0]!.id);
+      if (!this.recordingAgreement.value) await this.page.open(found.recordings[0]!.id);
     });
   }
 
   stop(): void {
     this.agreement.value = null;
     this.lanes = null;
-    this.dependencies.store.others.value = [];
+    this.page.store.others.value = [];
   }
 
   /** Show a recording's lanes once they are loaded, if it is still active. */
   private async showLanes(recording: string): Promise<void> {
-    const { api, store, notifications } = this.dependencies;
+    const { api, store, notifications } = this.page;
     if (this.lanes?.recording !== recording) {
       this.lanes = { recording, shown: [] }; // requested once
       const { chosen: annotators, agreement, lanes } = this;

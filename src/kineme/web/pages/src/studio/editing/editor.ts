@@ -7,10 +7,10 @@
 import { batch, computed, signal } from "@preact/signals";
 import type { ByHand, Edit, Level, MoveBorder, Recording, Segment, Segments } from "../../messages";
 import type { Store } from "../../store";
-import * as commands from "./commands";
+import * as commands from "./edits";
 import type { EditedRecording } from "./editedRecording";
 import type { Session } from "../session";
-import { findRow, getLane, findNearestBorder, findSegmentAt } from "../../segments";
+import { findNearestBorder, findRow, findSegmentAt, getLane } from "../../segments";
 import { formatCount } from "../../util";
 
 /** Playhead position of queued keys; a key that moves a border updates it for later keys. */

@@ -3,9 +3,9 @@ import { batch, computed, effect, signal, untracked } from "@preact/signals";
 import type { Listing, Segments } from "../../messages";
 import { countChecked } from "../../segments";
 import { delay, formatCount } from "../../util";
-import { explainError, type Refused, Unreachable } from "../server/api";
+import { Unreachable, explainError, type Refused } from "../server/api";
 import type { Session } from "../session";
-import { unpackTable, computeTally, type Tally } from "./briefTables";
+import { computeTally, unpackTable, type Tally } from "./briefTables";
 
 const POLL_INTERVAL = 500; // milliseconds
 
@@ -131,7 +131,7 @@ export class Folder {
   }
 }
 
-export interface Offer {
+interface Offer {
   recording: string;
   cluster: number;
   before: string;
@@ -209,4 +209,46 @@ function findRenamed(last: Names, names: Names): Omit<Offer, "recording"> | null
     before: last[cluster] ?? "",
     label: names[cluster] ?? "",
   };
+}
+
+interface Upload {
+  name: string;
+  /** Sent share, 0 to 1. */
+  share: number;
+}
+
+export class Uploads {
+  readonly running = signal<Upload[]>([]);
+
+  constructor(private readonly session: Session) {}
+
+  /** Send files one after the other and open the first recording. */
+  async add(files: readonly File[]): Promise<void> {
+    const { session } = this;
+    const ids: string[] = [];
+    const uploads = files.map((file) => ({ name: file.name, share: 0 }));
+    this.running.value = [...this.running.value, ...uploads];
+    for (const [i, file] of files.entries()) {
+      let upload = uploads[i]!;
+      const progress = (share: number): void => {
+        const now = { ...upload, share };
+        this.running.value = this.running.value.map((each) => (each === upload ? now : each));
+        upload = now;
+      };
+      try {
+        ids.push((await session.api.upload(file, progress)).id);
+        session.notifications.clearProblem(`upload ${file.name}`);
+      } catch (error) {
+        session.notifications.reportProblem(
+          `${file.name}: ${explainError(error)}`,
+          `upload ${file.name}`,
+        );
+      }
+      this.running.value = this.running.value.filter((each) => each !== upload);
+    }
+    await session.refresh();
+    const listed = new Set(session.state.value?.recordings.map((each) => each.id));
+    const first = ids.find((id) => listed.has(id));
+    if (first) await session.open(first);
+  }
 }

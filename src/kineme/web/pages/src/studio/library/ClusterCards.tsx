@@ -2,13 +2,19 @@
 import { formatCount } from "../../util";
 import { useSignal } from "@preact/signals";
 import { getClusterColor } from "../../colors";
-import { NameInput, Button, Select, Swatch, Checkbox, toggleMember } from "../../layout/controls";
+import {
+  Button,
+  Checkbox,
+  Dialog,
+  NameInput,
+  Select,
+  Swatch,
+  toggleMember,
+} from "../../layout/controls";
 import type { LibraryCluster } from "../../messages";
 import { Figure } from "./Figure";
-import { sortClusters, formatSeconds, type Order } from "./hits";
-import type { LibraryPage } from "./libraryPage";
+import { formatSeconds, sortClusters, type LibraryPage, type Order } from "./libraryPage";
 import type { JSX } from "preact";
-import { Dialog } from "../dialogs/Dialog";
 
 const PAGE_SIZE = 120;
 const ORDERS = [

@@ -1,15 +1,14 @@
 /** Search by example and judge the hits. */
 import { useEffect, useRef } from "preact/hooks";
-import { NameInput, Button, NumberInput, Checkbox, Toggle } from "../../layout/controls";
+import { Button, Checkbox, NameInput, NumberInput, Toggle } from "../../layout/controls";
 import { saveFile } from "../server/api";
-import { toCsv, toJson, getHitKey, formatSeconds } from "./hits";
-import type { LibraryPage } from "./libraryPage";
-import type { Span, LibraryHit } from "../../messages";
+import { formatSeconds, getHitKey, toCsv, toJson, type LibraryPage } from "./libraryPage";
+import type { LibraryHit, Span } from "../../messages";
 import { useSignal } from "@preact/signals";
 import { buildPageAddress } from "../server/address";
 import { Figure } from "./Figure";
 import { listen } from "../../util";
-import { isPlayerKey } from "../../keys";
+import { isPlayerKey } from "../../page";
 
 export function Search({ page }: { page: LibraryPage }) {
   const { value: question } = page.question;

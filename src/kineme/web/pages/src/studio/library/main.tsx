@@ -3,17 +3,17 @@ import { render } from "preact";
 import "../../styles/index.css";
 import "../studio.css";
 import "./library.css";
-import { watchFocus } from "../../keys";
-import { readToken, buildFolderAddress, buildPageAddress } from "../server/address";
+import { watchFocus } from "../../page";
+import { buildFolderAddress, buildPageAddress, readToken } from "../server/address";
 import { Api, shareToken } from "../server/api";
-import { LibraryPage } from "./libraryPage";
+import { LibraryPage, formatSeconds } from "./libraryPage";
 import { formatCount } from "../../util";
-import { Tabs } from "../../layout/Tabs";
-import { ThemeButton, Button, TableHead, TextInput } from "../../layout/controls";
+import { Tabs } from "../../layout/Layout";
+import { Button, TextInput, ThemeButton } from "../../layout/controls";
 import { ClusterCards } from "./ClusterCards";
 import { Search } from "./Search";
 import { useSignal } from "@preact/signals";
-import { formatSeconds } from "./hits";
+import { Table } from "../../layout/tables";
 
 const PAGE_SIZE = 200;
 /** Initial duration of a searched span, seconds. */
@@ -78,47 +78,39 @@ function Recordings() {
         </span>
       </div>
       <div class="wide-table">
-        <table>
-          <TableHead columns={["Recording", "Length", "Status", "Search"]} />
-          <tbody>
-            {found.slice(0, PAGE_SIZE).map((each) => (
-              <tr key={each.recording}>
-                <td>
-                  {each.id ? (
-                    <a href={buildPageAddress(page.api.token, each.id)}>{each.recording}</a>
-                  ) : (
-                    <span title="Its file is not where it was">{each.recording}</span>
-                  )}
-                </td>
-                <td class="number">{formatSeconds(each.duration_s)}</td>
-                <td>{each.status}</td>
-                <td>
-                  <Button
-                    disabled={!each.vocabulary}
-                    aria-label={`Find like a part of ${each.recording}`}
-                    onClick={() => {
-                      page.span.value = {
-                        recording: each.recording,
-                        start_s: 0,
-                        stop_s: Math.min(DEFAULT_SPAN, each.duration_s),
-                      };
-                      page.tab.value = "search";
-                    }}
-                  >
-                    Find like…
-                  </Button>
-                </td>
-              </tr>
-            ))}
-            {Object.entries(failed).map(([path, reason]) => (
-              <tr key={path}>
-                <td>{path}</td>
-                <td />
-                <td colSpan={2}>not read: {reason}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
+        <Table
+          class="number"
+          columns={["Recording", "Length", "Status", "Search"]}
+          rows={[
+            ...found.slice(0, PAGE_SIZE).map((each) => ({
+              key: each.recording,
+              cells: [
+                each.id ? (
+                  <a href={buildPageAddress(page.api.token, each.id)}>{each.recording}</a>
+                ) : (
+                  <span title="Its file is not where it was">{each.recording}</span>
+                ),
+                formatSeconds(each.duration_s),
+                each.status,
+                <Button
+                  disabled={!each.vocabulary}
+                  aria-label={`Find like a part of ${each.recording}`}
+                  onClick={() => {
+                    const stop_s = Math.min(DEFAULT_SPAN, each.duration_s);
+                    page.span.value = { recording: each.recording, start_s: 0, stop_s };
+                    page.tab.value = "search";
+                  }}
+                >
+                  Find like…
+                </Button>,
+              ],
+            })),
+            ...Object.entries(failed).map(([path, reason]) => ({
+              key: path,
+              cells: [path, "", `not read: ${reason}`],
+            })),
+          ]}
+        />
       </div>
       {found.length > PAGE_SIZE && (
         <p class="quiet">The first {PAGE_SIZE}; type a part of a name to see others.</p>

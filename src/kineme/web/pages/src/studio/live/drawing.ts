@@ -1,13 +1,20 @@
 /** Draw the timeline, curves and body of a live recording. */
-import { getClusterColor, getTextColor, adaptColor } from "../../colors";
-import { readColor, theme } from "../../theme";
-import { drawRuler, FONT, createHatch, shortenText } from "../../timeline/drawing";
-import { GUTTER_WIDTH, RULER_HEIGHT } from "../../timeline/lanes";
+import { adaptColor, getClusterColor, getTextColor } from "../../colors";
+import {
+  createHatch,
+  drawInside,
+  FONT,
+  type Pen,
+  readColor,
+  shortenText,
+  strokeLine,
+  theme,
+} from "../../drawing";
+import { GUTTER_WIDTH, RULER_HEIGHT } from "../../panels/lanes";
+import { drawRuler } from "../../panels/timelineDrawing";
 import { toPixel } from "../../view";
-import { drawPoses, type Flat } from "../library/drawing";
+import { drawPoses, type Flat } from "../library/Figure";
 import { CURVES_S, getPartName, listPartsToDraw, TIMELINE_S, type Live } from "./live";
-
-type Pen = CanvasRenderingContext2D;
 
 const GAP = 6;
 const PALE = 0.45;
@@ -29,28 +36,25 @@ export function drawTimeline(pen: Pen, live: Live, width: number, height: number
     const top = RULER_HEIGHT + row * (tall + GAP);
     pen.fillStyle = readColor("quiet");
     pen.fillText(title, 10, top + tall / 2);
-    pen.save();
-    pen.beginPath();
-    pen.rect(GUTTER_WIDTH, top, plotWidth, tall);
-    pen.clip();
-    pen.fillStyle = readColor("lane");
-    pen.fillRect(GUTTER_WIDTH, top, plotWidth, tall);
-    for (const part of listPartsToDraw(live, level)) {
-      const [left, right] = [x(part.start_s), x(part.stop_s)];
-      const color = getClusterColor(part.cluster);
-      pen.globalAlpha = part.isFinal ? 1 : PALE;
-      pen.fillStyle = color;
-      pen.fillRect(left, top, Math.max(right - left - 1, 1), tall);
-      pen.globalAlpha = 1;
-      if (level === "repetitions") continue;
-      pen.fillStyle = part.isFinal ? getTextColor(color) : readColor("text");
-      const from = Math.max(left, GUTTER_WIDTH) + 5;
-      pen.fillText(shortenText(pen, getPartName(part), right - from - 4), from, top + tall / 2);
-    }
-    pen.fillStyle = createHatch(pen);
-    for (const { start_s, stop_s } of live.gaps)
-      pen.fillRect(x(start_s), top, x(stop_s ?? live.now_s) - x(start_s), tall);
-    pen.restore();
+    drawInside(pen, [GUTTER_WIDTH, top, plotWidth, tall], () => {
+      pen.fillStyle = readColor("lane");
+      pen.fillRect(GUTTER_WIDTH, top, plotWidth, tall);
+      for (const part of listPartsToDraw(live, level)) {
+        const [left, right] = [x(part.start_s), x(part.stop_s)];
+        const color = getClusterColor(part.cluster);
+        pen.globalAlpha = part.isFinal ? 1 : PALE;
+        pen.fillStyle = color;
+        pen.fillRect(left, top, Math.max(right - left - 1, 1), tall);
+        pen.globalAlpha = 1;
+        if (level === "repetitions") continue;
+        pen.fillStyle = part.isFinal ? getTextColor(color) : readColor("text");
+        const from = Math.max(left, GUTTER_WIDTH) + 5;
+        pen.fillText(shortenText(pen, getPartName(part), right - from - 4), from, top + tall / 2);
+      }
+      pen.fillStyle = createHatch(pen);
+      for (const { start_s, stop_s } of live.gaps)
+        pen.fillRect(x(start_s), top, x(stop_s ?? live.now_s) - x(start_s), tall);
+    });
   });
 }
 
@@ -69,19 +73,17 @@ export function drawChannels(pen: Pen, live: Live, width: number, height: number
     pen.fillStyle = readColor("quiet");
     pen.fillText(shortenText(pen, name, GUTTER_WIDTH - 14), 10, (channel + 0.5) * tall);
     pen.strokeStyle = readColor("accent");
-    pen.beginPath();
     let last_s = -Infinity;
-    for (const { seconds, values } of live.samples) {
+    const points = live.samples.flatMap(({ seconds, values }): ([number, number] | null)[] => {
       const value = values[channel];
-      if (value === null || value === undefined) continue;
+      if (value === null || value === undefined) return [];
       const x = GUTTER_WIDTH + toPixel(range, width - GUTTER_WIDTH, seconds);
       const y = bottom - (high > low ? (value - low) / (high - low) : 0.5) * 0.8 * tall;
-      // Break the line where samples are missing.
-      if (seconds - last_s > 1.5 / sample_fps) pen.moveTo(x, y);
-      else pen.lineTo(x, y);
+      const isAfterGap = seconds - last_s > 1.5 / sample_fps;
       last_s = seconds;
-    }
-    pen.stroke();
+      return isAfterGap ? [null, [x, y]] : [[x, y]];
+    });
+    strokeLine(pen, points);
   });
 }
 
@@ -96,6 +98,5 @@ export function drawBody(pen: Pen, { head: { bones }, pose, current }: Live): vo
   const color = current
     ? adaptColor(getClusterColor(current.cluster), theme.value)
     : readColor("body");
-  pen.lineCap = "round";
   drawPoses(pen, { bones, fps: 1, poses: [joints], ...box }, [0], color);
 }

@@ -11,7 +11,7 @@ const MAX_SILENCE_S = 2;
 const TEMPO_REPETITIONS = 5;
 
 /** A part of the timeline; a null stop means that it continues. */
-export interface Part {
+interface Part {
   start_s: number;
   stop_s: number | null;
   cluster: number;

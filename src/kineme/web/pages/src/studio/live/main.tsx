@@ -1,18 +1,18 @@
 /** Start the page that `kineme live --page` shows. */
 import { signal } from "@preact/signals";
 import { render } from "preact";
-import "../../styles/theme.css";
-import "../../styles/controls.css";
+import "../../styles/base.css";
 import "./live.css";
 import type { LiveUpdate } from "../../messages";
 import { readToken } from "../server/address";
 import { Api } from "../server/api";
-import { applyUpdate, type Live, getPartName, describeStatus, computeTempo } from "./live";
-import { Canvas } from "../../canvas/Canvas";
+import { applyUpdate, computeTempo, describeStatus, getPartName, type Live } from "./live";
+import { Canvas } from "../../drawing";
 import { getClusterColor } from "../../colors";
-import { ThemeButton, Swatch, TableHead } from "../../layout/controls";
+import { Swatch, ThemeButton } from "../../layout/controls";
 import { formatTime } from "../../view";
 import { drawBody, drawChannels, drawTimeline } from "./drawing";
+import { Table } from "../../layout/tables";
 
 const state = signal<Live | null>(null);
 const connected = signal(true);
@@ -72,21 +72,21 @@ function CurrentActivity({ live: { current } }: { live: Live }) {
 function PastActivities({ live: { past } }: { live: Live }) {
   return (
     <section class="past" aria-label="Activities that are over" tabIndex={0}>
-      <table>
-        <TableHead columns={["Activity", "From", "To", "Repetitions"]} />
-        <tbody class="number">
-          {past.map((each) => (
-            <tr key={each.start_s}>
-              <td>
-                <Swatch color={getClusterColor(each.cluster)} /> {getPartName(each)}
-              </td>
-              <td>{formatTime(each.start_s, 1)}</td>
-              <td>{formatTime(each.stop_s, 1)}</td>
-              <td>{each.repetitions}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        class="number"
+        columns={["Activity", "From", "To", "Repetitions"]}
+        rows={past.map((each) => ({
+          key: each.start_s,
+          cells: [
+            <>
+              <Swatch color={getClusterColor(each.cluster)} /> {getPartName(each)}
+            </>,
+            formatTime(each.start_s, 1),
+            formatTime(each.stop_s, 1),
+            each.repetitions,
+          ],
+        }))}
+      />
     </section>
   );
 }

@@ -1,11 +1,12 @@
 /** Show how well the result agrees with the compared one. */
 import { useStore } from "../../store";
-import type { Comparison, Agreement } from "../../messages";
-import { getLane, getSegmentName, findSegmentAt } from "../../segments";
+import type { Agreement, Comparison } from "../../messages";
+import { findSegmentAt, getLane, getSegmentName } from "../../segments";
 import { useStudio } from "../context";
-import { Button, TableHead } from "../../layout/controls";
+import { Button } from "../../layout/controls";
 import { formatTime } from "../../view";
-import { TruncatedName } from "./FolderPanel";
+import { TruncatedName } from "../folder/FolderPanel";
+import { Table } from "../../layout/tables";
 
 export function ComparePanel() {
   const { session, view } = useStudio();
@@ -33,22 +34,19 @@ export function ComparePanel() {
         <Button onClick={() => session.comparisons.stop()}>Stop comparing</Button>
       </div>
       {(comparison.differences?.length ?? 0) > 0 && <Differences comparison={comparison} />}
-      <table class="scores number">
-        <tbody>
-          {Object.entries(comparison.scores).map(([name, score]) => {
-            const meaning = comparison.meanings?.[name];
-            return (
-              <tr key={name}>
-                <th scope="row">
-                  {meaning?.title ?? name.replaceAll("_", " ")}
-                  {meaning && <small class="quiet">{meaning.help}</small>}
-                </th>
-                <td>{score.toFixed(3)}</td>
-              </tr>
-            );
-          })}
-        </tbody>
-      </table>
+      <Table
+        class="scores number"
+        rows={Object.entries(comparison.scores).map(([name, score]) => {
+          const meaning = comparison.meanings?.[name];
+          const head = (
+            <>
+              {meaning?.title ?? name.replaceAll("_", " ")}
+              {meaning && <small class="quiet">{meaning.help}</small>}
+            </>
+          );
+          return { key: name, head, cells: [score.toFixed(3)] };
+        })}
+      />
       <p class="quiet">Scores and differences are of the table as it was when you compared.</p>
     </div>
   );
@@ -77,31 +75,24 @@ interface Props {
 /** List where results differ; a click goes there. */
 function DifferenceTable({ caption, names, differences }: Props) {
   const store = useStore();
+  const rows = differences.map(({ start_s, stop_s, labels }) => ({
+    key: start_s,
+    cells: [
+      <Button onClick={() => store.seek(start_s)}>{formatTime(start_s, 2)}</Button>,
+      (stop_s - start_s).toFixed(2),
+      ...labels.map((label) => label || "–"),
+    ],
+  }));
   return (
-    <table class="differences number">
-      <caption>{caption}</caption>
-      <TableHead columns={["From", "Seconds", ...names]} />
-      <tbody>
-        {differences.map(({ start_s, stop_s, labels }) => (
-          <tr key={start_s}>
-            <td>
-              <Button class="link" onClick={() => store.seek(start_s)}>
-                {formatTime(start_s, 2)}
-              </Button>
-            </td>
-            <td>{(stop_s - start_s).toFixed(2)}</td>
-            {labels.map((label, i) => (
-              <td key={names[i]}>{label || "–"}</td>
-            ))}
-          </tr>
-        ))}
-        {differences.length === 0 && (
-          <tr>
-            <td colSpan={2 + names.length}>Nowhere for more than 0.25 s.</td>
-          </tr>
-        )}
-      </tbody>
-    </table>
+    <>
+      <Table
+        class="differences number"
+        caption={caption}
+        columns={["From", "Seconds", ...names]}
+        rows={rows}
+      />
+      {rows.length === 0 && <p>Nowhere for more than 0.25 s.</p>}
+    </>
   );
 }
 
@@ -146,38 +137,32 @@ function Pairs({ agreement }: { agreement: Agreement }) {
   const all = agreement.recordings.filter(
     (each) => each.annotators.length === agreement.annotators.length,
   );
+  const rows = agreement.pairs.map(({ annotators, cohen_kappa, border_f1, recordings }) => ({
+    key: annotators.join(),
+    head: annotators.join(", "),
+    cells: [formatScore(cohen_kappa), formatScore(border_f1), recordings],
+  }));
+  const together = {
+    key: "all",
+    head: (
+      <>
+        All <small class="quiet">Fleiss’ kappa</small>
+      </>
+    ),
+    cells: [formatScore(agreement.fleiss_kappa), "", all.length],
+  };
   return (
-    <table class="scores number">
-      <caption>Over the folder</caption>
-      <thead>
-        <tr>
-          <td />
-          <td title="Frames that both say the same of, beyond what chance would give">
-            Cohen’s kappa
-          </td>
-          <td title="Borders of either that the other has within 0.25 s">Border F1</td>
-          <td>Recordings</td>
-        </tr>
-      </thead>
-      <tbody>
-        {agreement.pairs.map(({ annotators, cohen_kappa, border_f1, recordings }) => (
-          <tr key={annotators.join()}>
-            <th scope="row">{annotators.join(", ")}</th>
-            <td>{formatScore(cohen_kappa)}</td>
-            <td>{formatScore(border_f1)}</td>
-            <td>{recordings}</td>
-          </tr>
-        ))}
-        <tr>
-          <th scope="row">
-            All <small class="quiet">Fleiss’ kappa</small>
-          </th>
-          <td>{formatScore(agreement.fleiss_kappa)}</td>
-          <td />
-          <td>{all.length}</td>
-        </tr>
-      </tbody>
-    </table>
+    <Table
+      class="scores number"
+      caption="Over the folder"
+      columns={[
+        "",
+        ["Cohen’s kappa", "Frames that both say the same of, beyond what chance would give"],
+        ["Border F1", "Borders of either that the other has within 0.25 s"],
+        "Recordings",
+      ]}
+      rows={[...rows, together]}
+    />
   );
 }
 
@@ -185,28 +170,26 @@ function Pairs({ agreement }: { agreement: Agreement }) {
 function ByRecording({ agreement }: { agreement: Agreement }) {
   const { session } = useStudio();
   return (
-    <table class="differences number">
-      <caption>By recording</caption>
-      <TableHead columns={["Recording", "Fleiss’ kappa", "Differences"]} />
-      <tbody>
-        {agreement.recordings.map(({ id, name, fleiss_kappa, differences }) => (
-          <tr key={id}>
-            <td>
-              <Button
-                class="link halves"
-                title={name}
-                aria-current={id === session.store.recording.value?.id}
-                onClick={() => void session.open(id)}
-              >
-                <TruncatedName name={name} />
-              </Button>
-            </td>
-            <td>{formatScore(fleiss_kappa)}</td>
-            <td>{differences.length}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <Table
+      class="differences number"
+      caption="By recording"
+      columns={["Recording", "Fleiss’ kappa", "Differences"]}
+      rows={agreement.recordings.map(({ id, name, fleiss_kappa, differences }) => ({
+        key: id,
+        cells: [
+          <Button
+            class="halves"
+            title={name}
+            aria-current={id === session.store.recording.value?.id}
+            onClick={() => void session.open(id)}
+          >
+            <TruncatedName name={name} />
+          </Button>,
+          formatScore(fleiss_kappa),
+          differences.length,
+        ],
+      }))}
+    />
   );
 }
 

@@ -1,19 +1,19 @@
 /** Edit the segment at the playhead: name, cluster, kind and comment. */
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
-import { getTarget } from "../editing/commands";
-import { getClusterColor, NO_COLOR } from "../../colors";
+import { getTarget } from "../editing/edits";
+import { NO_COLOR, getClusterColor } from "../../colors";
 import type { Kind, Segment, Segments } from "../../messages";
 import {
+  Button,
+  Checkbox,
+  CloseButton,
   Field,
   NameInput,
-  Checkbox,
   Select,
   Swatch,
-  useDraft,
-  Button,
-  CloseButton,
   TextInput,
+  useDraft,
 } from "../../layout/controls";
 import { getDuration, getSegmentName } from "../../segments";
 import { getConfidence } from "../../confidence";

@@ -1,15 +1,26 @@
-/** List all segments; only visible rows are rendered, so long lists scroll fast. */
+/** List, filter and edit all segments. */
 import { formatCount } from "../../util";
-import { computed, useSignal, useSignalEffect, signal, type Signal } from "@preact/signals";
+import { computed, signal, useSignal, useSignalEffect, type Signal } from "@preact/signals";
 import { useMemo, useRef } from "preact/hooks";
 import { useStore } from "../../store";
 import { NO_COLOR } from "../../colors";
-import { getDuration, getSegmentName } from "../../segments";
+import { findRow, getDuration, getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
-import { sliceRows, NO_FILTER, type Filter, type Order, type Row, listRows } from "./rows";
-import { type ColumnOrder, OrderButton, useVisibleRows } from "../longTable";
-import { RowActions, LoopsButton } from "./RowActions";
-import { Button, Swatch, Select, toggleMember } from "../../layout/controls";
+import {
+  NO_FILTER,
+  findSpansToMerge,
+  listRows,
+  sliceRows,
+  type Filter,
+  type Order,
+  type Row,
+} from "./rows";
+import { OrderButton, useVisibleRows, type ColumnOrder } from "../../layout/tables";
+import { Button, Select, Swatch, TextInput, toggleMember, useBusy } from "../../layout/controls";
+import { useStudio } from "../context";
+import type { ByHand } from "../../messages";
+import { getTarget } from "../editing/edits";
+import { saveFile } from "../server/api";
 
 const ROW_HEIGHT = 26; // pixels of a row
 const COLUMNS: readonly (readonly [Order, string])[] = [
@@ -266,5 +277,107 @@ function MoreFilters(props: { filter: Filter; change: (part: Partial<Filter>) =>
         ))}
       </span>
     </div>
+  );
+}
+
+function RowActions({ rows }: { rows: Row[] }) {
+  const { session, editor } = useStudio();
+  const [busy, run] = useBusy();
+  const exportClips = async (loops: boolean): Promise<void> => {
+    const edited = session.edited.value;
+    if (!edited) return;
+    await session.notifications.attempt("clips", async () => {
+      await edited.waitUntilSent(); // pending edits may move rows
+      const { segmentation } = edited.confirmed.value;
+      const present = rows.map(({ segment }) => findRow(segmentation, segment));
+      const numbers = present.map((row) => segmentation.segments.indexOf(row!));
+      const there = numbers.filter((number) => number >= 0);
+      saveFile(await session.api.exportClips(edited.id, { rows: there, loops }));
+    });
+  };
+  const cluster = rows[0]?.segment.cluster ?? -1;
+  const divisible =
+    cluster >= 0 &&
+    rows.every(
+      ({ segment }) => segment.cluster === cluster && segment.level === rows[0]?.segment.level,
+    );
+  const name = useSignal("");
+  const merges = findSpansToMerge(rows);
+  const checked = rows.length > 0 && rows.every(({ segment }) => segment.checked);
+  const segments = rows.map(({ segment }) => segment);
+  return (
+    <div class="table-actions">
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          const label = name.value.trim();
+          const edits = segments.map((each): ByHand => {
+            return { kind: "name_segment", ...getTarget(each), label };
+          });
+          editor.sendTogether(edits, `named “${label}”`);
+        }}
+      >
+        <TextInput aria-label="Name for all chosen" placeholder="name" value={name} />
+        <button type="submit">Name {rows.length}</button>
+      </form>
+      <Button
+        disabled={!merges.length}
+        title="Neighbours become one segment"
+        onClick={() =>
+          editor.sendTogether(
+            merges.map(({ level, start, stop }) => {
+              return { kind: "merge", level, start_frame: start, stop_frame: stop };
+            }),
+            "merged",
+          )
+        }
+      >
+        Merge
+      </Button>
+      <Button onClick={() => editor.setChecked(segments, !checked)}>
+        {checked ? "Uncheck" : "Check"}
+      </Button>
+      <Button
+        disabled={!divisible}
+        title="The chosen ones become a cluster of their own"
+        onClick={() =>
+          editor.edit({
+            kind: "split_cluster",
+            cluster,
+            frames: segments.map(({ start_frame }) => start_frame),
+          })
+        }
+      >
+        New cluster
+      </Button>
+      <Button
+        disabled={busy !== ""}
+        title="The chosen segments as motion files"
+        onClick={() => void run("clips", () => exportClips(false))}
+      >
+        Clips…
+      </Button>
+      <Button
+        disabled={busy !== ""}
+        title="The same, each made to close, so that it can be repeated without a jerk"
+        onClick={() => void run("loops", () => exportClips(true))}
+      >
+        Loops…
+      </Button>
+    </div>
+  );
+}
+
+/** Open the list of loops. */
+function LoopsButton() {
+  const { session, view } = useStudio();
+  return (
+    <Button
+      disabled={!session.edited.value || !session.store.recording.value?.motion}
+      title="Which repetitions make good loops: seam, sliding feet, turn and speed"
+      onClick={() => view.show("loops")}
+    >
+      Loops by quality…
+    </Button>
   );
 }
