@@ -49,7 +49,7 @@ OFF: Mapping[str, Mapping[str, Any]] = {
         for name in (
             "velocity_weight", "segment_cost", "cluster_cost", "cluster_growth",
             "spread_share", "min_action", "min_explained", "two_movements", "border_shift",
-            "noise_share", "centering", "length_cost", "same_cost", "event_scale", "event_velocity",
+            "noise_share", "centering", "same_cost", "event_scale", "event_velocity",
             "event_cost",
         )
     },

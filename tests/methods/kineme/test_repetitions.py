@@ -205,7 +205,7 @@ def test_chance_is_told_from_any_number_of_repetitions(times: int) -> None:
         shared = np.sqrt(common) * rng.normal(0, 1, (1000, 15))
         parts = shared + np.sqrt(1 - common) * rng.normal(0, 1, (times, 1000, 15))
         left = float(kernels.measure_unexplained(parts, 1.0).mean())
-        assert Candidate(np.arange(times + 1), 0, 0, 0, left, KINEME).is_chance(0.6) == is_chance
+        assert Candidate(np.arange(times + 1), 0, 0, 0, left).is_chance(0.6) == is_chance
 
 
 @st.composite

@@ -181,10 +181,6 @@ class KinemeConstants(Preset):
         "an end counts in full up to this many times the mean square distance of repetitions from "
         "their mean, and less beyond", limits=FACTOR, fine=True, default=2.0,
     )  # fmt: skip
-    length_cost: float = constant(
-        "cost of a division, over its number of repetitions: a share of the activity",
-        limits=FACTOR, fine=True, default=1.5,
-    )  # fmt: skip
     max_unexplained: float = constant(
         "where the mean of any number of repetitions would leave more than this share unexplained, "
         "similarity is chance", limits=SHARE, fine=True, default=0.7,

@@ -117,7 +117,6 @@ class Candidate:
         Sum of both ends, weighted down if they deviate from the repetitions.
     unexplained : float
         Share of the activity that the other repetitions do not explain.
-    preset : KinemeConstants
     """
 
     visits: Frames
@@ -125,11 +124,11 @@ class Candidate:
     after: float
     ends: float
     unexplained: float
-    preset: KinemeConstants
 
     @property
     def cost(self) -> float:
-        return self.unexplained + self.preset.length_cost / self.number
+        # Few long repetitions leave less unexplained, so they cost more.
+        return self.unexplained + 1 / self.number
 
     @property
     def number(self) -> float:
@@ -258,7 +257,7 @@ def assess_division(
     before, after, ends, unexplained = kernels.measure_division(
         movement.poses, movement.path, visits, PLACES, max_distance, MAX_END, centering, max_scatter
     )
-    return Candidate(visits, before, after, ends, unexplained, preset)
+    return Candidate(visits, before, after, ends, unexplained)
 
 
 def _round_count(number: float) -> int:
