@@ -242,7 +242,6 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
         "chance_period": some,
         "max_repetition": some,
         "uneven": some,
-        "border_shift": share,
         "centering": share,
         "max_unexplained": share,
         "event_scale": none_or_some,
