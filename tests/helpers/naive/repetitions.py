@@ -342,7 +342,7 @@ def find_recurrences(start, stop, paths, free, cover):
     return kept
 
 
-def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
+def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
     """Return cost and clusters of the cheapest grouping; compare all pairs before each merge."""
     clusters = [[g] for g in range(len(lengths))]
 
@@ -356,7 +356,7 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
         return total(a, b) / (size(a) * size(b))
 
     def distance(a, b):
-        return mean(a, b) - spread_share * (mean(a, a) + mean(b, b)) / 2
+        return mean(a, b) - (mean(a, a) + mean(b, b)) / 4
 
     best = None
     while True:

@@ -110,10 +110,6 @@ class KinemeConstants(Preset):
         fine=True,
         default=0.2,
     )
-    spread_share: float = constant(
-        "share of the distances within two clusters that is subtracted from the one between them",
-        limits=SHARE, fine=True, default=0.5,
-    )  # fmt: skip
     min_action: float = constant(
         "shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1), default=1.4
     )
