@@ -115,10 +115,6 @@ class KinemeConstants(Preset):
     )
     max_clusters: int = constant("largest number of clusters", limits=SOME, fine=True, default=16)
     # Segments that repeat a movement.
-    min_explained: float = constant(
-        "share of a repetition that the mean of the others explains, at least", limits=SHARE,
-        default=0.5,
-    )  # fmt: skip
     two_movements: float = constant(
         "repetitions are two movements where means of the first and of the last ones leave less "
         "than this share of what one mean leaves", limits=SHARE, fine=True, default=0.65,

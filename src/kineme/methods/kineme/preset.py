@@ -29,7 +29,6 @@ OF_SENSORS: Mapping[str, Any] = {
     "working_fps": 50.0,
     "view_margin": 0.0,
     "half_views": True,  # a sensor may be loose, or on a limb that does not take part
-    "min_explained": 0.6,  # idle channels have the same weight as those that move
     "chance_count": 8.0,
     "chance_duration": 32.0,  # so that sitting down twice is not an exercise
     "centering": 0.4,

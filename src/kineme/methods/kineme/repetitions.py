@@ -389,7 +389,7 @@ class Repeating:
         repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
         kernels.center_repetitions(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
-        share *= _ramp_up(explained, preset.min_explained)
+        share *= _ramp_up(explained, 0.5)
         return share and share * score_one_movement(repetitions, preset)
 
 
