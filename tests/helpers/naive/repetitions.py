@@ -275,18 +275,18 @@ def find_best_length(rows, stop, shortest, longest, mean):
 PATH_STEPS = ((1, 1, 1.0), (1, 2, 1.5), (2, 1, 1.5))
 
 
-def score_pair(samples, costs, i, j, scale, worst):
+def score_pair(samples, costs, i, j, scale):
     square = float(((samples[i] - samples[j]) ** 2).sum())
-    return max(1 - square / scale**2 - (costs[i] + costs[j]) / 2, worst)
+    return 1 - square / scale**2 - (costs[i] + costs[j]) / 2
 
 
-def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
+def find_local_path_scores(samples, costs, begins, gap, width, scale):
     """Return the score of the best path from each first pair, if above 0."""
     n = len(samples)
     at, best = {}, {}
     for i in range(n):
         for j in range(i + gap, min(i + width + 1, n)):
-            score = score_pair(samples, costs, i, j, scale, worst)
+            score = score_pair(samples, costs, i, j, scale)
             options = [(score, (i, j))]
             for a, b, weight in PATH_STEPS:
                 crosses = begins[i - a + 1 : i + 1].any() or begins[j - b + 1 : j + 1].any()
@@ -300,14 +300,14 @@ def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
     return best
 
 
-def trace_path_score(samples, costs, ends, scale, worst):
+def trace_path_score(samples, costs, ends, scale):
     """Return the score of the best path from the first of two pairs to the second."""
     i0, j0, i1, j1 = ends
-    scores = {(i0, j0): score_pair(samples, costs, i0, j0, scale, worst)}
+    scores = {(i0, j0): score_pair(samples, costs, i0, j0, scale)}
     for i in range(i0, i1 + 1):
         for j in range(j0, j1 + 1):
             options = [
-                scores[i - a, j - b] + weight * score_pair(samples, costs, i, j, scale, worst)
+                scores[i - a, j - b] + weight * score_pair(samples, costs, i, j, scale)
                 for a, b, weight in PATH_STEPS
                 if (i - a, j - b) in scores
             ]

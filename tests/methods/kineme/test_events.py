@@ -35,13 +35,11 @@ def walks(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores, _ = kernels.find_local_paths(
-        columns, costs, begins, gap, width, 99, 0.8, -2.0, least
-    )
+    ends, scores, _ = kernels.find_local_paths(columns, costs, begins, gap, width, 99, 0.8, least)
     found: dict[tuple[int, int], float] = {}
     for (i, j, *_), score in zip(ends.tolist(), scores, strict=True):
         found[i, j] = max(found.get((i, j), 0), score)
-    best = naive.find_local_path_scores(samples, costs, begins, gap, width, 0.8, -2.0)
+    best = naive.find_local_path_scores(samples, costs, begins, gap, width, 0.8)
     assert found == pytest.approx({first: s for first, s in best.items() if s >= least})
 
 
@@ -50,12 +48,10 @@ def test_paths_are_those_of_the_naive_version(walk, gap, width, least) -> None:
 def test_a_path_is_followed_as_by_the_naive_version(walk) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
-    ends, scores, _ = kernels.find_local_paths(columns, costs, begins, 1, 30, 99, 0.8, -2.0, 1.0)
+    ends, scores, _ = kernels.find_local_paths(columns, costs, begins, 1, 30, 99, 0.8, 1.0)
     for each, score in zip(ends, scores, strict=True):
-        partners, sums, other_partners, other_sums = kernels.trace_path(
-            columns, costs, each, 0.8, -2.0
-        )
-        expected = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        partners, sums, other_partners, other_sums = kernels.trace_path(columns, costs, each, 0.8)
+        expected = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8)
         assert sums[-1] == pytest.approx(expected)
         assert other_sums[-1] == pytest.approx(expected)
         assert expected >= score - 1e-9
@@ -70,8 +66,8 @@ def test_a_long_path_is_followed(walk, leg) -> None:
     samples, costs, begins = walk
     columns = np.ascontiguousarray(samples.T)
     options = columns, costs, begins, 1, 30
-    whole, whole_scores, _ = kernels.find_local_paths(*options, 99, 0.8, -2.0, 1.0)
-    ends, scores, passed = kernels.find_local_paths(*options, leg, 0.8, -2.0, 1.0)
+    whole, whole_scores, _ = kernels.find_local_paths(*options, 99, 0.8, 1.0)
+    ends, scores, passed = kernels.find_local_paths(*options, leg, 0.8, 1.0)
     assert ends[:, :4].tolist() == whole[:, :4].tolist()
     assert scores.tolist() == whole_scores.tolist()
     for each, score in zip(ends, scores, strict=True):
@@ -89,7 +85,7 @@ def test_a_long_path_is_followed(walk, leg) -> None:
         assert len(forth) == len(sums) == each[2] - each[0] + 1
         assert len(back) == len(back_sums) == each[3] - each[1] + 1
         assert sums[-1] == pytest.approx(back_sums[-1])
-        best = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8, -2.0)
+        best = naive.trace_path_score(samples, costs, each.tolist()[:4], 0.8)
         assert score - 1e-9 <= sums[-1] <= best + 1e-9
 
 

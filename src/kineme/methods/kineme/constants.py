@@ -202,8 +202,7 @@ class KinemeConstants(Preset):
         default=0.8,
     )  # fmt: skip
     min_recurrence: float = constant(
-        "least similarity times movement time of an event, so its shortest length; twice that for "
-        "sets of two", unit="s",
+        "least similarity times movement time of an event, so its shortest length", unit="s",
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
     )  # fmt: skip
 
