@@ -43,6 +43,7 @@ from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import ROUGH, sample_repetitions
 from kineme.methods.kineme.repetitions import (
+    MAX_END,
     PLACES,
     SPAN,
     find_repetitions,
@@ -64,8 +65,6 @@ MIN_DEVIATION = 0.05
 """Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
-SHORTEST, LONGEST = 0.5, 1.5
-"""Shortest and longest first or last repetition, relative to the mean length of the others."""
 MIN_TRANSITION = 0.1
 """Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
 N_COMPARED = 4
@@ -273,8 +272,8 @@ def _find_begin(rows: Rows, start: int, cuts: Frames) -> tuple[int, int]:
     lengths = np.diff(cuts)
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, PLACES)
     mean_length, stop = float(lengths.mean()), int(cuts[0])
-    shortest = max(1, ceil(SHORTEST * mean_length))
-    longest = min(int(LONGEST * mean_length), stop)
+    shortest = max(1, ceil(mean_length / 2))
+    longest = min(int(MAX_END * mean_length), stop)
     first = 0
     if shortest <= longest:
         mean = inner.mean(axis=0)

@@ -60,7 +60,7 @@ DEPTH_QUANTILE = 0.9
 SMOOTHING = 0.14
 """Seconds before and after a frame over which poses are averaged."""
 MAX_END = 1.5
-"""Longest end, in repetitions."""
+"""Longest first or last repetition of an activity, in repetitions."""
 MIN_PART = 0.35
 """Part of a repetition from which it counts as one."""
 MOST_EXTRA = 0.2
