@@ -59,7 +59,7 @@ OFF: Mapping[str, Mapping[str, Any]] = {
     "min_similarity": {"min_similarity": 1.0},
     "same_set": {"same_set": 2.0},
     **{name: {name: 1.0} for name in ("end_distance", "max_unexplained", "event_rest")},
-    **{name: {name: 1000.0} for name in ("uneven", "end_scatter")},
+    "end_scatter": {"end_scatter": 1000.0},
 }  # fmt: skip
 """Values that switch a constant off; a number applies to each item of a tuple."""
 NUDGES = {"x 0.8": 0.8, "x 1.25": 1.25}

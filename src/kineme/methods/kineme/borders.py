@@ -388,8 +388,8 @@ def compare_sides(
     movement = trace_movement(rows, preset)
     repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
     centered = repeated - repeated.mean(axis=1, keepdims=True)
-    # 1 for equal durations, 0 if the standard deviation of their logarithms reaches `uneven`.
-    evenness = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
+    # 1 for equal durations, 0 if the standard deviation of their logarithms reaches a half.
+    evenness = 1 - min(2 * float(np.log(durations).std()), 1.0) ** 2
     if evenness < preset.same_set or score_one_movement(centered, preset) < MIN_ONE_MOVEMENT:
         return 0.0
     compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]

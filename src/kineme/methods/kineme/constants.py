@@ -135,10 +135,6 @@ class KinemeConstants(Preset):
         "longest repetition; longer ones are a series of activities", unit="s",
         limits=SOME_TIME, default=8.0,
     )  # fmt: skip
-    uneven: float = constant(
-        "standard deviation of the logarithms of durations from which nothing repeats",
-        limits=SOME_FACTOR, fine=True, default=0.6,
-    )  # fmt: skip
     same_set: float = constant(
         "likeness of repetitions across a border, relative to that beside it, from which both "
         "sides are one set; more than 1: never", limits=SOME_FACTOR, fine=True, default=0.8,

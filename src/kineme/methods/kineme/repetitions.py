@@ -380,7 +380,6 @@ class Repeating:
             preset.working_fps,
             preset.max_repetition,
             preset.chance_period,
-            preset.uneven,
             preset.chance_count,
         )
         if share <= 0:
