@@ -21,9 +21,8 @@ neighbours are divided into repetitions again as one span. They are merged if
 - one of them has too few repetitions to be a certain activity by itself;
 - the joint division has the same number of repetitions on each side as the side has alone, which
   is unlikely by chance;
-- it passes the tests for a single movement (`score_one_movement`);
-- without their mean pose, repetitions near the border are about as similar to those across it as
-  to each other, and last about as long (at least `same_set`).
+- without their mean pose, repetitions are about as similar to those across the border as to those
+  on their side, and last about as long (at least `same_set`).
 
 The last test is relative, because repetitions of a badly performed set correlate less with each
 other than two well performed exercises do. The method is ours; see ``docs/method.md``.
@@ -47,7 +46,6 @@ from kineme.methods.kineme.repetitions import (
     PLACES,
     SPAN,
     find_repetitions,
-    score_one_movement,
     trace_movement,
 )
 from kineme.methods.segments import number_by_appearance
@@ -67,12 +65,6 @@ SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
 MIN_TRANSITION = 0.1
 """Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
-N_COMPARED = 4
-"""Number of repetitions on each side of a border that are compared; others have drifted."""
-MIN_COVERED = 0.8
-"""Share of the side with fewer repetitions that these must cover."""
-MIN_ONE_MOVEMENT = 0.5
-"""Smallest `score_one_movement` of a set."""
 CERTAIN_FACTOR = 2
 """A side with this many times `chance_count` repetitions is an activity by itself."""
 TINY = 1e-12
@@ -379,21 +371,15 @@ def compare_sides(
         for alone, together in zip(counts, (before, len(durations) - before), strict=True)
         if alone > 2
     )
-    head, tail = border - edges[0], edges[-1] - border
-    covered = (counts[0] > counts[1] or head >= MIN_COVERED * border) and (
-        counts[1] > counts[0] or tail >= MIN_COVERED * (len(rows) - border)
-    )
-    if not (agree and covered and 0 < before < len(durations)):
+    if not (agree and 0 < before < len(durations)):
         return 0.0
     movement = trace_movement(rows, preset)
     repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
-    centered = repeated - repeated.mean(axis=1, keepdims=True)
     # 1 for equal durations, 0 if the standard deviation of their logarithms reaches a half.
     evenness = 1 - min(2 * float(np.log(durations).std()), 1.0) ** 2
-    if evenness < preset.same_set or score_one_movement(centered, preset) < MIN_ONE_MOVEMENT:
+    if evenness < preset.same_set:
         return 0.0
-    compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
-    beside, across = compare_at_border(compared, min(before, N_COMPARED), preset.centering)
+    beside, across = compare_at_border(repeated, before, preset.centering)
     # If each side is very uniform, even a small difference across the border is significant.
     if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
         return 0.0
