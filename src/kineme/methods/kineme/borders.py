@@ -44,6 +44,7 @@ from kineme.methods.kineme._repetition_kernels import ROUGH, sample_repetitions
 from kineme.methods.kineme.repetitions import (
     MAX_END,
     PLACES,
+    SMOOTHING,
     SPAN,
     find_repetitions,
     trace_movement,
@@ -63,8 +64,6 @@ MIN_DEVIATION = 0.05
 """Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
-MIN_TRANSITION = 0.1
-"""Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
 CERTAIN_FACTOR = 2
 """A side with this many times `chance_count` repetitions is an activity by itself."""
 TINY = 1e-12
@@ -236,7 +235,8 @@ def fit_ends(
         elif ends[left] > begins[right]:  # they overlap: meet in the middle
             middle = (ends[left] + begins[right]) // 2
             ends[left] = begins[right] = min(max(middle, low), high)
-    tolerance = preset.frames(MIN_TRANSITION)
+    # Shorter transitions are not resolved by averaged poses, and are closed.
+    tolerance = preset.frames(SMOOTHING)
     firsts = np.where(firsts - begins < tolerance, begins, firsts)
     lasts = np.where(ends - lasts < tolerance, ends, lasts)
     return Ends(begins, ends, firsts, lasts)
