@@ -178,11 +178,6 @@ def test_two_movements_one_after_the_other_save_nothing_as_one(seed: int) -> Non
         assert found.share < 0.05 or min(border - start, stop - border) < 2
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_four_slow_repetitions_save_some(seed: int) -> None:
-    assert share_saved(squats(4, seed=seed, period=5.5)) > 0.25
-
-
 def parting_of_channels(*sizes: np.ndarray) -> float:
     """Score repetitions of one shape with these sizes (repetitions, channels)."""
     angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)

@@ -21,8 +21,9 @@ neighbours are divided into repetitions again as one span. They are merged if
 - one of them has too few repetitions to be a certain activity by itself;
 - the joint division has the same number of repetitions on each side as the side has alone, which
   is unlikely by chance;
-- without their mean pose, repetitions are about as similar to those across the border as to those
-  on their side, and last about as long (at least `same_set`).
+- it is not two movements (`score_one_movement`);
+- without their mean pose, repetitions near the border are about as similar to those across it as
+  to each other, and last about as long (at least `same_set`).
 
 The last test is relative, because repetitions of a badly performed set correlate less with each
 other than two well performed exercises do. The method is ours; see ``docs/method.md``.
@@ -47,6 +48,7 @@ from kineme.methods.kineme.repetitions import (
     SMOOTHING,
     SPAN,
     find_repetitions,
+    score_one_movement,
     trace_movement,
 )
 from kineme.methods.segments import number_by_appearance
@@ -64,6 +66,8 @@ MIN_DEVIATION = 0.05
 """Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
+N_COMPARED = 4
+"""Number of repetitions on each side of a border that are compared; others have drifted."""
 CERTAIN_FACTOR = 2
 """A side with this many times `chance_count` repetitions is an activity by itself."""
 TINY = 1e-12
@@ -377,9 +381,11 @@ def compare_sides(
     repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
     # 1 for equal durations, 0 if the standard deviation of their logarithms reaches a half.
     evenness = 1 - min(2 * float(np.log(durations).std()), 1.0) ** 2
-    if evenness < preset.same_set:
+    centered = repeated - repeated.mean(axis=1, keepdims=True)
+    if evenness < preset.same_set or not score_one_movement(centered, preset):
         return 0.0
-    beside, across = compare_at_border(repeated, before, preset.centering)
+    compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
+    beside, across = compare_at_border(compared, min(before, N_COMPARED), preset.centering)
     # If each side is very uniform, even a small difference across the border is significant.
     if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
         return 0.0
