@@ -48,8 +48,8 @@ OFF: Mapping[str, Mapping[str, Any]] = {
         name: {name: 0.0}
         for name in (
             "velocity_weight", "segment_cost", "cluster_cost", "cluster_growth",
-            "spread_share", "min_action", "min_explained", "two_movements", "border_shift",
-            "noise_share", "centering", "length_cost", "same_cost", "event_scale", "event_velocity",
+            "min_action", "two_movements",
+            "noise_share", "centering", "same_cost", "event_scale", "event_velocity",
             "event_cost",
         )
     },
@@ -59,7 +59,7 @@ OFF: Mapping[str, Mapping[str, Any]] = {
     "min_similarity": {"min_similarity": 1.0},
     "same_set": {"same_set": 2.0},
     **{name: {name: 1.0} for name in ("end_distance", "max_unexplained", "event_rest")},
-    **{name: {name: 1000.0} for name in ("uneven", "end_scatter")},
+    "end_scatter": {"end_scatter": 1000.0},
 }  # fmt: skip
 """Values that switch a constant off; a number applies to each item of a tuple."""
 NUDGES = {"x 0.8": 0.8, "x 1.25": 1.25}

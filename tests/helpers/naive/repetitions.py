@@ -57,15 +57,14 @@ def drop_extra_visits(visits, longest, most):
     return kept if len(visits) - len(kept) <= most * len(visits) else list(visits)
 
 
-def score_durations(visits, fps, longest, chance_period, uneven, chance_count, chance_duration):
+def score_durations(visits, fps, longest, chance_period, chance_count):
     """Return evenness times the share that is not explained by chance, by period or number."""
     durations = np.diff(visits) / fps
     if len(visits) < 3 or durations.max() > longest:
         return 0.0
     fast = min(chance_period / durations.mean(), 1) ** 2
-    even = 1 - min(np.log(durations).std() / uneven, 1) ** 2
-    few = min(chance_count, chance_duration / durations.mean()) / len(visits)
-    return even * (1 - max(fast, min(few, 1)))
+    even = 1 - min(2 * np.log(durations).std(), 1) ** 2
+    return even * (1 - max(fast, min(chance_count / len(visits), 1)))
 
 
 def match_columns(gains, full):
@@ -275,18 +274,18 @@ def find_best_length(rows, stop, shortest, longest, mean):
 PATH_STEPS = ((1, 1, 1.0), (1, 2, 1.5), (2, 1, 1.5))
 
 
-def score_pair(samples, costs, i, j, scale, worst):
+def score_pair(samples, costs, i, j, scale):
     square = float(((samples[i] - samples[j]) ** 2).sum())
-    return max(1 - square / scale**2 - (costs[i] + costs[j]) / 2, worst)
+    return 1 - square / scale**2 - (costs[i] + costs[j]) / 2
 
 
-def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
+def find_local_path_scores(samples, costs, begins, gap, width, scale):
     """Return the score of the best path from each first pair, if above 0."""
     n = len(samples)
     at, best = {}, {}
     for i in range(n):
         for j in range(i + gap, min(i + width + 1, n)):
-            score = score_pair(samples, costs, i, j, scale, worst)
+            score = score_pair(samples, costs, i, j, scale)
             options = [(score, (i, j))]
             for a, b, weight in PATH_STEPS:
                 crosses = begins[i - a + 1 : i + 1].any() or begins[j - b + 1 : j + 1].any()
@@ -300,14 +299,14 @@ def find_local_path_scores(samples, costs, begins, gap, width, scale, worst):
     return best
 
 
-def trace_path_score(samples, costs, ends, scale, worst):
+def trace_path_score(samples, costs, ends, scale):
     """Return the score of the best path from the first of two pairs to the second."""
     i0, j0, i1, j1 = ends
-    scores = {(i0, j0): score_pair(samples, costs, i0, j0, scale, worst)}
+    scores = {(i0, j0): score_pair(samples, costs, i0, j0, scale)}
     for i in range(i0, i1 + 1):
         for j in range(j0, j1 + 1):
             options = [
-                scores[i - a, j - b] + weight * score_pair(samples, costs, i, j, scale, worst)
+                scores[i - a, j - b] + weight * score_pair(samples, costs, i, j, scale)
                 for a, b, weight in PATH_STEPS
                 if (i - a, j - b) in scores
             ]
@@ -342,7 +341,7 @@ def find_recurrences(start, stop, paths, free, cover):
     return kept
 
 
-def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share):
+def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost):
     """Return cost and clusters of the cheapest grouping; compare all pairs before each merge."""
     clusters = [[g] for g in range(len(lengths))]
 
@@ -356,7 +355,7 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
         return total(a, b) / (size(a) * size(b))
 
     def distance(a, b):
-        return mean(a, b) - spread_share * (mean(a, a) + mean(b, b)) / 2
+        return mean(a, b) - (mean(a, a) + mean(b, b)) / 4
 
     best = None
     while True:

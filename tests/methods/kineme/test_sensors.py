@@ -74,19 +74,17 @@ def test_distances_of_segments_are_those_of_the_naive_version(features, data) ->
     np.testing.assert_allclose(sums, expected * np.outer(lengths, lengths), atol=1e-4)
 
 
-@given(samples(), st.integers(1, 8), st.floats(0, 2), st.floats(0, 2), st.floats(0, 1))
+@given(samples(), st.integers(1, 8), st.floats(0, 2), st.floats(0, 2))
 @settings(max_examples=60)
-def test_the_cheapest_grouping_is_that_of_the_naive_version(
-    features, most, run, cluster, share
-) -> None:
+def test_the_cheapest_grouping_is_that_of_the_naive_version(features, most, run, cluster) -> None:
     n = len(features)
     lengths = 1.0 + np.arange(n) % 3
     means = np.linalg.norm(features[:, None] - features, axis=2) + 0.1
     sums = np.ascontiguousarray(means * np.outer(lengths, lengths))
-    cost, groups = naive.find_cheapest_grouping(sums, lengths, most, run, cluster, share)
+    cost, groups = naive.find_cheapest_grouping(sums, lengths, most, run, cluster)
     labels = np.empty(n, np.int64)
     assert kernels.find_cheapest_grouping(
-        sums.copy(), lengths.copy(), most, run, cluster, share, labels
+        sums.copy(), lengths.copy(), most, run, cluster, labels
     ) == pytest.approx(cost)
     assert sorted(np.flatnonzero(labels == g).tolist() for g in np.unique(labels)) == groups
 

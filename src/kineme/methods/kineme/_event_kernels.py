@@ -17,11 +17,11 @@ BLOCK = 512
 """Number of span starts per block in the table of largest gains."""
 
 
-@njit("void(float64[:, ::1], float64[::1], int64, int64, float64, float64, float64[::1])", **SUMS)
-def score_pairs(samples, costs, i, start, scale, worst, scores):
+@njit("void(float64[:, ::1], float64[::1], int64, int64, float64, float64[::1])", **SUMS)
+def score_pairs(samples, costs, i, start, scale, scores):
     """Write the scores of sample i with the samples from ``start`` on to ``scores``.
 
-    A score is 1 for equal samples without costs, and at least ``worst``.
+    A score is 1 for equal samples without costs.
     """
     # Squared distances, accumulated by dimension, as samples are columns.
     scores[:] = 0
@@ -32,16 +32,15 @@ def score_pairs(samples, costs, i, start, scale, worst, scores):
             scores[j] += difference * difference
     cost, others = costs[i], costs[start : start + len(scores)]
     for j in range(len(scores)):
-        # The loss of a pair is limited, so a single bad sample does not end a path.
-        scores[j] = max(1 - scores[j] / (scale * scale) - (cost + others[j]) / 2, worst)
+        scores[j] = 1 - scores[j] / (scale * scale) - (cost + others[j]) / 2
 
 
 @njit(
     "Tuple((int64[:, ::1], float64[::1], int64[:, ::1]))(float64[:, ::1], float64[::1],"
-    " boolean[::1], int64, int64, int64, float64, float64, float64)",
+    " boolean[::1], int64, int64, int64, float64, float64)",
     **OPTIONS,
 )
-def find_local_paths(samples, costs, begins, gap, width, leg, scale, worst, least):
+def find_local_paths(samples, costs, begins, gap, width, leg, scale, least):
     """Find local warping paths: return their ends (i, j, i, j, waypoint), scores, and waypoints.
 
     The two samples of a pair are ``gap`` to ``width`` apart. A path steps by one sample on both
@@ -70,7 +69,7 @@ def find_local_paths(samples, costs, begins, gap, width, leg, scale, worst, leas
         # Neither the next sample nor a skipped one may begin a span.
         may_step, may_skip = i > 0 and not begins[i], i > 1 and not (begins[i] or begins[i - 1])
         near, far = min(i + gap, n), min(i + width + 1, n)
-        score_pairs(samples, costs, i, near, scale, worst, row_scores[near:far])
+        score_pairs(samples, costs, i, near, scale, row_scores[near:far])
         for j in range(near, far):
             # Best path to this pair: a new path, or a continuation by one of three steps.
             score = row_scores[j]
@@ -120,10 +119,10 @@ def find_local_paths(samples, costs, begins, gap, width, leg, scale, worst, leas
 
 @njit(
     "Tuple((float64[::1], float64[::1], float64[::1], float64[::1]))(float64[:, ::1],"
-    " float64[::1], int64[::1], float64, float64)",
+    " float64[::1], int64[::1], float64)",
     **OPTIONS,
 )
-def trace_path(samples, costs, ends, scale, worst):
+def trace_path(samples, costs, ends, scale):
     """Trace the best path between two pairs; return partners and scores so far of its samples.
 
     They are returned for the samples of the first side, then for those of the second.
@@ -134,14 +133,14 @@ def trace_path(samples, costs, ends, scale, worst):
     scores = np.full((rows, columns), -np.inf)
     steps = np.zeros((rows, columns), np.int8)
     row_scores = np.empty(columns)
-    score_pairs(samples, costs, i0, j0, scale, worst, row_scores[:1])
+    score_pairs(samples, costs, i0, j0, scale, row_scores[:1])
     scores[0, 0] = row_scores[0]
     for i in range(1, rows):
         # Slopes are between 1/2 and 2, so only these columns connect both ends.
         ahead = rows - 1 - i
         first = max(1, (i + 1) // 2, columns - 1 - 2 * ahead)
         last = min(columns, 2 * i + 1, columns - (ahead + 1) // 2)
-        score_pairs(samples, costs, i0 + i, j0 + first, scale, worst, row_scores[first:last])
+        score_pairs(samples, costs, i0 + i, j0 + first, scale, row_scores[first:last])
         for j in range(first, last):
             score = row_scores[j]
             scores[i, j], steps[i, j] = scores[i - 1, j - 1] + score, 1

@@ -119,38 +119,38 @@ def compute_mean_distances(features, chosen, borders, start, stop, means):
             means[g, h] = total / pairs
 
 
-@njit("float64(float64[:, ::1], float64[::1], int64, int64, float64)", **OPTIONS)
-def _measure_distance(sums, lengths, g, h, spread_share):
-    """Return the mean distance of two clusters, less a share of the mean distance within them.
+@njit("float64(float64[:, ::1], float64[::1], int64, int64)", **OPTIONS)
+def _measure_distance(sums, lengths, g, h):
+    """Return the mean distance of two clusters, less half of the mean distance within them.
 
     ``sums`` are summed distances between samples of two clusters, ``lengths`` numbers of samples.
     """
     # `sums[g, g]` is the sum over all n² ordered pairs, including each sample with itself.
     within = sums[g, g] / lengths[g] ** 2 + sums[h, h] / lengths[h] ** 2
-    return sums[g, h] / (lengths[g] * lengths[h]) - spread_share * within / 2
+    return sums[g, h] / (lengths[g] * lengths[h]) - within / 4
 
 
 @njit(
-    "void(float64[:, ::1], float64[::1], int64[::1], int64, float64, int64[::1], float64[::1])",
+    "void(float64[:, ::1], float64[::1], int64[::1], int64, int64[::1], float64[::1])",
     **OPTIONS,
 )
-def _find_nearest(sums, lengths, owner, g, spread_share, nearest, gaps):
+def _find_nearest(sums, lengths, owner, g, nearest, gaps):
     """Set ``nearest[g]`` to the cluster nearest to cluster g, and ``gaps[g]`` to its distance."""
     gaps[g] = np.inf
     # A cluster exists while it owns itself.
     for h in range(len(lengths)):
         if h != g and owner[h] == h:
-            distance = _measure_distance(sums, lengths, g, h, spread_share)
+            distance = _measure_distance(sums, lengths, g, h)
             if distance < gaps[g]:
                 gaps[g] = distance
                 nearest[g] = h
 
 
 @njit(
-    "float64(float64[:, ::1], float64[::1], int64, float64, float64, float64, int64[::1])",
+    "float64(float64[:, ::1], float64[::1], int64, float64, float64, int64[::1])",
     **OPTIONS,
 )
-def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spread_share, labels):
+def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, labels):
     """Find the cheapest grouping of segments, write it to `labels`, and return its cost.
 
     Merge the two nearest clusters repeatedly (see `_measure_distance`). The cost of a grouping is
@@ -164,7 +164,7 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
     nearest = np.zeros(k, np.int64)
     gaps = np.full(k, np.inf)
     for g in range(k):
-        _find_nearest(sums, lengths, owner, g, spread_share, nearest, gaps)
+        _find_nearest(sums, lengths, owner, g, nearest, gaps)
     cheapest = np.inf
     for clusters in range(k, 0, -1):
         # Cost of this grouping.
@@ -197,14 +197,14 @@ def find_cheapest_grouping(sums, lengths, most, segment_cost, cluster_cost, spre
         for other in range(k):
             sums[other, g] += sums[other, h]
         # Only distances to g have changed.
-        _find_nearest(sums, lengths, owner, g, spread_share, nearest, gaps)
+        _find_nearest(sums, lengths, owner, g, nearest, gaps)
         for other in range(k):
             if owner[other] != other or other == g:
                 continue
             if nearest[other] in (g, h):
-                _find_nearest(sums, lengths, owner, other, spread_share, nearest, gaps)
+                _find_nearest(sums, lengths, owner, other, nearest, gaps)
                 continue
-            distance = _measure_distance(sums, lengths, other, g, spread_share)
+            distance = _measure_distance(sums, lengths, other, g)
             if distance < gaps[other]:  # a union can be nearer than both of its parts
                 gaps[other] = distance
                 nearest[other] = g

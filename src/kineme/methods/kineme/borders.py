@@ -7,8 +7,7 @@ side by the averaging. A third model is fitted to the whole recording. A *transi
 around the border, shorter than the averaging window, in which the model of the whole recording is
 more likely than those of both sides. Without a transition, the border is where the likelihood of
 both sides is largest. This is often too far on the quiet side, because a single movement that a
-quiet segment never contains ends it. So `border_shift` moves the border only part of the way, as
-people do.
+quiet segment never contains ends it. So the border moves only half of the way, as people do.
 
 *Ends.* The first repetition of an activity is the span before the first cut that fits the mean of
 the inner repetitions best, at any pace. If it begins before the activity, in a transition, the
@@ -22,7 +21,7 @@ neighbours are divided into repetitions again as one span. They are merged if
 - one of them has too few repetitions to be a certain activity by itself;
 - the joint division has the same number of repetitions on each side as the side has alone, which
   is unlikely by chance;
-- it passes the tests for a single movement (`score_one_movement`);
+- it is not two movements (`score_one_movement`);
 - without their mean pose, repetitions near the border are about as similar to those across it as
   to each other, and last about as long (at least `same_set`).
 
@@ -44,7 +43,9 @@ from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import ROUGH, sample_repetitions
 from kineme.methods.kineme.repetitions import (
+    MAX_END,
     PLACES,
+    SMOOTHING,
     SPAN,
     find_repetitions,
     score_one_movement,
@@ -65,16 +66,8 @@ MIN_DEVIATION = 0.05
 """Smallest standard deviation of a channel, as a share of that in the whole recording."""
 SHARE = 3
 """A border moves by at most 1 / SHARE of a segment."""
-SHORTEST, LONGEST = 0.5, 1.5
-"""Shortest and longest first or last repetition, relative to the mean length of the others."""
-MIN_TRANSITION = 0.1
-"""Shortest transition before the first or after the last repetition, s; shorter ones are closed."""
 N_COMPARED = 4
 """Number of repetitions on each side of a border that are compared; others have drifted."""
-MIN_COVERED = 0.8
-"""Share of the side with fewer repetitions that these must cover."""
-MIN_ONE_MOVEMENT = 0.5
-"""Smallest `score_one_movement` of a set."""
 CERTAIN_FACTOR = 2
 """A side with this many times `chance_count` repetitions is an activity by itself."""
 TINY = 1e-12
@@ -128,7 +121,7 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -
         if gain > preset.transition_cost * preset.working_fps:
             stops[i - 1], starts[i] = first + left, first + right
         else:
-            moved = at + round(preset.border_shift * (first + likeliest - at))
+            moved = (at + first + likeliest) // 2
             stops[i - 1] = starts[i] = moved
     return starts, stops
 
@@ -246,7 +239,8 @@ def fit_ends(
         elif ends[left] > begins[right]:  # they overlap: meet in the middle
             middle = (ends[left] + begins[right]) // 2
             ends[left] = begins[right] = min(max(middle, low), high)
-    tolerance = preset.frames(MIN_TRANSITION)
+    # Shorter transitions are not resolved by averaged poses, and are closed.
+    tolerance = preset.frames(SMOOTHING)
     firsts = np.where(firsts - begins < tolerance, begins, firsts)
     lasts = np.where(ends - lasts < tolerance, ends, lasts)
     return Ends(begins, ends, firsts, lasts)
@@ -274,8 +268,8 @@ def _find_begin(rows: Rows, start: int, cuts: Frames) -> tuple[int, int]:
     lengths = np.diff(cuts)
     inner = kernels.sample_evenly(rows, cuts[:-1], lengths, PLACES)
     mean_length, stop = float(lengths.mean()), int(cuts[0])
-    shortest = max(1, ceil(SHORTEST * mean_length))
-    longest = min(int(LONGEST * mean_length), stop)
+    shortest = max(1, ceil(mean_length / 2))
+    longest = min(int(MAX_END * mean_length), stop)
     first = 0
     if shortest <= longest:
         mean = inner.mean(axis=0)
@@ -380,18 +374,14 @@ def compare_sides(
         for alone, together in zip(counts, (before, len(durations) - before), strict=True)
         if alone > 2
     )
-    head, tail = border - edges[0], edges[-1] - border
-    covered = (counts[0] > counts[1] or head >= MIN_COVERED * border) and (
-        counts[1] > counts[0] or tail >= MIN_COVERED * (len(rows) - border)
-    )
-    if not (agree and covered and 0 < before < len(durations)):
+    if not (agree and 0 < before < len(durations)):
         return 0.0
     movement = trace_movement(rows, preset)
     repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
+    # 1 for equal durations, 0 if the standard deviation of their logarithms reaches a half.
+    evenness = 1 - min(2 * float(np.log(durations).std()), 1.0) ** 2
     centered = repeated - repeated.mean(axis=1, keepdims=True)
-    # 1 for equal durations, 0 if the standard deviation of their logarithms reaches `uneven`.
-    evenness = 1 - min(float(np.log(durations).std()) / preset.uneven, 1.0) ** 2
-    if evenness < preset.same_set or score_one_movement(centered, preset) < MIN_ONE_MOVEMENT:
+    if evenness < preset.same_set or not score_one_movement(centered, preset):
         return 0.0
     compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
     beside, across = compare_at_border(compared, min(before, N_COMPARED), preset.centering)

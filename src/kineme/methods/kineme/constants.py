@@ -107,19 +107,11 @@ class KinemeConstants(Preset):
         fine=True,
         default=0.2,
     )
-    spread_share: float = constant(
-        "share of the distances within two clusters that is subtracted from the one between them",
-        limits=SHARE, fine=True, default=0.5,
-    )  # fmt: skip
     min_action: float = constant(
         "shortest action", unit="s", limits=TIME, slider=(0.2, 10.0, 0.1), default=1.4
     )
     max_clusters: int = constant("largest number of clusters", limits=SOME, fine=True, default=16)
     # Segments that repeat a movement.
-    min_explained: float = constant(
-        "share of a repetition that the mean of the others explains, at least", limits=SHARE,
-        default=0.5,
-    )  # fmt: skip
     two_movements: float = constant(
         "repetitions are two movements where means of the first and of the last ones leave less "
         "than this share of what one mean leaves", limits=SHARE, fine=True, default=0.65,
@@ -132,10 +124,6 @@ class KinemeConstants(Preset):
     chance_count: float = constant(
         "repetitions that may be similar by chance", limits=SOME_FACTOR, fine=True, default=4.0
     )
-    chance_duration: float = constant(
-        "fewer repetitions than `chance_count` are not chance if together they last longer than "
-        "this", unit="s", limits=SOME_TIME, fine=True, default=14.0,
-    )  # fmt: skip
     chance_period: float = constant(
         "shorter repetitions make no difference between samples, and save nothing", unit="s",
         limits=SOME_TIME, fine=True, default=1.7,
@@ -144,19 +132,11 @@ class KinemeConstants(Preset):
         "longest repetition; longer ones are a series of activities", unit="s",
         limits=SOME_TIME, default=8.0,
     )  # fmt: skip
-    uneven: float = constant(
-        "standard deviation of the logarithms of durations from which nothing repeats",
-        limits=SOME_FACTOR, fine=True, default=0.6,
-    )  # fmt: skip
     same_set: float = constant(
         "likeness of repetitions across a border, relative to that beside it, from which both "
         "sides are one set; more than 1: never", limits=SOME_FACTOR, fine=True, default=0.8,
     )  # fmt: skip
     # Borders, to the frame.
-    border_shift: float = constant(
-        "share by which a border is moved from where means over `averaging` put it to where single "
-        "frames do", limits=SHARE, fine=True, default=0.6,
-    )  # fmt: skip
     transition_cost: float = constant(
         "least gain of a transition over a border: log-likelihood times seconds, mean of channels",
         unit="s", limits=SOME_FACTOR, fine=True, default=1.2,
@@ -177,10 +157,6 @@ class KinemeConstants(Preset):
     end_scatter: float = constant(
         "an end counts in full up to this many times the mean square distance of repetitions from "
         "their mean, and less beyond", limits=FACTOR, fine=True, default=2.0,
-    )  # fmt: skip
-    length_cost: float = constant(
-        "cost of a division, over its number of repetitions: a share of the activity",
-        limits=FACTOR, fine=True, default=1.5,
     )  # fmt: skip
     max_unexplained: float = constant(
         "where the mean of any number of repetitions would leave more than this share unexplained, "
@@ -215,8 +191,7 @@ class KinemeConstants(Preset):
         default=0.8,
     )  # fmt: skip
     min_recurrence: float = constant(
-        "least similarity times movement time of an event, so its shortest length; twice that for "
-        "sets of two", unit="s",
+        "least similarity times movement time of an event, so its shortest length", unit="s",
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
     )  # fmt: skip
 

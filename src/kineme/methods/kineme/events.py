@@ -37,12 +37,6 @@ LEG = 60.0
 """Length of a leg of a path, in seconds of movement time. Run time grows with its square."""
 N_LENGTHS = 24
 """Number of span lengths that are tried, between the shortest and the longest."""
-MIN_MEMBER_SHARE = 0.6
-"""Smallest score of a member of a set, as a share of `min_recurrence`."""
-PAIR_FACTOR = 2.0
-"""Factor of `min_recurrence` for a set of two occurrences."""
-MIN_PAIR_SCORE = -2.0
-"""Smallest score of a pair of samples, however different they are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +103,8 @@ def find_occurrences(
     if len(samples.seconds) < 2:
         empty = np.empty(0, np.int64)
         return Occurrences(empty, empty, empty, np.empty(0))
-    shortest = max(1, round(preset.min_recurrence * per_second))
+    least = preset.min_recurrence * per_second
+    shortest = max(1, round(least))
     starts, ptr, partners, sums, row_ptr, row_paths = find_matching_paths(
         samples.columns,
         preset.event_cost * samples.seconds,
@@ -118,7 +113,7 @@ def find_occurrences(
         width=round(WINDOW * per_second),
         leg=max(1, round(LEG * per_second)),
         scale=preset.event_scale,
-        least=MIN_MEMBER_SHARE * preset.min_recurrence * per_second,
+        least=least,
     )
     longest = max(shortest, round(preset.max_repetition * per_second))
     lengths = np.unique(np.geomspace(shortest, longest, N_LENGTHS).round().astype(np.int64))
@@ -127,11 +122,10 @@ def find_occurrences(
     spans, scores, ranks = kernels.choose_sets(
         lengths, starts, ptr, partners, sums, row_ptr, row_paths, all_free, preset.event_cover
     )
-    # Keep a set if its best path is unlikely to be chance; a set of two has only one path.
+    # Keep a set if its best occurrence is unlikely to be chance. Spans may be parts of paths.
     strongest = np.zeros(len(ranks))
     np.maximum.at(strongest, ranks, scores)
-    factors = np.where(np.bincount(ranks)[ranks] == 2, PAIR_FACTOR, 1.0)
-    is_kept = strongest[ranks] >= factors * preset.min_recurrence * per_second
+    is_kept = strongest[ranks] >= least
     order = np.flatnonzero(is_kept)[np.argsort(spans[is_kept, 0])]
     spans, ranks = spans[order], ranks[order]
     similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
@@ -238,7 +232,7 @@ def find_matching_paths(
     row_paths : array of int
     """
     ends, _, passed = kernels.find_local_paths(
-        columns, costs, begins, gap, width, leg, scale, MIN_PAIR_SCORE, least
+        columns, costs, begins, gap, width, leg, scale, least
     )
     starts, partners, sums = [], [np.empty(0)], [np.empty(0)]
     for path_ends in ends:
@@ -280,7 +274,7 @@ def split_path(
         latest = int(passed[latest, 2])
     pairs.append(ends[:2])
     legs = [
-        kernels.trace_path(columns, costs, np.append(start, stop), scale, MIN_PAIR_SCORE)
+        kernels.trace_path(columns, costs, np.append(start, stop), scale)
         for stop, start in pairwise(pairs)
     ]
     forward, forward_sums, backward, backward_sums = map(_join_legs, zip(*legs[::-1], strict=True))

@@ -81,8 +81,6 @@ FINE_PER_SEGMENT = 8
 """Largest number of fine segments per segment of the default level, for levels of detail."""
 MAX_FINE = 1000
 """Largest number of fine segments in total, unless the default level has more."""
-SIDE = 2.0
-"""Seconds before and after a candidate end of a part that are compared to choose it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,7 +263,8 @@ def _analyze(
     # Centred before the conversion to float32, so that an offset costs no precision.
     poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)
     min_frames = 2 * ceil(preset.working_fps / preset.rate)  # so that each part has a sample
-    ends = choose_part_ends(poses, max(min_frames, preset.frames(preset.part)), preset.frames(SIDE))
+    side = preset.frames(2 * preset.averaging)
+    ends = choose_part_ends(poses, max(min_frames, preset.frames(preset.part)), side)
     spans = [slice(*span) for span in pairwise(ends)]
     with stage("views"):
         views = [compute_views(rows[span], preset, joints=joints) for span in spans]

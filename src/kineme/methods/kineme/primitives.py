@@ -192,8 +192,8 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
 def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Replace the repetitions of clusters that do not repeat by occurrences.
 
-    A cluster keeps its repetitions if they explain each other, or if occurrences explain less.
-    Clusters lose their primitives if each segment has one repetition and nothing moves in any.
+    A cluster keeps its repetitions if they explain half of each other, or if occurrences explain
+    less. It loses its primitives if each segment has one repetition and nothing moves in any.
 
     Parameters
     ----------
@@ -204,7 +204,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     """
     shares = measure_explained(rows, segments, preset)
     shares = average_by_cluster(shares, np.ones_like(segments.labels), segments.labels)
-    weak = shares < preset.min_explained
+    weak = shares < 0.5
     if weak.any():
         lengths = np.diff(segments.borders)
         # Transitions are always weak. If an activity is weak, too, everything is searched.

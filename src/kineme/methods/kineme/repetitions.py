@@ -23,13 +23,13 @@ all. It repeats if the mean of the other repetitions, scaled, explains most of e
 share of the cost is saved:
 
     (1 - max((chance_period / period)², few)) · evenness
-    few = min(chance_count / count, chance_duration / (count · period), 1)
+    few = min(chance_count / count, 1)
 
 Fast repetitions save little, because the averaged view does not show them. Few repetitions save
-little, because they may be similar by chance, unless they last long. Two different movements in
-sequence save nothing. They are detected by comparing two means, of the first and of the last
-repetitions, with a single mean: once for the shapes of the repetitions, once for which channels
-move. The method is ours; see ``docs/method.md``.
+little, because they may be similar by chance. Two different movements in sequence save nothing.
+They are detected by comparing two means, of the first and of the last repetitions, with a single
+mean: once for the shapes of the repetitions, once for which channels move. The method is ours; see
+``docs/method.md``.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ DEPTH_QUANTILE = 0.9
 SMOOTHING = 0.14
 """Seconds before and after a frame over which poses are averaged."""
 MAX_END = 1.5
-"""Longest end, in repetitions."""
+"""Longest first or last repetition of an activity, in repetitions."""
 MIN_PART = 0.35
 """Part of a repetition from which it counts as one."""
 MOST_EXTRA = 0.2
@@ -117,7 +117,6 @@ class Candidate:
         Sum of both ends, weighted down if they deviate from the repetitions.
     unexplained : float
         Share of the activity that the other repetitions do not explain.
-    preset : KinemeConstants
     """
 
     visits: Frames
@@ -125,11 +124,11 @@ class Candidate:
     after: float
     ends: float
     unexplained: float
-    preset: KinemeConstants
 
     @property
     def cost(self) -> float:
-        return self.unexplained + self.preset.length_cost / self.number
+        # Few long repetitions leave less unexplained, so they cost more.
+        return self.unexplained + 1 / self.number
 
     @property
     def number(self) -> float:
@@ -258,7 +257,7 @@ def assess_division(
     before, after, ends, unexplained = kernels.measure_division(
         movement.poses, movement.path, visits, PLACES, max_distance, MAX_END, centering, max_scatter
     )
-    return Candidate(visits, before, after, ends, unexplained, preset)
+    return Candidate(visits, before, after, ends, unexplained)
 
 
 def _round_count(number: float) -> int:
@@ -381,16 +380,14 @@ class Repeating:
             preset.working_fps,
             preset.max_repetition,
             preset.chance_period,
-            preset.uneven,
             preset.chance_count,
-            preset.chance_duration,
         )
         if share <= 0:
             return 0.0
         repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
         kernels.center_repetitions(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
-        share *= _ramp_up(explained, preset.min_explained)
+        share *= _ramp_up(explained, 0.5)
         return share and share * score_one_movement(repetitions, preset)
 
 

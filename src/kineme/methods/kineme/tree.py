@@ -5,7 +5,7 @@
 2. Merge the two neighbours whose union costs least, repeatedly, until one segment is left. Each
    number of segments is a level of the tree.
 3. At each level, group the segments by agglomerative clustering. The distance of two clusters is
-   the mean distance of their samples, less a share of the mean distance within each. This corrects
+   the mean distance of their samples, less half of the mean distance within them. This corrects
    for varied activities, whose samples are far from each other and from all others.
 4. Views are averaged over a second, so a change of activity looks like a short activity. Assign
    clusters that are shorter than an action to their neighbours.
@@ -18,8 +18,8 @@ time quadratic. Then clusters of different parts are merged, the nearest first, 
 to each other than to the other clusters of their own parts. Clusters of one part stay apart.
 
 Sources: change points after Arlot, Celisse and Harchaoui 2019; bottom-up segmentation after Keogh,
-Chu, Hart and Pazzani 2001; with a share of 1, the distance of clusters is Székely and Rizzo's
-energy distance (2005); the rest is ours.
+Chu, Hart and Pazzani 2001; with all of the distance within them, the distance of clusters would be
+Székely and Rizzo's energy distance (2005); the rest is ours.
 """
 
 from __future__ import annotations
@@ -284,9 +284,9 @@ def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> G
     labels = np.empty(len(lengths), np.int64)
     segment_cost = preset.samples(preset.segment_cost)
     cluster_cost = preset.cluster_price(int(borders[-1]))
-    most, share = preset.max_clusters, preset.spread_share
+    most = preset.max_clusters
     kernels.find_cheapest_grouping(
-        sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, share, labels
+        sums.copy(), lengths.copy(), most, segment_cost, cluster_cost, labels
     )
     shortest = round(preset.samples(preset.min_action))
     labels = absorb_short_clusters(labels, lengths, sums, shortest)
