@@ -57,14 +57,15 @@ def drop_extra_visits(visits, longest, most):
     return kept if len(visits) - len(kept) <= most * len(visits) else list(visits)
 
 
-def score_durations(visits, fps, longest, chance_period, chance_count):
+def score_durations(visits, fps, longest, chance_period, chance_count, chance_duration):
     """Return evenness times the share that is not explained by chance, by period or number."""
     durations = np.diff(visits) / fps
     if len(visits) < 3 or durations.max() > longest:
         return 0.0
     fast = min(chance_period / durations.mean(), 1) ** 2
     even = 1 - min(2 * np.log(durations).std(), 1) ** 2
-    return even * (1 - max(fast, min(chance_count / len(visits), 1)))
+    few = min(chance_count, chance_duration / durations.mean()) / len(visits)
+    return even * (1 - max(fast, min(few, 1)))
 
 
 def match_columns(gains, full):

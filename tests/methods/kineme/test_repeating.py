@@ -108,7 +108,7 @@ def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) ->
 
 @given(
     st.lists(st.integers(1, 300), min_size=1, max_size=12).map(np.cumsum),
-    st.sampled_from([(8.0, 1.7, 4.0), (30.0, 0.5, 2.0)]),
+    st.sampled_from([(8.0, 1.7, 4.0, 14.0), (30.0, 0.5, 2.0, 1e9)]),
 )
 def test_what_times_allow_is_that_of_the_naive_version(visits, limits) -> None:
     found = kernels.score_durations(visits, 30.0, *limits)

@@ -485,8 +485,8 @@ def center_repetitions(repetitions):
                 repetitions[k, p, d] -= mean / places
 
 
-@njit("float64(int64[::1], float64, float64, float64, float64)", **OPTIONS)
-def score_durations(visits, fps, max_repetition, chance_period, chance_count):
+@njit("float64(int64[::1], float64, float64, float64, float64, float64)", **OPTIONS)
+def score_durations(visits, fps, max_repetition, chance_period, chance_count, chance_duration):
     """Return an upper bound of the share that a division saves, from its durations; 0 to 1."""
     count = len(visits)
     # Two visits enclose one repetition, which no other can explain.
@@ -498,7 +498,8 @@ def score_durations(visits, fps, max_repetition, chance_period, chance_count):
     fast = min(chance_period / durations.mean(), 1.0) ** 2
     # Logarithms, so that twice as long and half as long are equally uneven.
     even = 1 - min(2 * np.log(durations).std(), 1.0) ** 2
-    return even * (1 - max(fast, min(chance_count / count, 1.0)))
+    chance = min(chance_count, chance_duration / durations.mean())
+    return even * (1 - max(fast, min(chance / count, 1.0)))
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)

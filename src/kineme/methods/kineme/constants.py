@@ -124,6 +124,10 @@ class KinemeConstants(Preset):
     chance_count: float = constant(
         "repetitions that may be similar by chance", limits=SOME_FACTOR, fine=True, default=4.0
     )
+    chance_duration: float = constant(
+        "fewer repetitions than `chance_count` are not chance if together they last longer than "
+        "this", unit="s", limits=SOME_TIME, fine=True, default=14.0,
+    )  # fmt: skip
     chance_period: float = constant(
         "shorter repetitions make no difference between samples, and save nothing", unit="s",
         limits=SOME_TIME, fine=True, default=1.7,

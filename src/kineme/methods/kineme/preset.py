@@ -29,9 +29,9 @@ OF_SENSORS: Mapping[str, Any] = {
     "working_fps": 50.0,
     "view_margin": 0.0,
     "half_views": True,  # a sensor may be loose, or on a limb that does not take part
-    "chance_count": 8.0,  # so that sitting down twice is not an exercise
+    "chance_count": 8.0,
+    "chance_duration": 32.0,  # so that sitting down twice is not an exercise
     "centering": 0.5,
-    "min_similarity": 1.0,
     "event_scale": 0.0,
     "transition_cost": 1000.0,  # labels of sensor data have no transitions between activities
 }

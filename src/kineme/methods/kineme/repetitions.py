@@ -23,13 +23,13 @@ all. It repeats if the mean of the other repetitions, scaled, explains most of e
 share of the cost is saved:
 
     (1 - max((chance_period / period)², few)) · evenness
-    few = min(chance_count / count, 1)
+    few = min(chance_count / count, chance_duration / (count · period), 1)
 
 Fast repetitions save little, because the averaged view does not show them. Few repetitions save
-little, because they may be similar by chance. Two different movements in sequence save nothing.
-They are detected by comparing two means, of the first and of the last repetitions, with a single
-mean: once for the shapes of the repetitions, once for which channels move. The method is ours; see
-``docs/method.md``.
+little, because they may be similar by chance, unless they last long. Two different movements in
+sequence save nothing. They are detected by comparing two means, of the first and of the last
+repetitions, with a single mean: once for the shapes of the repetitions, once for which channels
+move. The method is ours; see ``docs/method.md``.
 """
 
 from __future__ import annotations
@@ -381,6 +381,7 @@ class Repeating:
             preset.max_repetition,
             preset.chance_period,
             preset.chance_count,
+            preset.chance_duration,
         )
         if share <= 0:
             return 0.0
