@@ -13,11 +13,11 @@ import kineme as package
 
 @pytest.fixture
 def phone(tmp_path: Path) -> Path:
-    """Ten seconds each of two movements, as a phone logs them, and the muscle that does them."""
+    """Ten seconds of circles, then of eights, as a phone logs them, and a muscle."""
     t = np.arange(2000) / 100
     rng = np.random.default_rng(0)
     switch = t < 10
-    x = np.where(switch, np.sin(6 * t), np.sin(11 * t) ** 3) + 0.05 * rng.standard_normal(len(t))
+    x = np.where(switch, np.sin(6 * t), np.sin(22 * t)) + 0.05 * rng.standard_normal(len(t))
     y = np.where(switch, np.cos(6 * t), np.cos(11 * t)) + 0.05 * rng.standard_normal(len(t))
     muscle = np.clip(np.sin(6 * t), 0, None) * rng.standard_normal(len(t))
     path = tmp_path / "phone.csv"
