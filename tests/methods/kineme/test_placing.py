@@ -23,7 +23,6 @@ def segments() -> Segments:
     return Segments(
         BORDERS,
         LABELS,
-        np.array([0.9, np.nan, 0.8, 0.7]),
         np.array([0, 50, 100, 130, 300, 400]),
         np.array([0, 0, -1, 1, 0]),
         np.empty(0, np.int64),
@@ -75,7 +74,6 @@ def alone() -> Segments:
     return Segments(
         np.array([0, 30, 100, 300]),
         np.array([0, 1, 2]),
-        np.array([0.9, 0.9, 0.8]),
         np.array([0, 30, 65, 100, 180, 220, 300]),
         np.array([0, 1, 1, -1, 3, -1]),
         np.array([2]),
