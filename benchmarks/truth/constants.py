@@ -48,7 +48,7 @@ OFF: Mapping[str, Mapping[str, Any]] = {
         name: {name: 0.0}
         for name in (
             "velocity_weight", "segment_cost", "cluster_cost", "cluster_growth",
-            "min_action", "two_movements",
+            "min_action", "two_movements", "border_shift",
             "noise_share", "centering", "same_cost", "event_scale", "event_velocity",
             "event_cost",
         )

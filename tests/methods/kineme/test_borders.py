@@ -29,7 +29,7 @@ def test_a_border_moves_towards_where_quiet_ends(seed, late) -> None:
     channels = quiet_and_loud(seed, [true, 12 * FPS])
     borders = np.array([0, true + late, 12 * FPS])
     starts, _ = refine_borders(channels, borders, SENSORS)
-    assert abs(starts[1] - (true + late / 2)) <= 2
+    assert abs(starts[1] - (true + (1 - SENSORS.border_shift) * late)) <= 2
 
 
 @given(seed=st.integers(0, 99), lengths=st.lists(st.integers(1, 200), min_size=1, max_size=8))

@@ -7,7 +7,8 @@ side by the averaging. A third model is fitted to the whole recording. A *transi
 around the border, shorter than the averaging window, in which the model of the whole recording is
 more likely than those of both sides. Without a transition, the border is where the likelihood of
 both sides is largest. This is often too far on the quiet side, because a single movement that a
-quiet segment never contains ends it. So the border moves only half of the way, as people do.
+quiet segment never contains ends it. So `border_shift` moves the border only part of the way, as
+people do.
 
 *Ends.* The first repetition of an activity is the span before the first cut that fits the mean of
 the inner repetitions best, at any pace. If it begins before the activity, in a transition, the
@@ -121,7 +122,7 @@ def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -
         if gain > preset.transition_cost * preset.working_fps:
             stops[i - 1], starts[i] = first + left, first + right
         else:
-            moved = (at + first + likeliest) // 2
+            moved = at + round(preset.border_shift * (first + likeliest - at))
             stops[i - 1] = starts[i] = moved
     return starts, stops
 

@@ -141,6 +141,10 @@ class KinemeConstants(Preset):
         "sides are one set; more than 1: never", limits=SOME_FACTOR, fine=True, default=0.8,
     )  # fmt: skip
     # Borders, to the frame.
+    border_shift: float = constant(
+        "share by which a border is moved from where means over `averaging` put it to where single "
+        "frames do", limits=SHARE, fine=True, default=0.6,
+    )  # fmt: skip
     transition_cost: float = constant(
         "least gain of a transition over a border: log-likelihood times seconds, mean of channels",
         unit="s", limits=SOME_FACTOR, fine=True, default=1.2,
