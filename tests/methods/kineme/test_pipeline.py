@@ -230,6 +230,7 @@ def constants(draw: st.DrawFn) -> dict[str, float]:
         "chance_count": some,
         "chance_period": some,
         "max_repetition": some,
+        "border_shift": share,
         "centering": share,
         "max_unexplained": share,
         "event_scale": none_or_some,
