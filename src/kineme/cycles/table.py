@@ -219,13 +219,16 @@ class Cycles:
         Raises
         ------
         ParameterError
-            No start has a probability, as in results of signals and of published presets.
+            No start inside the recordings has a probability.
         """
         _check_number(least, "least")
         probabilities = self.columns["border_confidence"]
-        if len(self) and np.isnan(probabilities).all():
+        # The start of an activity may be that of the recording, which has no probability.
+        later = ~np.isin(self.columns["place"], ("first", "only"))
+        if later.any() and np.isnan(probabilities).all():
             raise ParameterError(
-                "no start of a cycle has a confidence: signals and published presets give none"
+                "no start of a cycle has a confidence: results of signals, of published presets "
+                "and of people have none"
             )
         return self.exclude(np.flatnonzero(probabilities < least), UNSURE)
 

@@ -224,11 +224,11 @@ class Intake:
         self.at = np.append(self.at, at)
         self.rows = np.concatenate([self.rows, rows])
 
-    def _spread_packet(self, next_s: float) -> None:
-        """Spread the last rows if they share a frame and fill the time up to the next_s one."""
+    def _spread_packet(self, next_at: float) -> None:
+        """Spread the last rows if they share a frame and fill the time up to the next row."""
         first = int(np.searchsorted(self.at, self.at[-1]))
         size = len(self.at) - first
-        each = (next_s - float(self.at[-1])) / size
+        each = (next_at - float(self.at[-1])) / size
         if size > 1:
             self.in_packets = each >= FULL_PACKET[0]
             if self.in_packets:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -152,10 +153,17 @@ def collect_evidence(
     borders = convert_to_samples(segments.borders, preset, len(view))
     sharpness = compute_sharpness(view, borders[1:-1], max(1, round(preset.samples(SIDE))))
     seconds = np.diff(segments.borders) / preset.working_fps
-    preference = measure_preferences(view, borders, segments.labels)
+    preference, agreement = (np.full(len(seconds), np.nan) for _ in range(2))
+    # Clusters of views hold for one part, so a segment is compared in the part with its middle.
+    middles = (segments.borders[:-1] + segments.borders[1:]) // 2
+    part_ends = np.searchsorted(middles, [*(part.frames[0] for part in answers), np.inf])
+    for part, (first, last) in zip(answers, pairwise(part_ends.tolist()), strict=True):
+        labels, stops = segments.labels[first:last], slice(first, last + 1)
+        preference[first:last] = measure_preferences(view, borders[stops], labels)
+        agreement[first:last] = measure_agreement(segments.borders[stops], labels, part)
     return Evidence(
         np.log(seconds * np.maximum(preference, MIN_PREFERENCE)),
-        measure_agreement(segments.borders, segments.labels, answers),
+        agreement,
         np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS))),
         repeated,
         parents,
@@ -181,28 +189,26 @@ def measure_preferences(view: NDArray[np.float32], borders: Frames, labels: Fram
     [0.91, 0.89, 0.89, 0.91]
     """
     own = np.flatnonzero(labels >= 0)
-    sums, lengths = (
-        sum_between_segments(view, borders, 1.0)[np.ix_(own, own)],
-        np.diff(borders)[own],
-    )
     preferences = np.full(len(labels), np.nan)
     if len(own):
-        members = np.eye(labels.max() + 1)[labels[own]]
+        lengths = np.diff(borders)[own]
+        sums = sum_between_segments(view, borders, 1.0)[np.ix_(own, own)]
+        clusters, cluster = np.unique(labels[own], return_inverse=True)
+        members = np.eye(len(clusters))[cluster]
         means = (sums @ members) / np.outer(lengths, lengths @ members)
         rows = np.arange(len(own))
-        inside = means[rows, labels[own]]
-        means[rows, labels[own]] = np.inf  # excludes the own cluster from the minimum
+        inside = means[rows, cluster]
+        means[rows, cluster] = np.inf  # excludes the own cluster from the minimum
         preferences[own] = np.clip(1 - inside / np.maximum(means.min(axis=1), 1e-12), 0, 1)
     return preferences
 
 
-def measure_agreement(borders: Frames, labels: Frames, answers: Sequence[Answers]) -> Floats:
-    """Return how well the views agree with the cluster of each segment, 0 to 1.
+def measure_agreement(borders: Frames, labels: Frames, part: Answers) -> Floats:
+    """Return how well the views agree with the cluster of each segment of a part, 0 to 1.
 
     A view has a cluster with which it covers most of the segment. Its agreement is twice the number
     of samples that this cluster shares with the segment's cluster, over the sum of both sizes
-    (F1 score). Clusters of views hold for one part of the recording, so a segment is compared in
-    the part that holds its middle.
+    (F1 score).
 
     Parameters
     ----------
@@ -210,33 +216,29 @@ def measure_agreement(borders: Frames, labels: Frames, answers: Sequence[Answers
         Frames.
     labels : (segments,) array
         Clusters; transitions have -1, and get nan.
-    answers : sequence of Answers
+    part : Answers
 
     Examples
     --------
     >>> views = [np.array([0, 0, 1, 1]), np.array([0, 0, 0, 0])]
-    >>> answers = [Answers(np.arange(4), views)]
-    >>> measure_agreement(np.array([0, 2, 4]), np.array([0, 1]), answers).round(2).tolist()
+    >>> part = Answers(np.arange(4), views)
+    >>> measure_agreement(np.array([0, 2, 4]), np.array([0, 1]), part).round(2).tolist()
     [0.83, 0.83]
     """
-    agreement = np.full(len(labels), np.nan)
-    middles = (borders[:-1] + borders[1:]) // 2
-    part_of = np.searchsorted([part.frames[0] for part in answers], middles, side="right") - 1
+    segment = np.searchsorted(borders, part.frames, side="right") - 1
+    inside = (segment >= 0) & (segment < len(labels))
     members = np.eye(labels.max(initial=-1) + 2)[labels, :-1]  # -1 has no column
-    for number, part in enumerate(answers):
-        own = np.flatnonzero((part_of == number) & (labels >= 0))
-        segment = np.searchsorted(borders, part.frames, side="right") - 1
-        scores = []
-        for clusters in part.clusters:
-            # Samples of each segment (row) in each cluster of the view (column).
-            shared = np.zeros((len(labels), clusters.max() + 1))
-            np.add.at(shared, (segment, clusters), 1)
-            both = members.T @ shared
-            sizes = np.add.outer(both.sum(axis=1), shared.sum(axis=0))
-            scores.append(
-                (2 * both / np.maximum(sizes, 1))[labels[own], shared[own].argmax(axis=1)]
-            )
-        agreement[own] = np.mean(scores, axis=0)
+    own = np.flatnonzero(labels >= 0)
+    scores = []
+    for clusters in part.clusters:
+        # Samples of each segment (row) in each cluster of the view (column).
+        shared = np.zeros((len(labels), clusters.max() + 1))
+        np.add.at(shared, (segment[inside], clusters[inside]), 1)
+        both = members.T @ shared
+        sizes = np.add.outer(both.sum(axis=1), shared.sum(axis=0))
+        scores.append((2 * both / np.maximum(sizes, 1))[labels[own], shared[own].argmax(axis=1)])
+    agreement = np.full(len(labels), np.nan)
+    agreement[own] = np.mean(scores, axis=0)
     return agreement
 
 
