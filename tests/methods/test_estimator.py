@@ -34,7 +34,7 @@ def two_movements(fps: float = 50.0) -> np.ndarray:
     """Make twelve seconds of one movement of three channels, then twelve of another."""
     t = np.arange(int(24 * fps)) / fps
     one = np.column_stack([np.sin(5 * t), np.cos(5 * t), np.sin(10 * t)])
-    two = np.column_stack([np.sin(18 * t), np.cos(27 * t), np.sin(9 * t)])
+    two = np.column_stack([np.cos(18 * t), np.sin(9 * t), np.sin(9 * t) ** 3])
     rng = np.random.default_rng(0)
     return np.where((t < 12)[:, None], one, two) + 0.05 * rng.standard_normal((len(t), 3))
 
