@@ -271,7 +271,7 @@ def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float)
         ("cluster", (shown.preferred, shown.agreement), judge_clusters(truth, segments)),
         ("border", (shown.sharpness,), judge_borders(truth, segments, near_s)),
         ("count", (of_counts,), judge_counts(truth, segments)),
-        ("cut", (shown.repeated[shown.parents],), judge_cuts(truth, segments)),
+        ("cut", (shown.repeated[segments.parents],), judge_cuts(truth, segments)),
     )
     group = "signals" if isinstance(recording, Signals) else "bodies"
     return [

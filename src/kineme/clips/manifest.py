@@ -184,7 +184,7 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
 
 
 class Companions:
-    """The contact sheet and motion matching database of clips, collected while these are made.
+    """Contact sheet and motion matching database of clips, collected while these are made.
 
     Only the requested files are collected and written; clips pass unchanged.
     """

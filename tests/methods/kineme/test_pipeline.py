@@ -173,7 +173,7 @@ def assert_whole(found: KinemeFound, frames: int) -> None:
         given = probabilities[np.isfinite(probabilities)]
         assert ((given >= 0) & (given <= 1)).all()
     assert np.isfinite(sure.borders[1:]).all()
-    begins = np.isin(found.primitives[:-1], found.borders) | periodic[found.evidence.parents]
+    begins = np.isin(found.primitives[:-1], found.borders) | periodic[found.segments.parents]
     assert np.isfinite(sure.cuts[1:][begins[1:]]).all()
     assert len(sure.cuts) == len(found.primitives) - 1
 

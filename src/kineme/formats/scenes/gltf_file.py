@@ -174,7 +174,7 @@ class GLTFFile:
         if not version.startswith("2"):
             raise content.error(f"is glTF of version {version:.20}: export glTF 2.0")
         self.text = text
-        """The JSON."""
+        """JSON of the file, as text."""
         self.tree = decode_json(text, content.path, Tree)
         self.external_size = 0
         """Size in bytes of buffers in other files."""

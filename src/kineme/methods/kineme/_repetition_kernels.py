@@ -485,6 +485,13 @@ def center_repetitions(repetitions):
                 repetitions[k, p, d] -= mean / places
 
 
+@njit("float64(float64[::1])", **OPTIONS)
+def measure_evenness(durations):
+    """Return 1 for equal durations, 0 if the deviation of their logarithms reaches a half."""
+    # Logarithms, so that twice as long and half as long are equally uneven.
+    return 1 - min(2 * np.log(durations).std(), 1.0) ** 2
+
+
 @njit("float64(int64[::1], float64, float64, float64, float64, float64)", **OPTIONS)
 def score_durations(visits, fps, max_repetition, chance_period, chance_count, chance_duration):
     """Return an upper bound of the share that a division saves, from its durations; 0 to 1."""
@@ -496,10 +503,8 @@ def score_durations(visits, fps, max_repetition, chance_period, chance_count, ch
     if durations.max() > max_repetition:
         return 0.0
     fast = min(chance_period / durations.mean(), 1.0) ** 2
-    # Logarithms, so that twice as long and half as long are equally uneven.
-    even = 1 - min(2 * np.log(durations).std(), 1.0) ** 2
     chance = min(chance_count, chance_duration / durations.mean())
-    return even * (1 - max(fast, min(chance / count, 1.0)))
+    return measure_evenness(durations) * (1 - max(fast, min(chance / count, 1.0)))
 
 
 @njit("float64(float64[:, ::1], float64[::1], int64[::1], float64[:, :, ::1])", **SUMS)

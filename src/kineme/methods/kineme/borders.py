@@ -42,7 +42,11 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
-from kineme.methods.kineme._repetition_kernels import ROUGH, sample_repetitions
+from kineme.methods.kineme._repetition_kernels import (
+    ROUGH,
+    measure_evenness,
+    sample_repetitions,
+)
 from kineme.methods.kineme.repetitions import (
     MAX_END,
     PLACES,
@@ -379,8 +383,7 @@ def compare_sides(
         return 0.0
     movement = trace_movement(rows, preset)
     repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
-    # 1 for equal durations, 0 if the standard deviation of their logarithms reaches a half.
-    evenness = 1 - min(2 * float(np.log(durations).std()), 1.0) ** 2
+    evenness = float(measure_evenness(durations.astype(np.float64)))
     centered = repeated - repeated.mean(axis=1, keepdims=True)
     if evenness < preset.same_set or not score_one_movement(centered, preset):
         return 0.0

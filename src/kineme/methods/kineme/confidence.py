@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -78,28 +79,90 @@ class Answers(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Statistics from which confidence is computed.
+    """Statistics from which confidence is computed, each when it is first needed.
 
     Attributes
     ----------
-    preferred : (segments,) array
-        Logarithm of length times preference for the own cluster, s; nan for transitions.
-    agreement : (segments,) array
-        Agreement of the views with the cluster (`measure_agreement`); nan for transitions.
-    sharpness : (segments,) array
-        Logarithm of the sharpness of the start border (`compute_sharpness`); nan for the first.
-    repeated : (segments,) array
-        Mean correlation of pairs of repetitions, as Fisher's z; 0 for a single repetition, nan
-        if the primitives are not repetitions.
-    parents : (primitives,) array
-        Segment that contains each primitive.
+    rows : (frames, dims) array
+        Features at the working rate.
+    view : (samples, dims) array
+        The chosen view, at ``preset.rate``.
+    segments : Segments
+    answers : sequence of Answers
+        For each part of the recording.
+    preset : KinemeConstants
     """
 
-    preferred: Floats
-    agreement: Floats
-    sharpness: Floats
-    repeated: Floats
-    parents: Frames
+    rows: NDArray[np.float32]
+    view: NDArray[np.float32]
+    segments: Segments
+    answers: Sequence[Answers]
+    preset: KinemeConstants
+
+    @cached_property
+    def preferred(self) -> Floats:
+        """Return log(length times preference for the own cluster, s); nan for transitions."""
+        seconds = np.diff(self.segments.borders) / self.preset.working_fps
+        preferences = [
+            measure_preferences(self.view, self._samples[borders], self.segments.labels[rows])
+            for _, rows, borders in self._list_parts()
+        ]
+        return np.log(seconds * np.maximum(np.concatenate(preferences), MIN_PREFERENCE))
+
+    @cached_property
+    def agreement(self) -> Floats:
+        """Return how well the views agree with the cluster of each segment; nan for transitions."""
+        return np.concatenate(
+            [
+                measure_agreement(self.segments.borders[borders], self.segments.labels[rows], part)
+                for part, rows, borders in self._list_parts()
+            ]
+        )
+
+    @cached_property
+    def sharpness(self) -> Floats:
+        """Return log(`compute_sharpness`) of the start of each segment; nan for the first."""
+        side = max(1, round(self.preset.samples(SIDE)))
+        sharpness = compute_sharpness(self.view, self._samples[1:-1], side)
+        return np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS)))
+
+    @cached_property
+    def repeated(self) -> Floats:
+        """Return the mean correlation of pairs of repetitions of each segment, as Fisher's z.
+
+        0 for a single repetition, nan if the primitives are not repetitions.
+        """
+        parents, repeats = self.segments.parents, self.segments.repeats
+        repeated = np.full(len(self.segments.labels), np.nan)
+
+        def correlate(segment: int) -> None:
+            first, last = self.segments.firsts[segment : segment + 2]
+            edges = self.segments.primitives[first : last + 1]
+            movement = trace_movement(
+                self.rows[edges[0] : max(edges[-1], edges[0] + 1)], self.preset
+            )
+            samples = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
+            repeated[segment] = compute_mean_correlation(samples[repeats[first:last]])
+
+        map_threads(correlate, np.unique(parents[repeats]).tolist())
+        return repeated
+
+    @cached_property
+    def _samples(self) -> Frames:
+        """Return the borders of segments in samples of the view."""
+        return convert_to_samples(self.segments.borders, self.preset, len(self.view))
+
+    def _list_parts(self) -> list[tuple[Answers, slice, slice]]:
+        """Return the answers for each part, and the segments and borders with their middle in it.
+
+        Clusters of views hold for one part only.
+        """
+        middles = (self.segments.borders[:-1] + self.segments.borders[1:]) // 2
+        ends = np.searchsorted(middles, [*(part.frames[0] for part in self.answers), np.inf])
+        return [
+            (part, slice(first, last), slice(first, last + 1))
+            for part, (first, last) in zip(self.answers, pairwise(ends.tolist()), strict=True)
+        ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,57 +180,6 @@ class Confidence:
     clusters: Floats
     borders: Floats
     cuts: Floats
-
-
-def collect_evidence(
-    rows: NDArray[np.float32],
-    view: NDArray[np.float32],
-    segments: Segments,
-    answers: Sequence[Answers],
-    preset: KinemeConstants,
-) -> Evidence:
-    """Compute the statistics of activities and their repetitions.
-
-    Parameters
-    ----------
-    rows : (frames, dims) array
-        Features at the working rate.
-    view : (samples, dims) array
-        The chosen view, at ``preset.rate``.
-    segments : Segments
-    answers : sequence of Answers
-        For each part of the recording.
-    preset : KinemeConstants
-    """
-    parents, repeats, ends = segments.parents, segments.repeats, segments.firsts
-    repeated = np.full(len(segments.labels), np.nan)
-
-    def correlate(segment: int) -> None:
-        first, last = ends[segment], ends[segment + 1]
-        edges = segments.primitives[first : last + 1]
-        movement = trace_movement(rows[edges[0] : max(edges[-1], edges[0] + 1)], preset)
-        samples = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
-        repeated[segment] = compute_mean_correlation(samples[repeats[first:last]])
-
-    map_threads(correlate, np.unique(parents[repeats]).tolist())
-    borders = convert_to_samples(segments.borders, preset, len(view))
-    sharpness = compute_sharpness(view, borders[1:-1], max(1, round(preset.samples(SIDE))))
-    seconds = np.diff(segments.borders) / preset.working_fps
-    preference, agreement = (np.full(len(seconds), np.nan) for _ in range(2))
-    # Clusters of views hold for one part, so a segment is compared in the part with its middle.
-    middles = (segments.borders[:-1] + segments.borders[1:]) // 2
-    part_ends = np.searchsorted(middles, [*(part.frames[0] for part in answers), np.inf])
-    for part, (first, last) in zip(answers, pairwise(part_ends.tolist()), strict=True):
-        labels, stops = segments.labels[first:last], slice(first, last + 1)
-        preference[first:last] = measure_preferences(view, borders[stops], labels)
-        agreement[first:last] = measure_agreement(segments.borders[stops], labels, part)
-    return Evidence(
-        np.log(seconds * np.maximum(preference, MIN_PREFERENCE)),
-        agreement,
-        np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS))),
-        repeated,
-        parents,
-    )
 
 
 def measure_preferences(view: NDArray[np.float32], borders: Frames, labels: Frames) -> Floats:
@@ -303,28 +315,30 @@ def compute_mean_correlation(repetitions: Floats) -> float:
 
 
 def compute_confidence(evidence: Evidence, calibration: Calibration) -> Confidence:
-    """Compute probabilities from the statistics."""
-    borders = compute_probability(calibration.borders, evidence.sharpness)
-    cuts = compute_probability(calibration.cuts, evidence.repeated)[evidence.parents]
+    """Compute probabilities from the statistics that the calibration has weights for."""
+    parents = evidence.segments.parents
+    borders = cuts = np.full(len(evidence.segments.labels), np.nan)
+    if calibration.borders:
+        borders = compute_probability(calibration.borders, evidence.sharpness)
+    if calibration.cuts:
+        cuts = compute_probability(calibration.cuts, evidence.repeated)
     # The first primitive of a segment starts at the border of the segment.
-    first = np.diff(evidence.parents, prepend=-1) > 0
+    is_first = np.diff(parents, prepend=-1) > 0
     return Confidence(
-        compute_probability(calibration.clusters, evidence.preferred, evidence.agreement),
-        borders,
-        np.where(first, borders[evidence.parents], cuts),
+        clusters=compute_probability(calibration.clusters, evidence.preferred, evidence.agreement),
+        borders=borders,
+        cuts=np.where(is_first, borders[parents], cuts[parents]),
     )
 
 
-def compute_probability(weights: Weights | None, *statistics: Floats) -> Floats:
-    """Return the logistic function of constant + weights · statistics; nan without weights.
+def compute_probability(weights: Weights, *statistics: Floats) -> Floats:
+    """Return the logistic function of constant + weights · statistics.
 
     Examples
     --------
     >>> compute_probability((0.0, 1.0), np.array([0.0, 2.0])).round(2).tolist()
     [0.5, 0.88]
     """
-    if weights is None:
-        return np.full(len(statistics[0]), np.nan)
     constant, *factors = weights
     exponent = constant + sum(map(np.multiply, factors, statistics))
     # The logistic function as a hyperbolic tangent, which does not overflow.

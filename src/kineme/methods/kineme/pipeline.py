@@ -10,7 +10,7 @@ Features are an array of frames x dims, of bodies or of sensors.
 3. *borders*: refine borders to the frame, and insert transitions that fit neither side.
 4. *repetitions*: count the repetitions of each segment, and find the first and the last one.
 5. *events*: find spans that recur occasionally.
-6. *confidence*: collect the statistics for confidence. No other stage reads them.
+6. *confidence*: compute the probability that results are right. No other stage reads it.
 
 `KinemeFound` holds the results, and makes tables of them at several levels of detail.
 """
@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache
 from itertools import pairwise
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
@@ -41,7 +41,6 @@ from kineme.methods.kineme.confidence import (
     Answers,
     Confidence,
     Evidence,
-    collect_evidence,
     compute_confidence,
 )
 from kineme.methods.kineme.primitives import (
@@ -98,6 +97,8 @@ class KinemeFound:
         Both levels, in frames at the working rate.
     evidence : Evidence
         Statistics for the confidence of the segments.
+    confidence : Confidence
+        Probability that each result is right.
     fine : (segments + 1,) array
         Borders of the finest segments, in frames at the working rate.
     timings : dict of str to float
@@ -109,6 +110,7 @@ class KinemeFound:
     unit: float
     segments: Segments
     evidence: Evidence
+    confidence: Confidence
     fine: Frames
     timings: dict[str, float] = field(default_factory=dict)
 
@@ -134,12 +136,6 @@ class KinemeFound:
             confidence=(probabilities.clusters, np.full(len(segments.clusters), np.nan)),
             border_confidence=(probabilities.borders, probabilities.cuts),
         )
-
-    @cached_property
-    def confidence(self) -> Confidence:
-        """Return the probability that each result is right."""
-        of_body = self.preset.unit == "body sizes"
-        return compute_confidence(self.evidence, OF_BODIES if of_body else OF_SIGNALS)
 
     def levels(
         self, columns: Columns, details: tuple[float, ...] | None = None
@@ -295,9 +291,10 @@ def _analyze(
         with stage("events"):
             segments = find_events(poses, segments, preset)
     with stage("confidence"):
-        answers = [part.answers for part in parts]
-        statistics = collect_evidence(poses, view, segments, answers, preset)
-    return KinemeFound(view, preset, unit, segments, statistics, fine, timings)
+        evidence = Evidence(poses, view, segments, [part.answers for part in parts], preset)
+        calibration = OF_BODIES if preset.unit == "body sizes" else OF_SIGNALS
+        confidence = compute_confidence(evidence, calibration)
+    return KinemeFound(view, preset, unit, segments, evidence, confidence, fine, timings)
 
 
 def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:

@@ -23,7 +23,13 @@ from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
 from kineme.methods.kineme.borders import Sets, fit_ends, join_sets
 from kineme.methods.kineme.events import Occurrences, find_occurrences
-from kineme.methods.kineme.repetitions import PLACES, Movement, find_repetitions, trace_movement
+from kineme.methods.kineme.repetitions import (
+    MIN_EXPLAINED,
+    PLACES,
+    Movement,
+    find_repetitions,
+    trace_movement,
+)
 from kineme.methods.segments import number_by_appearance
 
 if TYPE_CHECKING:
@@ -192,7 +198,7 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
 def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
     """Replace the repetitions of clusters that do not repeat by occurrences.
 
-    A cluster keeps its repetitions if they explain half of each other, or if occurrences explain
+    A cluster keeps its repetitions if they explain enough of each other, or if occurrences explain
     less. It loses its primitives if each segment has one repetition and nothing moves in any.
 
     Parameters
@@ -204,7 +210,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     """
     shares = measure_explained(rows, segments, preset)
     shares = average_by_cluster(shares, np.ones_like(segments.labels), segments.labels)
-    weak = shares < 0.5
+    weak = shares < MIN_EXPLAINED
     if weak.any():
         lengths = np.diff(segments.borders)
         # Transitions are always weak. If an activity is weak, too, everything is searched.

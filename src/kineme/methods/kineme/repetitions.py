@@ -59,6 +59,8 @@ DEPTH_QUANTILE = 0.9
 """Depths of dips are relative to this quantile of the distances to a pose."""
 SMOOTHING = 0.14
 """Seconds before and after a frame over which poses are averaged."""
+MIN_EXPLAINED = 0.5
+"""Share of the variance of repetitions that the means of the others explain, at least."""
 MAX_END = 1.5
 """Longest first or last repetition of an activity, in repetitions."""
 MIN_PART = 0.35
@@ -388,7 +390,7 @@ class Repeating:
         repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
         kernels.center_repetitions(repetitions)
         explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
-        share *= _ramp_up(explained, 0.5)
+        share *= _ramp_up(explained, MIN_EXPLAINED)
         return share and share * score_one_movement(repetitions, preset)
 
 
