@@ -160,8 +160,9 @@ def _open_page(stream: Stream) -> Iterator[Send]:
 
 
 def _wait_for_interrupt() -> None:
-    typer.echo("the page stays open until Ctrl+C", err=True)
     with suppress(KeyboardInterrupt):
+        # Printed inside the block: whoever reads the line may interrupt at once.
+        typer.echo("the page stays open until Ctrl+C", err=True)
         while True:
             sleep(1)
 
