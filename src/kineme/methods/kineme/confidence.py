@@ -48,8 +48,8 @@ class Calibration(NamedTuple):
     cuts: Weights | None = None
 
 
-OF_BODIES = Calibration((-0.387, 1.664, 2.849), (-0.477, 6.869), (-0.169, 1.591))
-OF_SIGNALS = Calibration((-3.11, 0.367, 5.205))
+OF_BODIES = Calibration((-0.409, 1.666, 2.874), (-0.469, 6.862), (-0.183, 1.63))
+OF_SIGNALS = Calibration((-2.993, 0.43, 5.18))
 MIN_PREFERENCE = 0.02
 """Smallest preference of a segment for its own cluster; smaller ones are raised to it."""
 MAX_CORRELATION = 0.995
