@@ -16,7 +16,7 @@ from bisect import bisect_left, bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import ceil, isclose
+from math import ceil
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
@@ -25,13 +25,14 @@ from kineme._util.checks import format_count
 from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError
 from kineme.labels import csv_table
-from kineme.labels.delimited import SAME_RATE, read_columns
+from kineme.labels.delimited import read_columns
 from kineme.labels.registry import find_read_format, holds_labels, read_content, read_segments
 from kineme.labels.spans import (
     TOO_FAR,
     Labels,
     Span,
     as_segmentation,
+    check_extent,
     convert_clock_times,
     note_lost_labels,
 )
@@ -66,17 +67,10 @@ class LabelSource:
             label_format, content = read_content(self.path)
             name = label_format.name
         if isinstance(content, Labels):
-            rate = content.fps or fps
-            timed = convert_clock_times(content, clock, length_s=n_frames / rate)
-            labels = convert_to_frames(timed, rate, n_frames=n_frames)
-            return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
-        if content.n_frames != n_frames:
-            claim = f"has {content.n_frames} frames, but the recording has {n_frames}"
-            raise ReadError(self.path, claim)
-        if not isclose(content.fps, fps, rel_tol=SAME_RATE):
-            claim = f"is of {content.fps:g} frames per second, but the recording has {fps:g}"
-            raise ReadError(self.path, claim)
-        return content
+            timed = convert_clock_times(content, clock, length_s=n_frames / fps)
+            labels = convert_to_frames(timed, fps, n_frames=n_frames)
+            content, _ = as_segmentation(labels, self.path, name, fps=fps, n_frames=n_frames)
+        return check_extent(content, self.path, fps=fps, n_frames=n_frames)
 
 
 def find_labels(
@@ -181,7 +175,7 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     return Labels(
         result,
         "frames",
-        fps=fps,
+        fps=fps if labels.unit == "seconds" else labels.fps,
         length=n_frames,
         notes=(*labels.notes, *notes),
         remarks=labels.remarks,
