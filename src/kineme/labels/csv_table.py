@@ -129,7 +129,7 @@ def read_intervals(path: Path) -> dict[str, Labels]:
         comma = find_separator(file.readline())
         file.seek(0)
         headers = [(*names, "label") for names in SPANS.values()]
-        for line, row in read_rows(file, path, headers, delimiter=comma):
+        for line, row in read_rows(file, path, headers):
             unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
             cells = {
                 name: row[name] if comma == "," else replace_decimal_comma(row[name])

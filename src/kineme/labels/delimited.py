@@ -31,14 +31,16 @@ SAME_RATE = 5e-4
 
 
 def read_rows(
-    file: TextIO, path: Path, header: Iterable[Sequence[str]], *, delimiter: str = ","
+    file: TextIO, path: Path, header: Sequence[Sequence[str]]
 ) -> Iterator[tuple[int, dict[str, str]]]:
     """Yield line number and cells by column name of each row below the header.
 
     The header is the first row that contains all names of one of the sets in ``header``; lines
     above it are skipped. Missing cells are empty.
     """
-    rows = csv.reader(file, delimiter=delimiter, strict=True)
+    separator = find_separator(file.readline())
+    file.seek(0)
+    rows = csv.reader(file, delimiter=separator, strict=True)
     names: list[str] = []
     try:
         for cells in rows:
