@@ -42,6 +42,12 @@ def test_bad_labels_are_one_clear_error(tmp_path, text, options, message) -> Non
         read_segments(tmp_path / "l.txt", **options)
 
 
+def test_text_that_is_not_utf_8_is_to_be_saved_as_it(tmp_path) -> None:
+    (tmp_path / "l.txt").write_bytes("0\t1\tübung\n".encode("latin-1"))
+    with pytest.raises(ReadError, match=r"is not UTF-8 text \(byte 4\): save it as UTF-8"):
+        read_segments(tmp_path / "l.txt", fps=10)
+
+
 def test_bad_arguments_name_what_there_is(tmp_path) -> None:
     result = make_example(["walk"])
     with pytest.raises(ParameterError, match="format must be one of csv, json, .* not 'srt'"):
