@@ -117,6 +117,7 @@ def cycles(
     from kineme.cli.tables import show_written
     from kineme.cli.terminal import Console
     from kineme.cycles import channels_of, compare_sides, write_cycles, write_table
+    from kineme.cycles.events import OFF, STRIKE, normalize_event_name
     from kineme.cycles.measure import cycles as measure_cycles
 
     batch = Batch(files, recursive=recursive, quiet=quiet)
@@ -145,6 +146,9 @@ def cycles(
             analog = _read_analog_channels(batch.paths, recordings, read_options) if names else []
             if sides is not None:
                 names = _choose_channels(recordings, names)
+                # Each side begins at the contact of its own foot.
+                contact = normalize_event_name(anchor or "").partition(" ")[2]
+                anchor = contact if contact in (STRIKE, OFF) else anchor
             result = measure_cycles(
                 recordings, tables, channels=names, anchor=anchor, beside=analog, common=common,
                 align=align,

@@ -101,6 +101,11 @@ def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
     return pairs
 
 
+def is_right(channel: str) -> bool:
+    """Return whether a channel is of the right side, judging by its name."""
+    return re.search("(?i:right)|_r$", channel) is not None
+
+
 def _compare_values(
     left: Floats, right: Floats, measure: str, *, indexed: bool
 ) -> tuple[float, ...]:

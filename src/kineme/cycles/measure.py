@@ -22,11 +22,14 @@ from kineme._util.files import as_display_name, make_person_suffix
 from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, align_curves
 from kineme.cycles.channels import Channel, channels_of
+from kineme.cycles.comparison import is_right
 from kineme.cycles.repetitions import (
     Repetition,
     anchor_repetitions,
+    cut_at_events,
     find_repetitions,
     get_movement_key,
+    is_event,
 )
 from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
@@ -63,9 +66,11 @@ def cycles(
         Channels to measure, see `kineme.cycles.channels_of`; by default the angles of a body, or
         all channels of signals.
     anchor : str or sequence of float, optional
-        Start of a cycle; a common phase by default. ``knee_r max`` (or ``min``), ``knee_r > 40``
-        (``<`` for falling below), an event of the file, ``left foot strike`` or another foot
-        contact, or times in seconds. Cycles without the event are kept but marked.
+        Start of a cycle; a common phase by default. ``knee_r max`` (or ``min``), or ``knee_r > 40``
+        (``<`` for falling below): cycles without it are kept but marked. Or an event of the file,
+        ``left foot strike`` or another foot contact, or times in seconds: cycles run from each
+        event to the next one, and their group is the label, else the event. With ``foot strike``
+        or ``foot off``, channels of the right side are measured from its own foot's event.
     beside : sequence of Signals
         Signals recorded at the same time as the recording, such as force plates.
     common : bool
@@ -125,19 +130,22 @@ def cycles(
                 f"{names[0]} and {name} do not have the same channels: "
                 f"{', '.join(other[:8])}; choose channels that both have with channels="
             )
-    repetitions = find_repetitions(items, tables, groups)
-    if anchor is not None:
+    if anchor is not None and is_event(anchor):
         if not isinstance(anchor, str) and len(items) > 1:
             raise ParameterError(
                 "seconds of events apply to one recording only: give the names of events instead"
             )
-        repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
+        repetitions = cut_at_events(items, tables, anchor)
+    else:
+        repetitions = find_repetitions(items, tables, groups)
+        if isinstance(anchor, str):
+            repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
     columns = _make_columns(repetitions, tables, names, groups)
     provenance = _make_provenance(items, tables, repetitions, columns)
     spans = [(each.recording, each.start, each.stop) for each in repetitions]
-    return mark_excluded(
-        _measure_cycles(spans, measured, columns, align, points, provenance), tables
-    )
+    # Channels of the right side may have cycles of their own.
+    right = [(each.recording, *(each.right or (each.start, each.stop))) for each in repetitions]
+    return _measure_cycles(spans, measured, columns, align, points, provenance, right)
 
 
 def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
@@ -245,6 +253,15 @@ def _make_columns(
     def column(kind: type, value: Callable[[Repetition], Any]) -> NDArray[Any]:
         return np.array([value(each) for each in repetitions], kind)
 
+    def name_group(each: Repetition) -> str:
+        key = get_movement_key(each.segment)
+        return groups[each.recording].get(key, str(key))
+
+    def name_reason(each: Repetition) -> str:
+        segment, annotation = each.segment, tables[each.recording].annotation
+        is_excluded = annotation.excludes(segment.start_frame, segment.stop_frame)
+        return BY_HAND if is_excluded else each.lacking
+
     # Number of repetitions of each activity so far.
     counts: Counter[tuple[int, int]] = Counter()
     numbers = []
@@ -260,7 +277,7 @@ def _make_columns(
         "number": np.array(numbers, int),
         "cluster": column(int, lambda each: each.segment.cluster),
         "label": column(str, lambda each: each.segment.label),
-        "group": column(str, lambda each: groups[each.recording][get_movement_key(each.segment)]),
+        "group": column(str, name_group),
         "place": column(str, lambda each: each.place),
         "start_frame": start * fps,
         "stop_frame": stop * fps,
@@ -276,7 +293,7 @@ def _make_columns(
             float,
             lambda each: tables[each.recording].activities.confidence[each.segment.activity],
         ),
-        "excluded": column(str, lambda each: each.lacking),
+        "excluded": column(str, name_reason),
     }
 
 
@@ -287,20 +304,22 @@ def _measure_cycles(
     align: str,
     points: int,
     provenance: Mapping[str, Any],
+    right: Sequence[tuple[int, float, float]] = (),
 ) -> Cycles:
     """Return the cycles with statistics and curves of each channel.
 
     ``spans`` holds recording, start and stop (seconds) of each cycle, ``measured`` the channels of
-    each recording.
+    each recording, ``right`` the spans for channels of the right side.
     """
     channels = measured[0]
     curves = np.empty((len(spans), len(channels), points))
     # Compute one channel at a time to save memory.
     for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
+        own_spans = right if right and is_right(channel.name) else spans
         for number, channels_of_one in enumerate(measured):
             values, fps = channels_of_one[place].values(), channels_of_one[place].fps
-            for row, (recording, start, stop) in enumerate(spans):
+            for row, (recording, start, stop) in enumerate(own_spans):
                 if recording == number:
                     curves[row, place], statistics[row] = _measure_cycle(
                         values, fps, start, stop, points
