@@ -30,6 +30,7 @@ from kineme.cycles.repetitions import (
     find_repetitions,
     get_movement_key,
     is_event,
+    list_repetitions,
 )
 from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
@@ -52,6 +53,7 @@ def cycles(
     anchor: str | Sequence[float] | None = None,
     beside: Sequence[Signals] = (),
     common: bool = False,
+    refine: bool = True,
     align: str = LINEAR,
     points: int = POINTS,
 ) -> Cycles:
@@ -61,7 +63,8 @@ def cycles(
     ----------
     recordings : Motion or Signals, or a sequence of them
     segments : Segmentation, or a sequence of them
-        One for each recording.
+        One for each recording. Their primitives are measured; `kineme.cycles.as_repetitions` makes
+        primitives of labels that have none.
     channels : iterable of str, optional
         Channels to measure, see `kineme.cycles.channels_of`; by default the angles of a body, or
         all channels of signals.
@@ -76,6 +79,9 @@ def cycles(
     common : bool
         Whether equal cluster numbers mean equal movements in all recordings, as in a library.
         Otherwise only equal labels do.
+    refine : bool
+        Whether borders move to a common phase and pauses are cut off. Otherwise they stay those of
+        the segments, as for repetitions that were cut by hand.
     align : {"linear", "landmarks", "warp"}
         How curves of a group are aligned (`kineme.cycles.align`): linearly in time; so that
         maximum and minimum of the first channel coincide; or warped to the mean. Statistics are
@@ -117,6 +123,7 @@ def cycles(
     """
     items, tables = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
+    check_flag(refine, "refine")
     check_one_of(align, ALIGNMENTS, "align")
     names = _name_files(items)
     # Cluster numbers are not comparable between recordings, unless they are common.
@@ -137,7 +144,9 @@ def cycles(
             )
         repetitions = cut_at_events(items, tables, anchor)
     else:
-        repetitions = find_repetitions(items, tables, groups)
+        repetitions = (
+            find_repetitions(items, tables, groups) if refine else list_repetitions(tables)
+        )
         if isinstance(anchor, str):
             repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
     columns = _make_columns(repetitions, tables, names, groups)

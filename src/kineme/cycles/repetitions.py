@@ -14,7 +14,9 @@ from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import groupby
 from math import ceil
+from typing import Any
 
 import numpy as np
 
@@ -104,6 +106,59 @@ def find_repetitions(
             each = _cut_to_activity(run, segments, tables[run.recording])
             repetitions += _trim_pauses(each, fine[run.recording], still)
     return sorted(repetitions, key=lambda each: (each.recording, each.segment.start_frame))
+
+
+def list_repetitions(tables: Sequence[Segmentation]) -> list[Repetition]:
+    """Return the repetitions of all recordings with the borders of their tables."""
+    return [
+        Repetition(
+            number, row, place=_name_place(i, len(run)), start=row.start_s, stop=row.stop_s,
+            start_deviation=np.nan, stop_deviation=np.nan,
+        )
+        for number, table in enumerate(tables)
+        for run in _list_runs(table)
+        for i, row in enumerate(run)
+    ]  # fmt: skip
+
+
+def as_repetitions(segments: Segmentation) -> Segmentation:
+    """Return a table in which each activity is a repetition, if the table has no primitives.
+
+    Activities with the same label without a gap between them become one. Otherwise the table is
+    returned as it is.
+
+    Parameters
+    ----------
+    segments : Segmentation
+        Labels of repetitions, such as one row for each stride cut by hand.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import as_repetitions
+    >>> columns = {"level": ["activity"] * 2, "kind": ["activity"] * 2, "label": ["stride"] * 2,
+    ...            "start_frame": [0, 100], "stop_frame": [100, 190]}
+    >>> as_repetitions(kineme.Segmentation.from_columns(columns, n_frames=190, fps=100))
+    <Segmentation of 190 frames (1.9 s): 1 activity, 0 transitions, 2 primitives, 0 clusters>
+    """
+    if (segments.primitives.kind == "primitive").any():
+        return segments
+    rows = list(segments.activities)
+    runs = [[*run] for _, run in groupby(rows, lambda row: (row.kind, row.cluster, row.label))]
+    spans = [("activity", run[0], run[-1]) for run in runs]
+    spans += [("primitive", row, row) for row in rows]
+    columns: dict[str, list[Any]] = {
+        "level": [level for level, _, _ in spans],
+        "kind": [level if row.kind == "activity" else row.kind for level, row, _ in spans],
+        "start_frame": [row.start_frame for _, row, _ in spans],
+        "stop_frame": [row.stop_frame for _, _, row in spans],
+        "cluster": [row.cluster for _, row, _ in spans],
+        "label": [row.label for _, row, _ in spans],
+    }
+    return Segmentation.from_columns(
+        columns, n_frames=segments.n_frames, fps=segments.fps, provenance=segments.provenance,
+        annotation=segments.annotation,
+    )  # fmt: skip
 
 
 def get_movement_key(segment: Segment) -> int | str:
