@@ -135,6 +135,10 @@ def test_force_plates_of_a_c3d_are_measured_at_their_own_rate(
     rows = rows_of(tmp_path / "c.csv")
     assert all(row["FZ1.range"] for row in rows if row["excluded"] == "")
     assert "FZ1" in kineme("info", "--channels", trial).stdout
+    shutil.copy(trial, tmp_path / "again.c3d")
+    kineme("cycles", trial, "again.c3d", "--channels", "FZ1,RFT1.speed", "-o", "both.csv", "-q")
+    both = [row["FZ1.range"] for row in rows_of(tmp_path / "both.csv")]
+    assert both == [row["FZ1.range"] for row in rows] * 2
 
 
 def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Path) -> None:

@@ -142,9 +142,12 @@ def cycles(
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             part = read_and_segment(path, options, table, segment_options, stage)
-            found = channels_of(part[0], names) if len(batch.paths) > 1 else ()
+            analog = _read_analog_channels(path, part[0], options) if names else []
+            found = channels_of(part[0], names, beside=analog) if len(batch.paths) > 1 else ()
             channel_names = tuple(channel.name for channel in found)
-            parts.append(_use_labels(path, *part, channel_names, has_table=table is not None))
+            parts.append(
+                _use_labels(path, *part, analog, channel_names, has_table=table is not None)
+            )
 
     for path in batch.paths:
         batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
@@ -154,7 +157,7 @@ def cycles(
     ends |= anchor is None and any(part.are_cycles for part in parts)
     if recordings:
         with batch.catch_result_errors():
-            analog = _read_analog_channels(batch.paths, recordings, read_options) if names else []
+            analog = [part.analog for part in parts]
             if sides is not None:
                 names = _choose_channels(recordings, names)
                 anchor = _leave_out_side(anchor)
@@ -181,6 +184,7 @@ class _SegmentedRecording(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
+    analog: list[Signals]
     are_labels: bool  # borders given by people, which stay
     are_cycles: bool  # each row given is one, and all count
     channels: tuple[str, ...]
@@ -190,6 +194,7 @@ def _use_labels(
     path: Path,
     recording: Motion | Signals,
     segments: Segmentation,
+    analog: list[Signals],
     channels: tuple[str, ...],
     *,
     has_table: bool,
@@ -202,7 +207,9 @@ def _use_labels(
     repetitions = segments if is_found else as_repetitions(segments)
     are_cycles = repetitions is not segments
     are_labels = are_cycles or "labels" in segments.provenance
-    return _SegmentedRecording(path, recording, repetitions, are_labels, are_cycles, channels)
+    return _SegmentedRecording(
+        path, recording, repetitions, analog, are_labels, are_cycles, channels
+    )
 
 
 def _keep_common_channels(
@@ -220,14 +227,14 @@ def _keep_common_channels(
 
 
 def _read_analog_channels(
-    paths: list[Path], recordings: list[Motion | Signals], options: ReadOptions
+    path: Path, recording: Motion | Signals, options: ReadOptions
 ) -> list[Signals]:
-    """Return the analog channels in the file of a single motion, such as force plates."""
+    """Return the analog channels in the file of a motion, such as force plates."""
     from kineme.recordings import Motion
 
-    if len(paths) > 1 or not isinstance(recordings[0], Motion):
+    if not isinstance(recording, Motion):
         return []
-    signals = read_analog(paths[0], options)
+    signals = read_analog(path, options)
     return [] if signals is None else [signals]
 
 

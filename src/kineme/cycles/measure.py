@@ -51,7 +51,7 @@ def cycles(
     *,
     channels: Iterable[str] | None = None,
     anchor: str | Sequence[float] | None = None,
-    beside: Sequence[Signals] = (),
+    beside: Sequence[Signals] | Sequence[Sequence[Signals]] = (),
     common: bool = False,
     refine: bool = True,
     align: str = LINEAR,
@@ -74,8 +74,9 @@ def cycles(
         ``left foot strike`` or another foot contact, or times in seconds: cycles run from each
         event to the next one, and their group is the label, else the event. With ``foot strike``
         or ``foot off``, channels of the right side are measured from its own foot's event.
-    beside : sequence of Signals
-        Signals recorded at the same time as the recording, such as force plates.
+    beside : sequence of Signals, or a sequence of such sequences
+        Signals recorded at the same time as the recording, such as force plates; for several
+        recordings a list for each.
     common : bool
         Whether equal cluster numbers mean equal movements in all recordings, as in a library.
         Otherwise only equal labels do.
@@ -121,7 +122,7 @@ def cycles(
     >>> squats.columns["knee_l.max"][squats.columns["group"] == "squat"].round().tolist()
     [113.0, 102.0, 103.0, 111.0]
     """
-    items, tables = _check_inputs(recordings, segments, beside, points)
+    items, tables, signals = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
     check_flag(refine, "refine")
     check_one_of(align, ALIGNMENTS, "align")
@@ -129,7 +130,10 @@ def cycles(
     # Cluster numbers are not comparable between recordings, unless they are common.
     groups = [_group_movements(table, "" if common or len(items) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
-    measured = [channels_of(recording, channels, beside=beside) for recording in items]
+    measured = [
+        channels_of(recording, channels, beside=others)
+        for recording, others in zip(items, signals, strict=True)
+    ]
     first = [channel.name for channel in measured[0]]
     for each, name in zip(measured, names, strict=True):
         if other := sorted({*first} ^ {channel.name for channel in each}):
@@ -148,7 +152,7 @@ def cycles(
             find_repetitions(items, tables, groups) if refine else list_repetitions(tables)
         )
         if isinstance(anchor, str):
-            repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
+            repetitions = anchor_repetitions(repetitions, items, groups, anchor, signals)
     columns = _make_columns(repetitions, tables, names, groups)
     provenance = _make_provenance(items, tables, repetitions, columns)
     spans = [(each.recording, each.start, each.stop) for each in repetitions]
@@ -187,10 +191,10 @@ def measure_other_channels(cycles: Cycles, channels: Sequence[Channel]) -> Cycle
 def _check_inputs(
     recordings: Recordings,
     segments: Segmentation | Sequence[Segmentation],
-    beside: Sequence[Signals],
+    beside: Sequence[Signals] | Sequence[Sequence[Signals]],
     points: int,
-) -> tuple[list[Motion | Signals], list[Segmentation]]:
-    """Return recordings and tables as lists; raise ParameterError if they do not match."""
+) -> tuple[list[Motion | Signals], list[Segmentation], list[Sequence[Signals]]]:
+    """Return recordings, tables and signals as lists; raise ParameterError if they do not match."""
     items = [recordings] if isinstance(recordings, Motion | Signals) else recordings
     check_type(items, Sequence, "cycles", "kineme.read(path) gives a recording")
     tables = [segments] if isinstance(segments, Segmentation) else segments
@@ -200,8 +204,12 @@ def _check_inputs(
         check_type(recording, (Motion, Signals), "cycles", "kineme.read(path) gives one")
     for table in tables:
         check_type(table, Segmentation, "cycles", "kineme.segment(recording) gives one")
-    for signals in beside:
-        check_type(signals, Signals, "cycles", "beside= takes a list of signals")
+    is_nested = bool(beside) and not isinstance(beside[0], Signals)
+    lists: list[Any] = [*beside] if is_nested else [beside] * (1 if beside else len(items))
+    for signals in lists:
+        check_type(signals, Sequence, "cycles", "beside= takes a list of signals")
+        for each in signals:
+            check_type(each, Signals, "cycles", "beside= takes a list of signals")
     if not items or len(items) != len(tables):
         raise ParameterError(
             f"cycles takes one segmentation per recording, not {len(tables)} of {len(items)}"
@@ -212,11 +220,13 @@ def _check_inputs(
                 f"the segments have {table.n_frames} frames at {table.fps:g} Hz, but the "
                 f"recording has {recording.n_frames} at {recording.fps:g} Hz"
             )
-    if beside and len(items) > 1:
-        raise ParameterError("beside= works with one recording only: measure several one by one")
+    if len(lists) != len(items):
+        raise ParameterError(
+            f"beside= takes a list of signals for each of {len(items)} recordings, not {len(lists)}"
+        )
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
-    return list(items), list(tables)
+    return list(items), list(tables), lists
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:

@@ -327,7 +327,7 @@ def anchor_repetitions(
     recordings: Sequence[Motion | Signals],
     groups: Groups,
     anchor: str,
-    beside: Sequence[Signals] = (),
+    beside: Sequence[Sequence[Signals]],
 ) -> list[Repetition]:
     """Return the repetitions from extremes or crossings of the channel that ``anchor`` names."""
     extreme = _EXTREME.fullmatch(anchor.strip())
@@ -338,13 +338,19 @@ def anchor_repetitions(
     starts = np.full(len(repetitions), np.nan)
     if extreme is not None:
         sign = 1.0 if extreme["which"] == "max" else -1.0
-        curves = [_sample_curve(each, extreme["channel"], beside) for each in recordings]
+        curves = [
+            _sample_curve(each, extreme["channel"], others)
+            for each, others in zip(recordings, beside, strict=True)
+        ]
         # Negative for a minimum, so that the largest value is searched in both cases.
         signed = [(sign * values, fps) for values, fps in curves]
         for rows in members.values():
             starts[rows] = _find_maxima([repetitions[i] for i in rows], signed)
     else:
-        times = [_find_crossings(each, anchor, beside) for each in recordings]
+        times = [
+            _find_crossings(each, anchor, others)
+            for each, others in zip(recordings, beside, strict=True)
+        ]
         for rows in members.values():
             starts[rows] = _find_nearest_events([repetitions[i] for i in rows], times)
     anchored = []
