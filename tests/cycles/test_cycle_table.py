@@ -261,6 +261,7 @@ def test_each_side_begins_at_its_own_foot(walks) -> None:
     own = {name: both.columns[f"{name}.max_at"][both.used()] for name in channels}
     assert np.isin(own["knee_l"], left.columns["knee_l.max_at"]).all()
     assert np.isin(own["knee_r"], right.columns["knee_r.max_at"]).all()
+    assert "begin at the contacts of the right foot" in both.provenance["notes"][-1]
     sides = compare_sides(both)
     walk = (sides["measure"] == "max_at") & (sides["group"] == "walk")
     assert sides["difference"][walk] == pytest.approx(0, abs=5)

@@ -421,5 +421,7 @@ def _make_provenance(
             f"cycle {'later' if by > 0 else 'earlier'} than its segments, to match the "
             "other repetitions"
             for (name, activity, group), by in moved.items()
-        ],
+        ]
+        + ["channels of the right side begin at the contacts of the right foot"]
+        * any(each.right is not None for each in repetitions),
     }
