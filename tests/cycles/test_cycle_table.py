@@ -262,7 +262,8 @@ def test_each_side_begins_at_its_own_foot(walks) -> None:
     assert np.isin(own["knee_l"], left.columns["knee_l.max_at"]).all()
     # One left cycle has no right one beside it.
     in_right = np.isin(own["knee_r"], right.columns["knee_r.max_at"])
-    assert (in_right | np.isnan(own["knee_r"])).all() and in_right.sum() >= 8
+    assert (in_right | np.isnan(own["knee_r"])).all()
+    assert in_right.sum() >= 8
     assert "begin at the contacts of the right foot" in both.provenance["notes"][-1]
     sides = compare_sides(both)
     walk = (sides["measure"] == "max_at") & (sides["group"] == "walk")
