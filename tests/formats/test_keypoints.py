@@ -33,6 +33,7 @@ from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, list_people
 from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
+from kineme.formats.keypoints.people import track_people
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
@@ -167,6 +168,20 @@ def test_one_of_several_people(tmp_path: Path) -> None:
     assert ways[0] == pytest.approx(ways[1])
     with pytest.raises(ReadError, match="there is no person '7': choose from 0"):
         read(tmp_path, "a.json", frames, fps=25, person=7)
+
+
+def test_who_left_does_not_take_over_who_stayed() -> None:
+    rng = np.random.default_rng(0)
+    body = rng.uniform(size=(17, 3)) * [80, 250, 0]
+    frames, points, who = [], [], []
+    for frame in range(400):
+        # The first one kicks and then walks past the place where the second one was seen last.
+        kick = 60 * np.sin(frame / 3) + 3 * max(frame - 200, 0)
+        for person, x in enumerate((kick, 350.0)[: 1 + (frame < 100)]):
+            frames.append(frame)
+            points.append(body + rng.normal(0, 2, body.shape) * [1, 1, 0] + [x, 0, 0])
+            who.append(person)
+    assert track_people(np.array(frames), np.array(points)) == who
 
 
 def test_somebody_in_passing_is_left_out(tmp_path: Path) -> None:
