@@ -227,6 +227,19 @@ def test_coco_with_people_and_names_of_images(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match=r"2 people are in it: .* 1 \(30 frames .*, 4 \(30 frames"):
         read(tmp_path, "a.json", both, fps=30)
     assert is_standing(read(tmp_path, "a.json", both, fps=30, person=4))
+    for entry in both:
+        entry["idx"] = [float(entry["idx"])]  # as AlphaPose writes it
+    assert read(tmp_path, "a.json", both, fps=30, person=1).provenance.people == ("1", "4")
+
+
+def test_a_number_that_two_people_share_is_ignored(tmp_path: Path) -> None:
+    left, right = (make_coco(results=True, idx=[0.0], x=x) for x in (400, 1300))
+    # Untracked AlphaPose: the order within a frame may change.
+    pairs = [pair[:: 1 - 2 * (i % 2)] for i, pair in enumerate(zip(left, right, strict=True))]
+    motion = read(tmp_path, "a.json", [entry for pair in pairs for entry in pair], fps=30, person=0)
+    assert motion.provenance.people == ("0", "1")
+    alone = read(tmp_path, "b.json", left, fps=30)
+    assert np.allclose(motion.positions, alone.positions)
 
 
 @pytest.mark.parametrize("named", [False, True])

@@ -66,21 +66,18 @@ def _group_by_person(
     frames: Rows, points: Floats, detected: Sequence[str | None]
 ) -> dict[str, Rows]:
     """Return the rows of each person, in order of appearance."""
-    if all(name is not None for name in detected):
-        numbers = list(map(str, detected))
-    elif len(np.unique(frames)) == len(frames):
-        # One detection per frame: there is only one person.
-        numbers = ["0"] * len(frames)
-    else:
-        numbers = list(map(str, track_people(frames, points)))
+    names = list(map(str, detected))
+    # A name that occurs twice in a frame identifies nobody: untracked people share a number.
+    is_unique = len({*zip(frames.tolist(), names, strict=True)}) == len(names)
+    if None in detected or not is_unique:
+        # With one detection per frame there is only one person.
+        is_alone = len(np.unique(frames)) == len(frames)
+        numbers = [0] * len(frames) if is_alone else track_people(frames, points)
+        names = list(map(str, numbers))
     rows: dict[str, list[int]] = {}
-    for row, number in enumerate(numbers):
-        rows.setdefault(number, []).append(row)
-    return {
-        # Use the first of several rows of a person in one frame.
-        name: np.array(person_rows)[np.unique(frames[person_rows], return_index=True)[1]]
-        for name, person_rows in rows.items()
-    }
+    for row, name in enumerate(names):
+        rows.setdefault(name, []).append(row)
+    return {name: np.array(person_rows) for name, person_rows in rows.items()}
 
 
 def track_people(frames: Rows, points: Floats) -> list[int]:

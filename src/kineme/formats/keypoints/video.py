@@ -97,7 +97,15 @@ def video_to_motion(
 def name_people(entries: Sequence[Mapping[str, Any]], *keys: str) -> list[str | None]:
     """Return the person of each entry by the first of the keys that all entries have, or None."""
     key = next((key for key in keys if all(each.get(key) is not None for each in entries)), None)
-    return [str(each[key])[:40] if key else None for each in entries]
+    return [_to_name(each[key]) if key else None for each in entries]
+
+
+def _to_name(number: Any) -> str:
+    """Return the name of a person; AlphaPose writes [1.0] for 1."""
+    if isinstance(number, list) and len(number) == 1:
+        number = number[0]
+    is_whole = isinstance(number, float) and number.is_integer()
+    return str(int(number) if is_whole else number)[:40]
 
 
 def parse_json(content: FileContent) -> Any:
