@@ -64,7 +64,7 @@ def video_to_motion(
     without people. Unit and axis are those of `Points`. Raise ReadError if the person or the frame
     rate is unknown.
     """
-    fps = options.fps or fps
+    fps = content.choose_rate(options.fps, fps)
     if not fps:
         raise content.error(
             "keypoints have no frame rate: give that of the video with fps= (--fps)"
