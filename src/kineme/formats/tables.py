@@ -110,6 +110,8 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     if options.fps is None and not table.times and table.rate:
         options = replace(options, fps=table.rate)
         remarks.append(describe_header_rate(table.rate))
+    elif options.fps:
+        options = replace(options, fps=content.choose_rate(options.fps, table.rate))
     # With a given rate, columns of times are not read.
     times = {} if options.fps else table.times
     used = [

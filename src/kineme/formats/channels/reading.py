@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats
 from kineme.errors import ParameterError
 from kineme.formats.delimited import NAMELESS, DelimitedText
-from kineme.formats.files import FileContent
+from kineme.formats.files import RATE_ROUNDING, FileContent
 from kineme.formats.sniffing import find_table_timing
 from kineme.recordings import Signals
 from kineme.recordings.column_names import is_channel_name
@@ -55,13 +55,13 @@ class ChannelTable:
     def find_timing(self, content: FileContent, fps: float | None) -> Timing:
         """Return frames per second and the frame of each row."""
         if fps or self.rate:
-            return Timing(fps or self.rate or 0.0)
+            return Timing(content.choose_rate(fps, self.rate or self.nominal))
         if not self.timing:
             raise content.error(f"it does not state its frame rate: give fps (--fps){self.hint}")
         timing = find_table_timing(content, self.timing, values=self.values)
         # Times rounded to milliseconds deviate slightly from the nominal rate.
         nominal = self.nominal or 0.0
-        is_near = abs(timing.fps - nominal) <= 0.005 * nominal
+        is_near = abs(timing.fps - nominal) <= RATE_ROUNDING * nominal
         return replace(timing, fps=nominal) if is_near and timing.order is None else timing
 
 
