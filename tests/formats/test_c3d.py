@@ -11,6 +11,7 @@ import pytest
 from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
 
 import kineme
+from kineme.cycles import landmarks
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
@@ -125,16 +126,19 @@ def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
 
 
 def test_two_subjects(tmp_path: Path) -> None:
-    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
-    points = np.concatenate([POINTS, POINTS + 1000], axis=1)
+    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT] + ["Box:top"]
+    points = np.concatenate([POINTS, POINTS + 1000, POINTS[:, :1]], axis=1)
     with pytest.warns(KinemeWarning, match="2 subjects: the body used is that of 'Ann'"):
         motion = read(tmp_path, to_c3d(points, labels))
     assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
-    assert "Bob:LANK" in motion.skeleton.names
+    assert "Box:top" in motion.skeleton.names
+    assert not [name for name in motion.skeleton.names if name.startswith("Bob")]
     other = kineme.read(tmp_path / "take.c3d", person="Bob")
     assert np.allclose(other.positions[0, other.joint("pelvis")], (1, 2, -1), atol=1e-4)
-    assert "Ann:LANK" in other.skeleton.names
+    assert landmarks(other)["left_knee"] == other.joint("LKNE")
     assert "person Bob of 2" in other.provenance.notes
+    for person in ("bob", "1"):
+        assert kineme.read(tmp_path / "take.c3d", person=person).provenance.person == "Bob"
     with pytest.raises(SeveralPeopleError, match="no person 'Eve': choose from Ann, Bob"):
         kineme.read(tmp_path / "take.c3d", person="Eve")
 
