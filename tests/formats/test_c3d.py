@@ -16,6 +16,7 @@ from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
+from kineme.labels.c3d_events import write_events
 from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
 
@@ -141,6 +142,25 @@ def test_two_subjects(tmp_path: Path) -> None:
         assert kineme.read(tmp_path / "take.c3d", person=person).provenance.person == "Bob"
     with pytest.raises(SeveralPeopleError, match="no person 'Eve': choose from Ann, Bob"):
         kineme.read(tmp_path / "take.c3d", person="Eve")
+
+
+def test_events_of_two_subjects_stay_apart(tmp_path: Path) -> None:
+    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
+    more = {
+        ("SUBJECTS", "NAMES"): ["Ann", "Bob"],
+        ("EVENT", "USED"): np.int16([2]),
+        ("EVENT", "CONTEXTS"): ["Left", "General"],
+        ("EVENT", "LABELS"): ["Foot Strike", "Start"],
+        ("EVENT", "TIMES"): np.float32([[0, 0.2], [0, 0.1]]),
+        ("EVENT", "SUBJECTS"): ["Ann", ""],
+    }
+    source, copy = tmp_path / "two.c3d", tmp_path / "copy.c3d"
+    source.write_bytes(to_c3d(np.concatenate([POINTS, POINTS + 1000], axis=1), labels, more=more))
+    strike = "left foot strike"
+    assert write_events(source, copy, [0.21, 0.4], [strike, strike], subject="Bob") == 2
+    read = {who: kineme.read(copy, person=who).provenance.events for who in ("Ann", "Bob")}
+    ours, theirs = ([round(at, 2) for at, _ in read[who]] for who in ("Ann", "Bob"))
+    assert (ours, theirs) == ([0.1, 0.2], [0.1, 0.21, 0.4])
 
 
 def test_what_the_file_does_not_say_is_inferred_and_said(tmp_path: Path) -> None:
