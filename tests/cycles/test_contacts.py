@@ -24,7 +24,7 @@ from kineme.cycles import (
 )
 from kineme.datasets import Action, synthesize
 from kineme.errors import KinemeWarning, ParameterError
-from kineme.recordings import Motion, Signals
+from kineme.recordings import Motion, Signals, Skeleton
 
 FPS = 100.0
 
@@ -184,6 +184,31 @@ def test_contacts_of_markers_are_near_those_of_plates(data_dir: Path) -> None:
                   for at, event in zip(plates.times, plates.names, strict=True)]  # fmt: skip
     assert len(apart) == 12
     assert max(apart) < 0.05
+
+
+def pick_markers(walk: Motion, **joints: str) -> Motion:
+    """The joints of a walk as markers with these names."""
+    chosen = [walk.skeleton.joint(joint) for joint in joints.values()]
+    offsets = np.zeros((len(joints), 3))
+    skeleton = Skeleton(tuple(joints), [-1] * len(joints), offsets)
+    return Motion(skeleton, walk.positions[:, chosen], walk.fps)
+
+
+def test_both_feet_are_found_from_the_same_markers_and_a_missing_one_is_warned_of() -> None:
+    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+    ankles = {"LANK": "LeftFoot", "RANK": "RightFoot"}
+    heels, toes = {"LCAL": "LeftFoot", "RCAL": "RightFoot"}, {"LTT2": "LeftToeBase"}
+    both = toes | {"RTT2": "RightToeBase"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", KinemeWarning)
+        events = foot_events(pick_markers(walk, **ankles, **heels, **both))
+    assert events.sources == {"left": "LCAL and LTT2", "right": "RCAL and RTT2"}
+    with pytest.warns(KinemeWarning, match="no toe was found on both sides: .* RHEE, RTOE"):
+        events = foot_events(pick_markers(walk, **ankles, **heels, **toes))
+    assert events.sources == {"left": "LCAL", "right": "RCAL"}
+    unknown = {"LTalon": "LeftFoot", "RTalon": "RightFoot"}
+    with pytest.raises(ParameterError, match="no foot found: no heel or ankle .* RHEE, RTOE"):
+        foot_events(pick_markers(walk, **unknown))
 
 
 def test_a_gait_that_nobody_has_is_warned_of() -> None:

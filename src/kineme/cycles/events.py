@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
@@ -20,7 +20,7 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.joints import OTHER_SIDE, find_feet
+from kineme.cycles.joints import OTHER_SIDE, find_feet, landmarks
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals
@@ -33,6 +33,8 @@ LONGEST = 1.8
 """Longest stride relative to the median; longer ones contain a stop or a missed contact."""
 STANCE, ASYMMETRY = (40.0, 85.0), 50.0
 """Plausible stance phase in per cent of a stride, and largest asymmetry in per cent."""
+RENAME = "Name the markers of heels and toes LHEE, LTOE, RHEE, RTOE and fill their gaps"
+"""Remedy if heels or toes are not found."""
 NAMED = 20
 """Number of channels that a message names; it counts the others."""
 
@@ -197,12 +199,18 @@ def foot_events(
                                   strict=True):  # fmt: skip
             times += seconds
             names += [f"{side} {event}"] * len(seconds)
+    if not sources and is_body:
+        raise ParameterError(
+            f"no foot found: no heel or ankle has a usual name. {RENAME}, or use force plates "
+            "(for a C3D --columns '*' --left Fz1 --right Fz2)"
+        )
     if not sources:
         raise ParameterError(
-            "no foot found: a body needs heels or ankles with usual names. For signals, "
-            "name each foot's gyroscope or force channels, as in left='lf_gyr_*' (--left "
-            "'lf_gyr_*'; for a C3D --columns '*' --left Fz1 --right Fz2)"
+            "no foot found: name each foot's gyroscope or force channels, as in left='lf_gyr_*' "
+            "(--left 'lf_gyr_*')"
         )
+    if isinstance(recording, Motion) and recording.rotations is None:
+        _warn_missing_points(recording, sources)
     # The stable sort keeps the left foot first at equal times.
     order = np.argsort(times, kind="stable")
     return Events(
@@ -212,6 +220,23 @@ def foot_events(
         recording.fps,
         sources,
     )
+
+
+def _warn_missing_points(motion: Motion, sources: Mapping[str, str]) -> None:
+    """Warn if the contacts of feet were found without markers of heel and toe."""
+    joints, parents = landmarks(motion), motion.skeleton.parents
+    toes = [joints.get(f"{side}_toe", -1) for side in sources]
+    # In a skeleton with bones the foot ends in a toe, and its ankle serves as the heel.
+    has_bones = [parents[toe] for toe in toes] == [joints.get(f"{side}_ankle") for side in sources]
+    has_heels = has_bones or all(f"{side}_heel" in joints for side in sources)
+    missing = ["heel"] * (not has_heels) + ["toe"] * (min(toes) < 0)
+    if missing:
+        warnings.warn(
+            f"no {' and no '.join(missing)} was found on both sides: contacts are from "
+            f"{', '.join(sources.values())}, and stances may be 0.1 s too short. {RENAME}.",
+            KinemeWarning,
+            stacklevel=3,
+        )
 
 
 def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None) -> list[str]:

@@ -94,6 +94,11 @@ def landmarks(motion: Motion) -> dict[str, int]:
 def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
     """Return the joints used to find contacts of each foot: heel or ankle, and toe."""
     joints = landmarks(motion)
+    # Left and right are compared with each other, so both use the same points.
+    for part in ("heel", "toe"):
+        has_ankles = all(f"{side}_ankle" in joints for side in SIDES)
+        if has_ankles and not all(f"{side}_{part}" in joints for side in SIDES):
+            joints = {joint: at for joint, at in joints.items() if not joint.endswith(part)}
     heels = {side: joints.get(f"{side}_heel", joints.get(f"{side}_ankle")) for side in SIDES}
     # The keys of a dict are unique: a foot without a toe has its heel only once.
     return {

@@ -56,9 +56,9 @@ NAMES: dict[str, tuple[str, ...]] = {
     "*_outer_ankle": ("*ANK", "*ANKLEOUT", "*ANKLELAT", "*LMAL", "*FAL", "*LM"),
     "*_foot": ("*FOOT",),
     "*_rear_foot": ("*HEEL *MIDFOOTSUP", "*HEEL", "*HEE"),  # OpenSim's gait models
-    "*_heel": ("*HEEL", "*HEE", "*CALCANEUS", "*FCC"),
+    "*_heel": ("*HEEL", "*HEE", "*CALCANEUS", "*FCC", "*CAL", "*CALC", "*CA", "*FERSE"),
     "*_toe": ("*TOE", "*TOEBASE", "*TOES", "*BIGTOE", "*TOETIP", "*FOOTINDEX", "*MT", "*MTP",
-              "*FM"),
+              "*FM", "*TT", "*MTH", "*HALLUX", "*HLX", "*ZEHE"),
     "head": ("HEAD", "LFHD RFHD LBHD RBHD", "LFHD RFHD", "LBHD RBHD",
              "HEADTOP HEADFRONT HEADSIDE", "HEADTOP LHEAD RHEAD HEADFRONT",
              "LTEMPLE RTEMPLE TOPHEAD", "HEAD1 HEAD2 HEAD3", "HEADTOP"),
