@@ -242,6 +242,8 @@ NAMES = {
     "sensor last": "gyro_lf_{a}",
     "in words": "LeftFootGyro{A}",
     "shank": "gyro_ls_{a}",
+    "ankle": "left_ankle_gyr_{a}",
+    "unit": "Left Foot Gyroscope {A} (deg/s)",
 }
 
 

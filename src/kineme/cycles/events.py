@@ -37,6 +37,7 @@ RENAME = "Name the markers of heels and toes LHEE, LTOE, RHEE, RTOE and fill the
 """Remedy if heels or toes are not found."""
 NAMED = 20
 """Number of channels that a message names; it counts the others."""
+_UNIT = re.compile(r"[\s_]*[\[(][^\])]*[\])]$")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -261,7 +262,7 @@ def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None
         chosen = [
             name
             for name in names
-            if COORDINATE.fullmatch(name)
+            if COORDINATE.fullmatch(_UNIT.sub("", name))
             and has_word(name, GYROSCOPE)
             and mentions(name, place, side=side)
         ]

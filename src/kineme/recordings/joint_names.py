@@ -52,7 +52,7 @@ NAMES: dict[str, tuple[str, ...]] = {
                "*KNEEOUT", "*KNEELAT", "*LEK", "*FLE"),
     "*_shank": ("*LEG", "*LOWERLEG", "*SHIN", "*CALF"),
     "*_ankle": ("*ANKLE", "*AJC", "*ANKLELAT *ANKLEMED", "*ANKLEOUT *ANKLEIN", "*LMAL *MMAL",
-                "*FAL *TAM", "*ANK", "*ANKLEOUT", "*ANKLELAT", "*FAL"),
+                "*FAL *TAM", "*LM *MM", "*ANK", "*ANKLEOUT", "*ANKLELAT", "*FAL", "*LM"),
     "*_outer_ankle": ("*ANK", "*ANKLEOUT", "*ANKLELAT", "*LMAL", "*FAL", "*LM"),
     "*_foot": ("*FOOT",),
     "*_rear_foot": ("*HEEL *MIDFOOTSUP", "*HEEL", "*HEE"),  # OpenSim's gait models
@@ -74,7 +74,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "*_hand": ("*HAND", "*FIN"),
     # Where sensors are worn: lf_gyr_x, footl_gyr_x.
     "*_foot_sensor": ("*FOOT", "FOOT*", "*F"),
-    "*_shank_sensor": ("*SHANK", "SHANK*", "*S"),
+    "*_shank_sensor": ("*SHANK", "SHANK*", "*S", "*ANKLE", "ANKLE*"),  # strapped above the ankle
 }
 """Names of the points that make each part, the preferred line first."""
 # fmt: on
