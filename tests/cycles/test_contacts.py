@@ -160,7 +160,7 @@ def test_contacts_on_a_treadmill_are_those_that_its_file_marks(data_dir: Path) -
     if not path.is_file():
         pytest.skip("no gait/treadmill among the recordings")
     motion = kineme.read(path)
-    events = foot_events(motion)
+    events = foot_events(replace(motion, provenance=motion.provenance.marked(())))
     near = [np.abs(events.at(name) - at).min() <= 0.05 for at, name in motion.provenance.events]
     assert len(near) == 43
     assert sum(near) >= 41
@@ -179,7 +179,8 @@ def test_contacts_of_markers_are_near_those_of_plates(data_dir: Path) -> None:
     for name in ("HC030A05", "HC032A03", "HC038A11"):
         path = folder / f"{name}.c3d"
         plates = foot_events(kineme.read(path, columns=["Fz*"]), left="Fz1", right="Fz2")
-        found = foot_events(kineme.read(path))
+        motion = kineme.read(path)
+        found = foot_events(replace(motion, provenance=motion.provenance.marked(())))
         apart += [np.abs(found.at(event) - at).min()
                   for at, event in zip(plates.times, plates.names, strict=True)]  # fmt: skip
     assert len(apart) == 12
@@ -209,6 +210,18 @@ def test_both_feet_are_found_from_the_same_markers_and_a_missing_one_is_warned_o
     unknown = {"LTalon": "LeftFoot", "RTalon": "RightFoot"}
     with pytest.raises(ParameterError, match="no foot found: no heel or ankle .* RHEE, RTOE"):
         foot_events(pick_markers(walk, **unknown))
+
+
+def test_marks_of_people_replace_contacts_that_are_found() -> None:
+    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+    found = foot_events(walk)
+    first, second, *_ = found.at("left foot strike").tolist()
+    marks = [(first + 0.05, "Left Foot Strike"), (second - 0.45, "Left Foot Strike")]
+    events = foot_events(replace(walk, provenance=walk.provenance.marked(marks)))
+    strikes = events.at("left foot strike").tolist()
+    assert strikes[:3] == pytest.approx([first + 0.05, second - 0.45, second])
+    assert len(events) == len(found) + 1
+    assert events.sources["left"].endswith("2 of them marked in the file")
 
 
 def test_a_gait_that_nobody_has_is_warned_of() -> None:

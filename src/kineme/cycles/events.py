@@ -23,6 +23,7 @@ from kineme.cycles.contacts import (
 from kineme.cycles.joints import OTHER_SIDE, find_feet, landmarks
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
+from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
 from kineme.recordings.column_names import COORDINATE
 from kineme.recordings.joint_names import GYROSCOPE, SIDES, has_word, mentions
@@ -152,6 +153,8 @@ def foot_events(
 ) -> Events:
     """Return the times of ``left foot strike``, ``left foot off``, and the same for the right.
 
+    Contacts marked in the file replace those found within 0.2 s.
+
     Parameters
     ----------
     recording : Motion or Signals
@@ -178,7 +181,8 @@ def foot_events(
     times: list[float] = []
     names: list[str] = []
     sources: dict[str, str] = {}
-    is_body = isinstance(recording, Motion)
+    n_marks = dict.fromkeys(SIDES, 0)
+    marked, is_body = recording.provenance.events, isinstance(recording, Motion)
     for side, pattern in zip(SIDES, (left, right), strict=True):
         if is_body and pattern is not None:
             raise ParameterError(
@@ -198,8 +202,12 @@ def foot_events(
             )
         for seconds, event in zip((starts, stops), (STRIKE, OFF) if are_stands else (OFF, STRIKE),
                                   strict=True):  # fmt: skip
-            times += seconds
-            names += [f"{side} {event}"] * len(seconds)
+            name = f"{side} {event}"
+            marks = [at for at, text in marked if normalize_event_name(text) == name]
+            apart = [at for at in seconds if all(abs(at - mark) >= SAME_S for mark in marks)]
+            times += marks + apart
+            names += [name] * len(marks + apart)
+            n_marks[side] += len(marks)
     if not sources and is_body:
         raise ParameterError(
             f"no foot found: no heel or ankle has a usual name. {RENAME}, or use force plates "
@@ -212,6 +220,11 @@ def foot_events(
         )
     if isinstance(recording, Motion) and recording.rotations is None:
         _warn_missing_points(recording, sources)
+    sources |= {
+        side: f"{source}, {n_marks[side]} of them marked in the file"
+        for side, source in sources.items()
+        if n_marks[side]
+    }
     # The stable sort keeps the left foot first at equal times.
     order = np.argsort(times, kind="stable")
     return Events(
