@@ -28,7 +28,6 @@ from kineme.cycles.events import LONGEST, OFF, STRIKE, foot_events, normalize_ev
 from kineme.cycles.table import CYCLE, INCOMPLETE, INNER, compute_mean_phase
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import compute_distance_features, pose_features
-from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
 from kineme.recordings.joint_names import SIDES
 from kineme.segments.segmentation import Segmentation
@@ -538,16 +537,13 @@ def _find_event_times(recording: Motion | Signals, anchor: str) -> Floats:
     name = normalize_event_name(anchor)
     marked = _find_marks(recording, name)
     if name.endswith((STRIKE, OFF)):
+        # Marks, and contacts found from the movement where no mark is near: a laboratory often
+        # marks the contacts on its force plates only.
         try:
-            found = foot_events(recording).at(name)
+            return foot_events(recording).at(name)
         except ParameterError:
             if not len(marked):
                 raise
-            found = np.empty(0)
-        # A laboratory often marks the contacts on its force plates only. Contacts found from the
-        # movement are added where no mark is near.
-        distances = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
-        return np.sort(np.concatenate([found[distances >= SAME_S], marked]))
     if len(marked):
         return np.sort(marked)
     names = sorted({text for _, text in recording.provenance.events})
