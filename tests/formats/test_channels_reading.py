@@ -12,10 +12,10 @@ import pyarrow as pa
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pyarrow import parquet
+from pyarrow import csv, parquet
 from scipy.io import savemat
 
-from kineme import Motion, Signals, bundled_recording, read
+from kineme import Motion, Signals, as_signals, bundled_recording, read
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.dialects import hold_channels
@@ -320,16 +320,33 @@ def test_what_tells_of_the_device_or_the_place_is_no_channel(tmp_path) -> None:
     assert read(path, fps=50, columns=["hand_temperature"]).names == ("hand_temperature",)
 
 
-@pytest.mark.parametrize("column", ["device", "person_id", "Joint"])
+@pytest.mark.parametrize("column", ["device", "person_id", "Joint", "sensorName"])
 @pytest.mark.parametrize("channels", ["x,y", "head_x,head_y"])
-def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None:
-    rows = [f"{i // 2 / 50},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
+@pytest.mark.parametrize("late", [0, 0.003])
+def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels, late) -> None:
+    rows = [f"{i // 2 / 50 + late * (i % 2)},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
     path = write(tmp_path, "a.csv", f"time,{column},{channels}\n" + "".join(rows))
-    with pytest.raises(ReadError, match=rf"differ in column '{column}' \(A, B\)"):
+    said = rf"alternate \(column '{column}': A, B\)"
+    with pytest.raises(ReadError, match=said):
         read(path)
-    path.write_text(path.read_text().replace("B", "A"), encoding="utf-8")
-    with pytest.warns(KinemeWarning, match="20 rows with the same time as the row before"):
-        assert read(path).n_frames == 40
+    table = csv.read_csv(path)
+    parquet.write_table(table, tmp_path / "a.parquet")
+    with pytest.raises(ReadError, match=said):
+        read(tmp_path / "a.parquet")
+    with pytest.raises(ParameterError, match=said):
+        as_signals(table.to_pandas())
+
+
+def test_one_device_after_another_is_one_recording(tmp_path) -> None:
+    rows = [f"{i / 50},{'AB'[i > 20]},{i % 7}.5,0.25\n" for i in range(40)]
+    path = write(tmp_path, "a.csv", "time,device,x,y\n" + "".join(rows))
+    assert read(path).n_frames == as_signals(csv.read_csv(path).to_pandas()).n_frames == 40
+    sole = write(tmp_path, "b.csv", "sensor\n" + "7\n9\n" * 20)  # a measurement, no owner
+    assert (
+        read(sole, fps=50).names
+        == as_signals(csv.read_csv(sole).to_pandas(), fps=50).names
+        == ("sensor",)
+    )
 
 
 def test_parquet(tmp_path) -> None:

@@ -20,6 +20,7 @@ from kineme.formats.channels.parquet import (
     open_parquet,
     read_parquet_channels,
     read_parquet_columns,
+    refuse_interleaved,
 )
 from kineme.formats.channels.reading import (
     choose_channels,
@@ -75,6 +76,7 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
     if options.channels or hold_channels(names):
         table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
+    refuse_interleaved(content, file, names)
     used = read_parquet_columns(content, file, [name for name in stored_names if is_used(name)])
     # Joints are found by name, so other columns are listed but not read.
     columns = dict.fromkeys(names, np.empty(0)) | {

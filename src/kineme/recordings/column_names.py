@@ -8,8 +8,11 @@ Counters, labels, and measurements of a device's surroundings are not channels.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from kineme.recordings.joint_names import SENSOR
 
@@ -26,7 +29,13 @@ _NUMBERED = re.compile(r"(.+?)[\s_]*(?:id|idx|index|no|num|number|nr|count)")
 _SURROUNDINGS = re.compile(
     r"(?:.*[\W_])?(?:temp(?:erature)?|battery|humidity|lux|latitude|longitude)(?:[\W_].*)?"
 )
-
+_OWNER = re.compile(
+    r"(?:person|subject|participant|individual|user|track|device|sensor|joint|body_?part|side"
+    r"|placement|source|type|kind)(?:_?(?:id|name|type|kind|no|number|label))?"
+)
+_EMPTY = frozenset({"", "nan", "none", "null", "<na>"})
+_MOST_OWNERS = 50
+_ROWS_OF_ONE = 100  # on average at most so many successive rows have one owner if they alternate
 
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
@@ -93,3 +102,44 @@ def is_channel_name(name: str) -> bool:
     numbered = _NUMBERED.fullmatch(plain)
     names = {plain, numbered[1] if numbered else plain}
     return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(plain) is None
+
+
+def is_owner(name: str) -> bool:
+    """Return whether a column of this name may tell the person or device of each row.
+
+    Examples
+    --------
+    >>> is_owner("sensorName"), is_owner("Device ID"), is_owner("sensor_x")
+    (True, True, False)
+    """
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])|\W+", "_", name.strip())
+    return _OWNER.fullmatch(words.lower()) is not None
+
+
+def describe_alternation(
+    columns: Mapping[str, ArrayLike], channels: Collection[str] = ()
+) -> str | None:
+    """Return an error if rows of several people or devices alternate in a column of owners.
+
+    A device that is exchanged in the middle does not alternate. The only channel is no owner.
+
+    Examples
+    --------
+    >>> describe_alternation({"device": ["left", "right"] * 3})
+    "rows of several alternate (column 'device': left, right): separate them, one table for each"
+    >>> describe_alternation({"device": ["left"] * 3 + ["right"] * 3})
+    """
+    for name, column in columns.items():
+        if not is_owner(name) or [*channels] == [name]:
+            continue
+        texts = (str(cell).strip() for cell in np.asarray(column).tolist())
+        cells = [text for text in texts if text.lower() not in _EMPTY]
+        owners = [*dict.fromkeys(cells)]
+        if len(owners) > _MOST_OWNERS:  # measurements or names of rows
+            continue
+        if sum(map(str.__ne__, cells[1:], cells)) > max(len(owners), len(cells) / _ROWS_OF_ONE):
+            return (
+                f"rows of several alternate (column {name!r}: {owners[0]:.20}, {owners[1]:.20}): "
+                "separate them, one table for each"
+            )
+    return None

@@ -14,7 +14,7 @@ from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
-from kineme.recordings.column_names import is_channel_name
+from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
@@ -201,6 +201,9 @@ def _convert_frame(frame: Any) -> _Samples:
     chosen = [i for i in chosen if is_channel_name(called[i])] or chosen
     if not chosen:
         raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
+    owners = {name: columns[i] for i, name in enumerate(called) if is_owner(name)}
+    if error := describe_alternation(owners, [called[i] for i in chosen]):
+        raise ParameterError(error)
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
     notes: list[Note | str] = []
     if left:

@@ -18,6 +18,7 @@ from kineme.formats.channels.reading import (
 )
 from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
+from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
 from kineme.recordings.times import is_timing
 
 
@@ -82,6 +83,8 @@ def read_parquet_channels(
     ]
     times = {name: name for name in numeric if is_timing(name)}
     columns = select_columns(content, names, columns, numeric, times)
+    measured = [name for name in numeric if name not in times and is_channel_name(name)]
+    refuse_interleaved(content, file, columns or measured)
     chosen = list_needed_columns(columns, numeric, times)
     try:
         stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
@@ -94,6 +97,15 @@ def read_parquet_channels(
         reason = f"its columns cannot be read as numbers: {shorten_error(error)}"
         raise content.error(reason) from error
     return make_channel_table(content, names, values, columns, times)
+
+
+def refuse_interleaved(content: FileContent, file: Any, channels: Sequence[str]) -> None:
+    """Raise ReadError if rows of several people or devices alternate."""
+    owners = [name for name in file.schema_arrow.names if is_owner(name)]
+    table = read_parquet_columns(content, file, owners)
+    cells = zip(owners, (column.to_pylist() for column in table.columns), strict=True)
+    if error := describe_alternation(dict(cells), channels):
+        raise content.error(error)
 
 
 def _is_text(kind: Any) -> bool:

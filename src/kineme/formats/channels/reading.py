@@ -80,7 +80,7 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
     """Return the named channels of a text table in this order, or all columns of numbers."""
     text = text.number_columns()
-    text.refuse_interleaved()
+    text.refuse_interleaved(columns)
     names, numeric, times = list(text.names), text.find_numeric_columns(), text.times
     columns = select_columns(text.content, names, columns, numeric, times)
     chosen = list_needed_columns(columns, numeric, times or list(filter(name_clock, numeric)))
