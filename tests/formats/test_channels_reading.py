@@ -313,11 +313,17 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
 
 
 def test_what_tells_of_the_device_or_the_place_is_no_channel(tmp_path) -> None:
-    names = "acc_x,hand_temperature,Temp (degC),Battery level,lux,template"
-    rows = [f"{i % 7},30,20,{100 - i},{i % 3},{i % 5}\n" for i in range(20)]
-    path = write(tmp_path, "a.csv", f"{names}\n" + "".join(rows))
-    assert read(path, fps=50).names == ("acc_x", "template")
+    others = "hand_temperature,Temp (degC),Battery level,lux,HR [bpm],HeartRate,steps,lat,GPS_lon"
+    others += ",locationLatitude(WGS84),batteryLevel(R),pedometerNumberOfSteps(N),seq,Speed (m/s)"
+    names = f"acc_x,heel_pressure,belt speed,template,{others}"
+    rows = ["".join(f"{(i * k) % 7}," for k in range(1, 19)).rstrip(",") for i in range(20)]
+    path = write(tmp_path, "a.csv", names + "\n" + "\n".join(rows))
+    motion = ("acc_x", "heel_pressure", "belt speed", "template")
+    assert read(path, fps=50).names == as_signals(csv.read_csv(path).to_pandas(), fps=50).names
+    assert read(path, fps=50).names == motion
     assert read(path, fps=50, columns=["hand_temperature"]).names == ("hand_temperature",)
+    alone = write(tmp_path, "b.csv", "heart_rate\n70\n71\n71\n")
+    assert read(alone, fps=1).names == ("heart_rate",)
 
 
 @pytest.mark.parametrize("column", ["device", "person_id", "Joint", "sensorName"])

@@ -2,7 +2,7 @@
 
 The coordinates of a point are ``hip_x hip_y hip_z``. A unit of length may follow: ``hip x [mm]``,
 ``hip_x_mm``, ``hip_x_px``. Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ``.
-Counters, labels, and measurements of a device's surroundings are not channels.
+Counters, labels, and measurements of surroundings, places or the heart are not channels.
 """
 
 from __future__ import annotations
@@ -17,21 +17,24 @@ from numpy.typing import ArrayLike
 from kineme.recordings.joint_names import SENSOR
 
 _COUNTS = frozenset(
-    {"frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}
-    | {"__index_level_0__", "counter", "packet_counter", "packetcounter", "level_0"}
+    {"frame", "frames", "index", "idx", "sample", "row", "id", "unnamed 0", "index level 0"}
+    | {"counter", "packet counter", "packetcounter", "level 0", "step", "seq", "sequence", "crc"}
 )
 _LABELS = frozenset(
-    {"label", "labels", "class", "annotation", "ground_truth", "class_id", "label_id", "target"}
-    | {"set", "sets", "rep", "reps", "repetition", "repetitions", "count", "weight", "weight_kg"}
+    {"label", "labels", "class", "annotation", "ground truth", "class id", "label id", "target"}
+    | {"set", "sets", "rep", "reps", "repetition", "repetitions", "count", "weight", "weight kg"}
     | {"activity", "exercise", "subject", "participant", "person", "user", "trial", "session"}
 )
-_NUMBERED = re.compile(r"(.+?)[\s_]*(?:id|idx|index|no|num|number|nr|count)")
+_NUMBERED = re.compile(r"(.+?) ?(?:id|idx|index|no|num|number|nr|count)")
 _SURROUNDINGS = re.compile(
-    r"(?:.*[\W_])?(?:temp(?:erature)?|battery|humidity|lux|latitude|longitude)(?:[\W_].*)?"
+    r"(?:.* )?(?:temp|temperature|battery|humidity|lux|latitude|longitude|altitude|accuracy|gps"
+    r"|heart ?rate|bpm|steps|pedometer|barometer|sound)(?: .*)?|location [a-z]{2}.*"
+    # Insoles have pressures, and machines speeds, too: these are left out only without a place.
+    r"|(?:lat|lon|lng|hr|pressure|speed|bearing|course)(?: (?:h?pa|m s|km h|deg|degrees))?"
 )
 _OWNER = re.compile(
-    r"(?:person|subject|participant|individual|user|track|device|sensor|joint|body_?part|side"
-    r"|placement|source|type|kind)(?:_?(?:id|name|type|kind|no|number|label))?"
+    r"(?:person|subject|participant|individual|user|track|device|sensor|joint|body ?part|side"
+    r"|placement|source|type|kind)(?: ?(?:id|name|type|kind|no|number|label))?"
 )
 _EMPTY = frozenset({"", "nan", "none", "null", "<na>"})
 _MOST_OWNERS = 50
@@ -95,13 +98,13 @@ def is_channel_name(name: str) -> bool:
 
     Examples
     --------
-    >>> [is_channel_name(name) for name in ("acc_x", "reps", "Set number", "Battery level")]
+    >>> [is_channel_name(name) for name in ("acc_x", "Set number", "batteryLevel", "HR [bpm]")]
     [True, False, False, False]
     """
-    plain = name.strip().lower()
-    numbered = _NUMBERED.fullmatch(plain)
-    names = {plain, numbered[1] if numbered else plain}
-    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(plain) is None
+    words = _split_words(name)
+    numbered = _NUMBERED.fullmatch(words)
+    names = {words, numbered[1] if numbered else words}
+    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(words) is None
 
 
 def is_owner(name: str) -> bool:
@@ -112,8 +115,7 @@ def is_owner(name: str) -> bool:
     >>> is_owner("sensorName"), is_owner("Device ID"), is_owner("sensor_x")
     (True, True, False)
     """
-    words = re.sub(r"(?<=[a-z])(?=[A-Z])|\W+", "_", name.strip())
-    return _OWNER.fullmatch(words.lower()) is not None
+    return _OWNER.fullmatch(_split_words(name)) is not None
 
 
 def describe_alternation(
@@ -143,3 +145,8 @@ def describe_alternation(
                 "separate them, one table for each"
             )
     return None
+
+
+def _split_words(name: str) -> str:
+    """Return the words of a name in lower case, separated by blanks."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])|[\W_]+", " ", name).strip().lower()

@@ -173,7 +173,9 @@ def make_channel_table(
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in times and is_channel_name(name)]
+        chosen = [name for name in values if name not in times]
+        # If no name is that of a channel, as in a file of heart rates, keep all columns.
+        chosen = [*filter(is_channel_name, chosen)] or chosen
         chosen = [name for name in chosen if not name.startswith(NAMELESS)]
         chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
         rising = {name: None for name in chosen if _is_clock(values[name])}
