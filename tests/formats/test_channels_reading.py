@@ -348,11 +348,8 @@ def test_one_device_after_another_is_one_recording(tmp_path) -> None:
     path = write(tmp_path, "a.csv", "time,device,x,y\n" + "".join(rows))
     assert read(path).n_frames == as_signals(csv.read_csv(path).to_pandas()).n_frames == 40
     sole = write(tmp_path, "b.csv", "sensor\n" + "7\n9\n" * 20)  # a measurement, no owner
-    assert (
-        read(sole, fps=50).names
-        == as_signals(csv.read_csv(sole).to_pandas(), fps=50).names
-        == ("sensor",)
-    )
+    found = as_signals(csv.read_csv(sole).to_pandas(), fps=50)
+    assert read(sole, fps=50).names == found.names == ("sensor",)
 
 
 def test_parquet(tmp_path) -> None:
@@ -365,6 +362,20 @@ def test_parquet(tmp_path) -> None:
     assert signals.provenance.notes == ("columns that are not channels: who",)
     with pytest.raises(ReadError, match="cannot be read as numbers"):
         read(tmp_path / "a.parquet", columns=["who"])
+
+
+@pytest.mark.parametrize("kind", ["M8[ns]", "m8[ms]"])
+@pytest.mark.parametrize("name", ["time", "recorded_at", "__index_level_0__"])
+@pytest.mark.parametrize("channels", [["a", "b"], ["hip_x", "hip_y"]])
+def test_the_only_column_of_dates_is_the_clock(tmp_path, kind, name, channels) -> None:
+    times = (np.arange(50) * 20 + 1_790_000_000_000).astype("i8").astype(f"{kind[:2]}[ms]")
+    columns = {channel: 1 + np.arange(50) % 7 / 9 for channel in channels}
+    columns[name] = times.astype(kind)
+    parquet.write_table(pa.table(columns), tmp_path / "a.parquet")
+    recording = read(tmp_path / "a.parquet", unit="m")
+    assert (recording.fps, recording.n_frames) == (50, 50)
+    found = as_signals(pa.table(columns).to_pandas())
+    assert (found.fps, found.names) == (50, tuple(channels))
 
 
 @pytest.mark.parametrize(

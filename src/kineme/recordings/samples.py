@@ -194,7 +194,9 @@ def _convert_frame(frame: Any) -> _Samples:
     kinds = [getattr(column.dtype, "kind", "O") for column in columns]
     called = [name if isinstance(name, str) else str(name) for name in names]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
-    timing = [i for i, name in enumerate(called) if is_time(name)]
+    dates = [i for i, kind in enumerate(kinds) if kind in "mM"]
+    # If no name is that of times, the only column of dates is the clock.
+    timing = [i for i, name in enumerate(called) if is_time(name)] or dates * (len(dates) == 1)
     rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
     chosen = [i for i in numbers if i not in (*timing, *rates)]
     # If all names look like counters or labels, keep all numeric columns.
