@@ -154,6 +154,18 @@ def test_the_border_stands_where_the_clock_says(case, container, tmp_path) -> No
     assert signals.gaps == (((1250, 2250),) if case == "a hole of 20 s" else ())
 
 
+@pytest.mark.parametrize(
+    ("fps", "slower", "late"), [(50, 20, 0.003), (100, 10, 0.0), (50, 20, 0.0)]
+)
+def test_merged_sensors_have_the_rate_of_the_fastest(fps, slower, late) -> None:
+    fast, slow = np.arange(0, 20, 1 / fps), np.arange(0, 20, 1 / slower) + late
+    acc = make_movement(fast, ACC).set_index(fast.round(4))
+    both = acc.join(make_movement(slow, GYRO).set_index(slow.round(4)), how="outer")
+    signals = as_signals(both.reset_index(drop=True), times=both.index.to_numpy())
+    assert signals.fps == fps
+    assert np.allclose(signals.values[: len(fast), :3], acc)  # noqa: PD011
+
+
 def write_two_clocks(folder: Path) -> tuple[Path, Path]:
     """An accelerometer in milliseconds since 1970 and a gyroscope at dates, begun 1.5 s later."""
     acc_at, gyro_at = np.arange(0, LENGTH, 0.02), np.arange(1.5034, LENGTH, 0.01)

@@ -292,12 +292,13 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
 
 def _find_fastest_rate(moments: Floats, values: Floats | None) -> float:
     """Return the rate of the rows, or of the fastest sensor if each fills only some rows."""
-    rates: list[float] = []
-    if values is not None:
-        rows = [seen for _, seen in _group_by_missing_rows(np.isfinite(values)) if seen.any()]
-        if all(seen.mean() <= _MOST for seen in rows):
-            rates = [_measure_rate(moments[seen]) for seen in rows if seen.sum() > 1]
-    return max(rates, default=_measure_rate(moments))
+    every = _measure_rate(moments)
+    if values is None:
+        return every
+    groups = (seen for _, seen in _group_by_missing_rows(np.isfinite(values)))
+    rates = [_measure_rate(moments[seen]) for seen in groups if seen.sum() > 1]
+    # A few values in quick succession may give more than the rate of all rows.
+    return min(every, max(rates, default=every))
 
 
 def _measure_rate(moments: Floats) -> float:
