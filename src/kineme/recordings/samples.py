@@ -246,8 +246,8 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     *signals : Signals
         Recorded at the same time, each with its own rate and clock.
     offsets : sequence of float, optional
-        Start of each in seconds on a common clock. By default their clocks are used if these are
-        dates or overlap; else all start at once, with a warning.
+        Start of each in seconds on a common clock. By default their clocks are used if they
+        overlap; else all start at once, with a warning.
 
     Returns
     -------
@@ -291,7 +291,10 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         )
     lost = max(ends) - min(begins) - (n_frames - 1) / fps
     if lost > LONGEST_S:
-        notes.append(f"{lost:.4g} s left out in which not all sensors recorded")
+        remark = f"{lost:.4g} s left out in which not all sensors recorded"
+        notes.append(Note(remark, "warning" if lost > n_frames / fps else "info"))
+    if doubts := [note for note in notes if isinstance(note, Note) and note.severity == "warning"]:
+        warn("; ".join(doubts))
     times = start + np.arange(n_frames) / fps
     columns, missing = [], np.zeros(n_frames, np.bool_)
     for clock, sensor in zip(clocks, signals, strict=True):
@@ -323,14 +326,16 @@ def _compare_clocks(
             Clock(clock.seconds, [time + offset for time in clock.make_relative().times])
             for clock, offset in zip(clocks, offsets, strict=True)
         ], []
-    if all(clock.shows_dates for clock in clocks):
-        return clocks, []
     stops = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
     overlap = min(stops) - max(clock.times[0] for clock in clocks)
-    if overlap > 0.5 * min(each.duration for each in signals):
+    # Dates have one origin; times that count from any other must overlap for long.
+    dates = all(clock.shows_dates for clock in clocks)
+    if overlap > (0.0 if dates else 0.5 * min(each.duration for each in signals)):
         return clocks, []
-    remark = "the sensors have no common clock: assumed to begin together; give offsets"
-    warn(remark)
+    remark = (
+        "the sensors have no common clock: assumed to begin together (kineme.join_signals takes "
+        "their offsets)"
+    )
     return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 
 
