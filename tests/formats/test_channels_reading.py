@@ -226,6 +226,7 @@ EVEN = np.arange(400) / 100
         (EVEN - 0.05 * (EVEN >= 2), 395, (), "5 rows with the same time as another"),
         (EVEN + 5 * (EVEN >= 2), 900, ((200, 700),), "1 step longer than a frame and a half"),
         (EVEN + 0.1 * (EVEN >= 2), 410, (), "1 step longer"),
+        (1.769e9 + EVEN + 3600 * (EVEN >= 2), 360400, ((200, 360200),), "1 step longer"),
         (EVEN + 0.004 * (np.arange(400) % 3), 400, (), "jitter"),
         (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), 400, (), "19 rows with"),
     ],
@@ -239,8 +240,8 @@ def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) 
 @pytest.mark.parametrize(
     ("times", "n_frames", "gaps", "said"),
     [
-        (EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
-        (1.769e9 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (EVEN + 7198 - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (1_769_399_998 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (EVEN - 1.5 * (EVEN >= 2), 401, ((200, 201),), "goes back 1 time"),
         (EVEN + 1.7e9 * (EVEN >= 1), 401, ((100, 101),), "of 1.7e\\+09 s after second 0.99"),
         (np.floor(EVEN * 4) / 4, 400, (), "384 rows with the same time as the row before"),

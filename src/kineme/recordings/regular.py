@@ -220,9 +220,10 @@ def _correct_clock(
         return np.asarray(np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S))
 
     notes: list[Note | str] = []
-    hours = near(-_HOUR) & back if usual < _HOUR / 10 else np.zeros_like(back)
-    if usual < _HOUR / 10 and is_unix_time(shown[0]):
-        hours = hours | near(_HOUR)
+    # Summer time begins and ends at a full hour of the local clock; pauses end at any time.
+    at_full_hour = (shown[1:] % _HOUR <= max(2 * usual, LONGEST_S)) & (usual < _HOUR / 10)
+    forward = near(_HOUR) if is_unix_time(shown[0]) else np.zeros_like(back)
+    hours = at_full_hour & ((near(-_HOUR) & back) | forward)
     days = near(-_DAY) & back
     if hours.any():
         notes.append(Note("local times jump by an hour, as for summer time: corrected", "warning"))
