@@ -107,6 +107,17 @@ def is_channel_name(name: str) -> bool:
     return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(words) is None
 
 
+def name_column(label: object) -> str:
+    """Return the name of a column of a data frame; several levels are joined by ``_``.
+
+    Examples
+    --------
+    >>> name_column(("acc", "x")), name_column(("time", "")), name_column(3)
+    ('acc_x', 'time', '3')
+    """
+    return "_".join(filter(None, map(str, label))) if isinstance(label, tuple) else str(label)
+
+
 def is_owner(name: str) -> bool:
     """Return whether a column of this name may tell the person or device of each row.
 

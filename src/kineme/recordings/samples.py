@@ -14,7 +14,12 @@ from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
-from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
+from kineme.recordings.column_names import (
+    describe_alternation,
+    is_channel_name,
+    is_owner,
+    name_column,
+)
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
@@ -192,7 +197,7 @@ def _convert_frame(frame: Any) -> _Samples:
     by_place = getattr(frame, "iloc", None)
     columns = [frame[n] if by_place is None else by_place[:, i] for i, n in enumerate(names)]
     kinds = [getattr(column.dtype, "kind", "O") for column in columns]
-    called = [name if isinstance(name, str) else str(name) for name in names]
+    called = [*map(name_column, names)]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
     dates = [i for i, kind in enumerate(kinds) if kind in "mM"]
     # If no name is that of times, the only column of dates is the clock.
