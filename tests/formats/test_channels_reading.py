@@ -344,10 +344,12 @@ def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels, late) -
         as_signals(table.to_pandas())
 
 
-def test_one_device_after_another_is_one_recording(tmp_path) -> None:
+def test_owners_of_many_successive_rows_are_one_recording(tmp_path) -> None:
     rows = [f"{i / 50},{'AB'[i > 20]},{i % 7}.5,0.25\n" for i in range(40)]
     path = write(tmp_path, "a.csv", "time,device,x,y\n" + "".join(rows))
     assert read(path).n_frames == as_signals(csv.read_csv(path).to_pandas()).n_frames == 40
+    steps = [f"{i / 50},{'LR'[i // 10 % 2]},{i % 7}.5,0.25\n" for i in range(200)]
+    assert read(write(tmp_path, "c.csv", "time,side,x,y\n" + "".join(steps))).n_frames == 200
     sole = write(tmp_path, "b.csv", "sensor\n" + "7\n9\n" * 20)  # a measurement, no owner
     found = as_signals(csv.read_csv(sole).to_pandas(), fps=50)
     assert read(sole, fps=50).names == found.names == ("sensor",)

@@ -8,8 +8,9 @@ Counters, labels, and measurements of surroundings, places or the heart are not 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from itertools import islice
+from itertools import groupby, islice
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -37,8 +38,8 @@ _OWNER = re.compile(
     r"|placement|source|type|kind)(?: ?(?:id|name|type|kind|no|number|label))?"
 )
 _EMPTY = frozenset({"", "nan", "none", "null", "<na>"})
-_MOST_OWNERS = 50
-_ROWS_OF_ONE = 100  # on average at most so many successive rows have one owner if they alternate
+_MOST_OWNERS = 50  # more are measurements, or names of rows
+_ROWS_IN_TURN = 5  # mean of successive rows of one owner, above which they are no turns
 
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
@@ -134,7 +135,8 @@ def describe_alternation(
 ) -> str | None:
     """Return an error if rows of several people or devices alternate in a column of owners.
 
-    A device that is exchanged in the middle does not alternate. The only channel is no owner.
+    Neither a device that is exchanged in the middle alternates, nor the side of each step. The only
+    channel is no owner.
 
     Examples
     --------
@@ -147,10 +149,12 @@ def describe_alternation(
             continue
         texts = (str(cell).strip() for cell in np.asarray(column).tolist())
         cells = [text for text in texts if text.lower() not in _EMPTY]
-        owners = [*dict.fromkeys(cells)]
-        if len(owners) > _MOST_OWNERS:  # measurements or names of rows
+        rows, turns = Counter(cells), Counter(owner for owner, _ in groupby(cells))
+        owners = [*rows]
+        if len(owners) > _MOST_OWNERS or turns.total() <= len(owners) + 1:
             continue
-        if sum(map(str.__ne__, cells[1:], cells)) > max(len(owners), len(cells) / _ROWS_OF_ONE):
+        # The slowest of several sensors has about one row at a time.
+        if any(rows[owner] <= _ROWS_IN_TURN * turns[owner] for owner in owners):
             return (
                 f"rows of several alternate (column {name!r}: {owners[0]:.20}, {owners[1]:.20}): "
                 "separate them, one table for each"
