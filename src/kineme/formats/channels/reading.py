@@ -80,7 +80,7 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
     """Return the named channels of a text table in this order, or all columns of numbers."""
     text = text.number_columns()
-    text.refuse_interleaved()
+    text.refuse_interleaved(columns)
     names, numeric, times = list(text.names), text.find_numeric_columns(), text.times
     columns = select_columns(text.content, names, columns, numeric, times)
     chosen = list_needed_columns(columns, numeric, times or list(filter(name_clock, numeric)))
@@ -173,7 +173,9 @@ def make_channel_table(
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in times and is_channel_name(name)]
+        chosen = [name for name in values if name not in times]
+        # If no name is that of a channel, as in a file of heart rates, keep all columns.
+        chosen = [*filter(is_channel_name, chosen)] or chosen
         chosen = [name for name in chosen if not name.startswith(NAMELESS)]
         chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
         rising = {name: None for name in chosen if _is_clock(values[name])}
