@@ -28,6 +28,8 @@ COUNTED_S = 2.0
 """Seconds over which rows are counted to check the given rate."""
 OTHER_RATE = 1.5
 """Ratio from which two rates count as different."""
+UNIT_ROWS, UNIT_STEPS = 20, 3
+"""Rows, and steps of their times, from which the unit of the times is guessed."""
 FULL_PACKET = 0.75, 1.5
 """Frames per row of a packet. Below the range rows are duplicates, above it some are lost."""
 SHIFTS_S = (-86400.0, -3600.0, 3600.0)
@@ -135,7 +137,7 @@ class Intake:
         """Return the frames of all remaining rows."""
         pieces: list[Piece] = []
         if len(self.held_times):
-            self.per_second = self.per_second or 1.0
+            self.per_second = self.per_second or guess_unit(self.held_times, self.fps)
             # An extra row confirms the time of a single held row.
             times = np.append(self.held_times, self.held_times[-1])
             nothing = np.full((1, self.n_channels), np.nan)
@@ -153,11 +155,12 @@ class Intake:
             self._say(pieces, "rows without a time are left out")
             rows, times = rows[known], times[known]
         if not self.per_second:
-            later = times[times != times[:1]]
-            if not len(later):
+            needed = count_rows_for_unit(times)
+            if not needed:
                 self.held_rows, self.held_times = rows, times
                 return
-            self.per_second = _guess_unit(float(times[0]), float(later[0]), self.fps)
+            # Exactly these rows, so that the unit does not depend on how many come at a time.
+            self.per_second = guess_unit(times[:needed], self.fps)
         start = 0
         while start < len(times):
             seconds = times[start:] / self.per_second - self.ahead_s
@@ -306,14 +309,30 @@ class Intake:
             pieces.append(text)
 
 
-def _guess_unit(first: float, second: float, fps: float) -> float:
-    """Return the units per second for which two rows at these times are about a frame apart.
+def count_rows_for_unit(times: Floats) -> int:
+    """Return how many of the first rows tell the unit of their times; 0 if there are too few."""
+    changes = np.flatnonzero(np.diff(times))
+    if len(times) < UNIT_ROWS or len(changes) < UNIT_STEPS:
+        return 0
+    return max(UNIT_ROWS, int(changes[UNIT_STEPS - 1]) + 2)
+
+
+def guess_unit(times: Floats, fps: float) -> float:
+    """Return the units per second for which rows at these times are usually a frame apart.
+
+    1 if the times are equal.
 
     Examples
     --------
-    >>> _guess_unit(81_000_000_000, 81_020_000_000, 50.0)
-    1000000000.0
+    >>> guess_unit(np.array([0, 700, 720, 740, 760]) + 81_000_000, 50.0)
+    1000.0
     """
-    frames = abs(second - first) * fps
+    steps = np.diff(times)
+    changes = np.flatnonzero(steps)
+    if not len(changes):
+        return 1.0
+    # Rows that share a time are a packet: its rows divide the step to the next time.
+    sizes = np.diff(changes, prepend=-1)
+    frames = fps * float(np.median(np.repeat(np.abs(steps[changes]) / sizes, sizes)))
     per_second = sorted(set(UNITS_OF_TIME.values()))
     return min(per_second, key=lambda unit: abs(log10(frames / unit)))
