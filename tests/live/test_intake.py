@@ -53,6 +53,8 @@ CASES = {
     "a hole": (np.delete(ROWS, slice(99, 199), 0), np.delete(EVEN, slice(99, 199)), N, 100, ""),
     "set back": (ROWS, set_back(5, 3), N + 11, 11, "the clock goes back by 2.98 s"),
     "summer time": (ROWS, set_back(5, 3600) + 1.7e9, N, 0, "an hour or a day"),
+    "summer time begins": (ROWS, set_back(5, -3600) + 1_699_999_195, N, 0, "an hour or a day"),
+    "a pause of an hour": (ROWS, set_back(5, -3600) + 1.7e9, N + 180_000, 180_000, ""),
     "a single wrong time": (ROWS, np.where(np.arange(N) == 99, 1e6, EVEN), N, 0, "single rows"),
     "no time": (ROWS, np.where(np.arange(N) == 99, np.nan, EVEN), N, 0, "without a time"),
     "twice the rate": (ROWS, EVEN / 2, N // 2, 0, "instead of 50 Hz"),

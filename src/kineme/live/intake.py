@@ -12,7 +12,7 @@ waits for the rows of the 0.2 s after it.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import ceil, floor, log10
+from math import ceil, floor, log10, remainder
 
 import numpy as np
 
@@ -33,7 +33,10 @@ UNIT_ROWS, UNIT_STEPS = 20, 3
 FULL_PACKET = 0.75, 1.5
 """Frames per row of a packet. Below the range rows are duplicates, above it some are lost."""
 SHIFTS_S = (-86400.0, -3600.0, 3600.0)
-"""Seconds: steps of local clocks (midnight, summer time) that are undone."""
+"""Seconds: steps of local clocks (midnight, summer time) that are undone.
+
+A step forward is a pause unless it leads to a full hour of a clock that counts from 1970.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,8 +212,10 @@ class Intake:
     def _correct_clock(self, step: float, pieces: list[Piece]) -> bool:
         """Undo a step of the clock if it was set; return whether it was."""
         near = max(LONGEST_S, 3 / self.fps)
+        now_s = self.last_s + self.ahead_s + step
+        is_on_the_hour = is_unix_time(now_s) and abs(remainder(now_s, 3600)) <= near
         for shift in SHIFTS_S:
-            if abs(step - shift) <= near and (shift < 0 or is_unix_time(self.ahead_s)):
+            if abs(step - shift) <= near and (shift < 0 or is_on_the_hour):
                 self._say(pieces, "the clock changes by an hour or a day: corrected")
                 self.ahead_s += shift
                 return True
