@@ -17,7 +17,7 @@ def intake(
     rows: np.ndarray, times: np.ndarray | None, size: int
 ) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Values and missing of all frames, and what was said."""
-    taken = Intake(FPS, rows.shape[1])
+    taken = Intake(FPS, ["x", "y"])
     pieces = []
     for start in range(0, len(rows), size):
         part = slice(start, start + size)
@@ -60,6 +60,7 @@ CASES = {
     "twice the rate": (ROWS, EVEN / 2, N // 2, 0, "instead of 50 Hz"),
     "some NaN": (np.where(np.arange(2 * N).reshape(N, 2) % 3 == 1, np.nan, ROWS), None, N, 0, ""),
     "NaN for a second": (np.where((EVEN // 1 == 3)[:, None], np.nan, ROWS), None, N, 50, ""),
+    "a channel of NaN": (ROWS * [1, np.nan], EVEN, N, 100, "channel y has no value"),
     "NaN throughout": (np.full((N, 2), np.nan), EVEN, N, N, ""),
     "one row": (ROWS[:1], EVEN[:1], 1, 0, ""),
 }

@@ -11,6 +11,7 @@ waits for the rows of the 0.2 s after it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import ceil, floor, log10, remainder
 
@@ -26,6 +27,8 @@ SUDDEN_S = 2.0
 """Seconds: a longer step of the clock must be confirmed by the next row."""
 COUNTED_S = 2.0
 """Seconds over which rows are counted to check the given rate."""
+ABSENT_S = 2.0
+"""Seconds after which a channel that never had a value is left out."""
 OTHER_RATE = 1.5
 """Ratio from which two rates count as different."""
 UNIT_ROWS, UNIT_STEPS = 20, 3
@@ -66,7 +69,7 @@ class Intake:
     ----------
     fps : float
         Frames per second.
-    n_channels : int
+    channels : sequence of str
     n_rows : int
         Number of rows without a time so far.
     per_second : float
@@ -89,10 +92,12 @@ class Intake:
         Rows whose time can only be interpreted with the next row.
     filler : (channels,) array
         Values of the last frame.
+    seen : (channels,) array
+        Whether each channel has had a value.
     """
 
     fps: float
-    n_channels: int
+    channels: Sequence[str]
     n_rows: int = 0
     per_second: float = 0.0
     ahead_s: float = 0.0
@@ -109,11 +114,13 @@ class Intake:
     held_times: Floats = field(default_factory=lambda: np.empty(0))
     held_rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
     filler: Floats = field(default_factory=lambda: np.empty(0))
+    seen: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
 
     def __post_init__(self) -> None:
         if not self.filler.size:
-            self.filler = np.zeros(self.n_channels)
-            self.rows = self.held_rows = np.empty((0, self.n_channels))
+            self.filler = np.zeros(len(self.channels))
+            self.seen = np.zeros(len(self.channels), np.bool_)
+            self.rows = self.held_rows = np.empty((0, len(self.channels)))
 
     def add(self, rows: Floats, times: Floats | None = None) -> list[Piece]:
         """Add rows; return the frames that are now complete.
@@ -143,7 +150,7 @@ class Intake:
             self.per_second = self.per_second or guess_unit(self.held_times, self.fps)
             # An extra row confirms the time of a single held row.
             times = np.append(self.held_times, self.held_times[-1])
-            nothing = np.full((1, self.n_channels), np.nan)
+            nothing = np.full((1, len(self.channels)), np.nan)
             self._place(np.concatenate([self.held_rows, nothing]), times, pieces)
         if self.in_packets:
             self._spread_packet(float(self.at[-1]) + np.inf)
@@ -283,9 +290,10 @@ class Intake:
         found = Timing(self.fps, np.arange(len(at)), at, end - base).resample(rows)
         made = slice(self.emitted - base, stop - base)
         values = found.values[made].copy()
+        self.seen = self.seen | np.isfinite(values).any(axis=0)
         missing: Masks = np.zeros(len(values), np.bool_)
         if found.missing is not None:
-            missing = np.asarray(found.missing[made].any(axis=1), np.bool_)
+            missing = np.asarray(found.missing[made][:, self._find_used(pieces)].any(axis=1))
             for i, row in enumerate(values):  # A channel without a value repeats its last one.
                 row[:] = np.where(np.isfinite(row), row, values[i - 1] if i else self.filler)
         self.filler = values[-1]
@@ -295,6 +303,15 @@ class Intake:
         kept = max(0, int(np.searchsorted(self.at, stop - before)) - 1)
         self.at, self.rows = self.at[kept:], self.rows[kept:]
         return Frames(values, missing)
+
+    def _find_used(self, pieces: list[Piece]) -> Masks:
+        """Return which channels make a gap where they are missing."""
+        if self.emitted < ABSENT_S * self.fps or not self.seen.any() or self.seen.all():
+            return np.ones_like(self.seen)
+        for name, seen in zip(self.channels, self.seen.tolist(), strict=True):
+            if not seen:
+                self._say(pieces, f"channel {name} has no value: left out until it has one")
+        return self.seen
 
     def _compare_rate(self, n_frames: int, n_rows: int, pieces: list[Piece]) -> None:
         """Report when rows begin to arrive at another rate than the given one."""

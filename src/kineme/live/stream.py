@@ -116,7 +116,7 @@ class Stream:
         self.fps, self.delay, self.memory, self.interval = layout.fps, delay, memory, interval
         self.layout, self.options = layout, chosen
         self._state = StreamState(
-            Intake(self.fps, layout.n_values),
+            Intake(self.fps, layout.value_names),
             Finals(self.fps),
             RecentPast(layout, looked),
             next_look=self._frames(interval),
