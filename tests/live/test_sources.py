@@ -136,3 +136,8 @@ def test_osc_and_vmc():
     assert got.values[0, 0] == got.values[0, 4] >= 1
     source.rows.close()
     thread.join()
+
+
+def test_a_first_line_of_damaged_json_is_refused() -> None:
+    with pytest.raises(ParameterError, match="first line is not complete JSON"):
+        read_lines(['{"time_ms": 0, "x"'])

@@ -176,7 +176,10 @@ class _Parser:
             raise ParameterError("no lines received: the first line must name the channels")
         self.is_json = first.lstrip()[:1] in ("{", "[")
         self.separator = next((mark for mark in "\t;" if mark in first), ",")
-        cells = self._cells(first)
+        try:
+            cells = self._cells(first)
+        except ValueError as error:
+            raise ParameterError(f"the first line is not complete JSON: {first:.60}") from error
         is_row = self.is_json or all(_is_number(cell) for cell in cells.values())
         names = list(cells) if is_row else [cell.strip() for cell in cells.values()]
         self.names = make_unique(names, allow_empty=True)
