@@ -29,6 +29,7 @@ from kineme.errors import EndEffectorError, MotionError
 from kineme.features import EndEffectors, compute_heading, end_effectors
 from kineme.features.pose import find_facing, find_parting
 from kineme.recordings import Motion
+from kineme.recordings.carriers import place_frames
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root, get_rig
 
@@ -90,7 +91,7 @@ def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
     facing, center = _measure_facing(unmoved), np.array([x, 0.0, z])
     # Turn the mean heading to +z, about the mean position of the hips, which moves to the origin.
-    settled = _turn_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
+    settled = place_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
     # Velocity of the point that moves to the origin, not of the root in frame 0.
     arm = center - _find_start(motion)
     # Velocity of a point off the axis: rotation adds turn times arm, at right angles.
@@ -144,7 +145,7 @@ def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
     shares, path, turns = _compute_path(motion, carry)
     start = _find_start(motion)
     target = start + shares[:, None] * shift
-    return _turn_frames(motion, -turns, start + path, target)
+    return place_frames(motion, -turns, start + path, target)
 
 
 def _compute_path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]:
@@ -161,20 +162,6 @@ def _compute_path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]
         [share * (_compute_mean_rotation(share * about.turn) @ speed) for share in shares.tolist()]
     )
     return shares, path, shares * about.turn
-
-
-def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
-    """Turn each frame about the vertical through its center, and move the center to its target."""
-    quaternions = rot.rotate_about_y(turns)[:, None]
-    centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
-    positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
-    rotations = motion.rotations
-    # Roots only: all other joints are relative to their parents.
-    if rotations is not None:
-        roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
-        rotations = np.array(rotations)
-        rotations[:, roots] = rot.multiply(quaternions, rotations[:, roots])
-    return replace(motion, positions=positions, rotations=rotations)
 
 
 def _move_origin(carry: Carry, place: Floats) -> Carry:
