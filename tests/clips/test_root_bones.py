@@ -10,7 +10,12 @@ import pytest
 import kineme
 from kineme._util import rotations as rot
 from kineme.clips.loops import find_carry, make_loop, repeat_first_frame
-from kineme.clips.root_motion import measure_root_motion, remove_root_motion, straighten
+from kineme.clips.root_motion import (
+    extract_root_motion,
+    measure_root_motion,
+    remove_root_motion,
+    straighten,
+)
 from kineme.clips.shaping import find_planted_feet, measure_loops
 from kineme.datasets import bundled_truth
 from kineme.features import measure_body_size
@@ -83,6 +88,17 @@ def test_straight_and_closed_clips_are_the_same(motion, rooted) -> None:
         carry = find_carry(clip)
         check_body(straighten(clip, carry)[0], straighten(other, carry)[0])
         check_body(*(repeat_first_frame(*make_loop(each)) for each in (clip, other)))
+
+
+def test_a_root_bone_that_moves_stays_below_the_body(motion) -> None:
+    clip = cut(motion, 240, 354)
+    for carry in (None, find_carry(clip)):
+        rooted = extract_root_motion(clip, carry)
+        still, _ = remove_root_motion(rooted, carry)
+        assert np.linalg.norm(still.positions[:, 0], axis=1).max() < 0.3
+    closed, carry = make_loop(rooted)
+    again = repeat_first_frame(closed, carry).positions
+    np.testing.assert_allclose(again[-1], carry.apply(again[0]), atol=1e-9)
 
 
 def check_body(motion: Motion, rooted: Motion) -> None:

@@ -32,7 +32,7 @@ from kineme.errors import EndEffectorError, MotionError
 from kineme.features import EndEffectors, compute_heading, end_effectors
 from kineme.features.pose import find_facing, find_parting
 from kineme.recordings import Motion
-from kineme.recordings.carriers import place_frames
+from kineme.recordings.carriers import find_still_joints, place_frames
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root, get_rig
 
@@ -104,6 +104,8 @@ def remove_root_motion(
 
     Joints that stand ``still`` stay; by default those that do so in this motion.
     """
+    # Find them before the motion is removed, which makes more joints stand still.
+    still = find_still_joints(motion) if still is None else still
     start = measure_root_motion(motion, carry)
     unmoved = _follow_path(motion, carry, still=still)
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
