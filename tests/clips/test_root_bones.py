@@ -101,6 +101,19 @@ def test_a_root_bone_that_moves_stays_below_the_body(motion) -> None:
     np.testing.assert_allclose(again[-1], carry.apply(again[0]), atol=1e-9)
 
 
+def test_root_bones_at_two_places_do_not_move_the_body(motion, rooted) -> None:
+    truth = kineme.read_segments(bundled_truth())
+    aside = np.array(rooted.positions)
+    aside[:, find_still_joints(rooted)] += [3.0, 0, 0]
+    graph = kineme.motion_graph([motion, motion], [truth, truth])
+    route = random_route(graph, 20.0, seed=1)
+    assert {graph.nodes[node].source for node in route} == {0, 1}
+    check_body(
+        kineme.synthesize(graph, [motion, motion], route, plant=False),
+        kineme.synthesize(graph, [rooted, replace(rooted, positions=aside)], route, plant=False),
+    )
+
+
 def check_body(motion: Motion, rooted: Motion) -> None:
     """Check that both bodies have the same positions and axes, and that the root bones stay."""
     body, others = list(rooted.skeleton.body), find_still_joints(rooted)

@@ -223,6 +223,8 @@ def _blend_spans(
         w = w * w * (3 - 2 * w)
         rotations[t - n : t + n] = rot.slerp(before, after, w)
         translations[t - n : t + n] = (1 - w) * before_shift + w * after_shift
+    # Bones that stand still may do so elsewhere in each source: they stay as in the first.
+    rotations[:, still], translations[:, still] = (each[0, still] for each in sources[0])
     return to_parent_axes(motions[0].skeleton, rotations, translations, still)
 
 
