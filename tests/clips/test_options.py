@@ -84,6 +84,8 @@ def test_all_takes_of_a_character_are_animations_of_one_copy(data_dir, tmp_path)
     clips = read_clips(tmp_path, "clips.manifest.json")
     assert {clip["take"].split("_")[0] for clip in clips} == {"agree", "headShake", "idle"}
     assert {*list_takes(target)} == {clip["take"] for clip in clips}
+    assert {clip["source_take"] for clip in clips} == {"agree", "headShake", "idle"}
+    assert "source_take" in (tmp_path / "clips.manifest.csv").read_text().splitlines()[0]
     split_all(found, target)  # its own file is replaced
     (tmp_path / "mine.glb").write_bytes(b"mine")
     with pytest.raises(WriteError, match="exists already without a manifest"):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from importlib.resources import files
+from math import degrees
 from pathlib import Path
 
 import jsonschema
@@ -20,10 +22,17 @@ from kineme.clips.loops import (
     make_loop,
     measure_loop,
 )
-from kineme.clips.root_motion import measure_root_motion, remove_root_motion, straighten
+from kineme.clips.root_motion import (
+    extract_root_motion,
+    measure_root_motion,
+    remove_root_motion,
+    straighten,
+)
 from kineme.clips.split import split
 from kineme.errors import ParameterError
+from kineme.features import compute_heading
 from kineme.recordings import Motion
+from kineme.recordings.carriers import place_frames
 from kineme.recordings.operations import cut
 from segmentations import make_activities
 
@@ -90,6 +99,31 @@ def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_b
         there, here = np.array(moved), closed.positions[..., [0, 2]]
         apart = [np.linalg.norm(each - each[:1, :1], axis=-1) for each in (there, here)]
         assert np.abs(apart[0] - apart[1]).max() < 1e-4
+
+
+def test_clips_of_uneven_speed_and_turn_stay_in_place(motion) -> None:
+    n, frame = 300, motion[100:101]
+    pose, axes = (np.repeat(each, n, axis=0) for each in (frame.positions, frame.rotations))
+    # Go 3 m, faster and slower again, and turn left by 90 degrees towards the end.
+    share = np.linspace(0, 1, n)
+    target = pose[0, 0] * [1, 0, 1] + (3 * share**2 * (3 - 2 * share))[:, None] * [0, 0, 1.0]
+    clip = replace(motion, positions=pose, rotations=axes, gaps=())
+    clip = place_frames(clip, np.pi / 2 * share**3, pose[0, 0] * [1, 0, 1], target)
+    still, root = remove_root_motion(clip, None)
+    assert np.ptp(still.positions, axis=0).max() < 0.25
+    even, _ = remove_root_motion(clip, find_carry(clip))
+    assert np.ptp(even.positions[:, 0], axis=0).max() > 0.5
+    assert degrees(root.turn) == pytest.approx(90 * motion.fps / (n - 1), rel=0.02)
+    rooted = extract_root_motion(clip, None)
+    np.testing.assert_allclose(rooted.positions[:, 1:], clip.positions, atol=1e-9)
+    behind = (rooted.positions[:, 1] - rooted.positions[:, 0])[:, [0, 2]]
+    assert np.linalg.norm(behind, axis=1).max() < 0.2
+    straight, _ = straighten(clip, None)
+    assert np.ptp(compute_heading(straight)[1]) < 0.2
+    # A pose that changes does not travel.
+    bent = np.array(clip.positions[:2])
+    bent[1, 1:, 2] += 0.3
+    assert measure_root_motion(replace(clip[:2], positions=bent), None).speed < 0.02
 
 
 @given(st.floats(-3.1, 3.1), st.floats(-3, 3), st.floats(-3, 3))

@@ -192,6 +192,17 @@ def test_scales_ends_and_the_rate_of_keys(tmp_path: Path) -> None:
         assert kineme.read(file.save(tmp_path / "a.glb")).n_frames == 31
 
 
+def test_motion_above_the_bones_is_that_of_the_root(tmp_path: Path) -> None:
+    still = read_motion(make_leg().turn(2).save(tmp_path / "a.glb"), fps=10)
+    assert "above" not in " ".join(still.provenance.notes)
+    walked = (0, "translation", [0, 1], [[0, 0, 0], [0, 0, 1.5]], "LINEAR")
+    file = make_leg().animate("a", walked, (2, "rotation", [0, 1], [NONE, TURN], "LINEAR"))
+    motion = read_motion(file.save(tmp_path / "a.glb"), fps=10)
+    assert motion.positions[-1, 0] == pytest.approx([0, 0.9, 1.5])
+    note = "motion of Armature, above the bones, is that of Hips in clips"
+    assert note in motion.provenance.notes
+
+
 def test_whole_numbers_matrices_and_buffers_beside(tmp_path: Path) -> None:
     nodes = [dict(node) for node in LEG]
     matrix = np.eye(4)

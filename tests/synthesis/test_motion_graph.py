@@ -17,12 +17,14 @@ from kineme.errors import ParameterError
 from kineme.features.point_clouds import compute_cloud_distances, fit_clouds
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut, move, turn
+from kineme.recordings.posing import add_root
 from kineme.synthesis import (
     Edge,
     MotionGraph,
     Node,
     Source,
     action_route,
+    check_source,
     find_following,
     load_sources,
     motion_graph,
@@ -52,6 +54,8 @@ def test_fitting_undoes_a_turn_and_a_move(exercises: Motion) -> None:
     whole = compute_cloud_distances(exercises.positions, slice(10, 30), slice(100, 120), half=3)
     pairs = fit_clouds(exercises.positions, at, at + 90, half=3)[0]
     assert pairs == pytest.approx(np.diag(whole), abs=1e-7)
+    # In a single walk cycle no frames are close enough.
+    assert all(len(each) == 0 for each in fit_clouds(points, at[:0], at[:0], half=3))
 
 
 def test_every_way_leads_on_and_every_jump_is_near_its_border(graph: MotionGraph) -> None:
@@ -109,6 +113,20 @@ def test_recordings_that_do_not_fit_are_refused(exercises: Motion) -> None:
         motion_graph([])
     with pytest.raises(ParameterError, match="threshold must be"):
         motion_graph([exercises], threshold=0)
+
+
+def test_only_offsets_of_joints_that_move_may_differ(exercises: Motion) -> None:
+    rooted = add_root(exercises)
+
+    def change(joint: str) -> Motion:
+        offsets = np.array(rooted.skeleton.offsets)
+        offsets[rooted.skeleton.names.index(joint)] += [0, 0.02, 0]
+        return replace(rooted, skeleton=replace(rooted.skeleton, offsets=offsets))
+
+    check_source(change("root"), rooted)
+    check_source(change("Hips"), rooted)  # moves over the floor
+    with pytest.raises(ParameterError, match="another skeleton"):
+        check_source(change("LeftLeg"), rooted)
 
 
 def test_pruning_keeps_what_reaches_itself() -> None:

@@ -44,12 +44,15 @@ from numpy.typing import NDArray
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats, Masks, interpolate_frames
 from kineme.recordings import Motion
-from kineme.recordings.kinematics import (
-    compute_local_translations,
-    compute_world_rotations,
-    forward_kinematics,
+from kineme.recordings.carriers import (
+    find_carriers,
+    find_still_joints,
+    place_frames,
+    to_parent_axes,
+    to_world_axes,
 )
-from kineme.recordings.operations import cut, move, turn
+from kineme.recordings.kinematics import forward_kinematics
+from kineme.recordings.operations import cut
 
 NEAR_S = 0.035
 """Seconds at either end of a clip used to fit the parabolas."""
@@ -115,33 +118,25 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
         free = np.ones(motion.positions.shape[1], bool)
         positions = _close_translations(motion.positions, fps, carry, free)
         return replace(motion, positions=positions, provenance=provenance), carry
-    skeleton, hips = motion.skeleton, motion.skeleton.carrier
-    above = skeleton.parents[hips]
-    # Joints in world axes, to which the carry applies: the roots.
-    free = np.array(skeleton.parents) < 0
-    rotations = np.array(motion.rotations)
-    translations = compute_local_translations(skeleton, motion.positions, motion.rotations)
-    if above >= 0:  # bones above the hips stay: bring the hips to world axes instead
-        free = np.arange(skeleton.n_joints) == hips
-        around = compute_world_rotations(skeleton, rotations)[:, above]
-        rotations[:, hips] = rot.multiply(around, rotations[:, hips])
-        translations[:, hips] = motion.positions[:, hips]
-    rotations = _close_rotations(rotations, fps, carry, free)
-    translations = _close_translations(translations, fps, carry, free)
-    if above >= 0:
-        positions = forward_kinematics(skeleton, rotations, translations=translations)
-        # Back to the axes of the bone above, as they are after blending.
-        back = rot.conjugate(compute_world_rotations(skeleton, rotations)[:, above])
-        rotations[:, hips] = rot.multiply(back, rotations[:, hips])
-        translations[:, hips] = rot.rotate(back, translations[:, hips] - positions[:, above])
+    skeleton, still = motion.skeleton, find_still_joints(motion)
+    # Joints in world axes, to which the carry applies.
+    free = find_carriers(skeleton, still)
+    rotations, translations = to_world_axes(motion, still)
+    rotations, translations = to_parent_axes(
+        skeleton,
+        _close_rotations(rotations, fps, carry, free),
+        _close_translations(translations, fps, carry, free),
+        still,
+    )
     positions = forward_kinematics(skeleton, rotations, translations=translations)
     return Motion(skeleton, positions, fps, rotations, provenance), carry
 
 
 def repeat_first_frame(motion: Motion, carry: Carry) -> Motion:
     """Append the first frame of a loop, moved by the carry, as game engines expect."""
-    again = move(turn(cut(motion, 0, 1), carry.turn), carry.shift)
-    rotations = motion.rotations
+    still, rotations = find_still_joints(motion), motion.rotations
+    turn = np.array([carry.turn])
+    again = place_frames(cut(motion, 0, 1), turn, np.zeros(3), carry.shift, still)
     if rotations is not None and again.rotations is not None:
         rotations = np.concatenate([rotations, again.rotations])
     positions = np.concatenate([motion.positions, again.positions])

@@ -35,7 +35,7 @@ MANIFEST, MANIFEST_JSON = "manifest.csv", "manifest.json"
 SPANS = ("start_frame", "stop_frame", "start_s", "stop_s", "level", "kind", "cluster", "label")
 RANKED = ("rank", "cost")
 CARRY = ("turn_deg", "x_m", "z_m")
-ANIMATION, TAGGED = "animation", "tags"
+ANIMATION, TAGGED, SOURCE_TAKE = "animation", "tags", "source_take"
 DIGITS = 6
 """Decimal places in JSON."""
 SHOWN = 24
@@ -52,6 +52,7 @@ class Clip:
     segment: Segment
     n_frames: int
     fps: float
+    source_take: str | None = None
     animation: str | None = None
     carry: Carry | None = None
     quality: LoopQuality | None = None
@@ -119,6 +120,7 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "file": clip.file,
         "take": clip.animation,
         "source": clip.source,
+        "source_take": clip.source_take,
         "start_frame": row.start_frame,
         "stop_frame": row.stop_frame,
         "start_s": row.start_s,
@@ -169,6 +171,8 @@ def _format_carry(carry: Carry) -> tuple[float, float, float]:
 def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bool) -> None:
     # Only loops have ranks and carries.
     more = [*((*RANKED, *CARRY) if loops else ()), *((ANIMATION,) if animations else ())]
+    takes = any(clip.source_take for clip in clips)
+    more += [SOURCE_TAKE] if takes else []
 
     def make_cells(clip: Clip) -> list[object]:
         cells: list[object] = [clip.file, clip.source]
@@ -177,7 +181,8 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
         if loops:
             cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
             cells += ["", "", ""] if clip.carry is None else _format_carry(clip.carry)
-        return [*cells, clip.animation or ""] if animations else cells
+        cells += [clip.animation or ""] if animations else []
+        return [*cells, clip.source_take or ""] if takes else cells
 
     with path.open("w", encoding="utf-8", newline="") as file:
         write_rows(file, ["file", "source", *SPANS, TAGGED, *more], map(make_cells, clips))

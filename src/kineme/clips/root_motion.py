@@ -1,8 +1,11 @@
 """Separate the root motion of a clip from its motion in place, and tag how a body travels.
 
-Root motion has constant speed and turning rate from the first frame to the one after the last, so
-that its path is a line or an arc. The rest, such as the sway of the hips, stays in the poses. So a
-loop in place closes, and two speeds and a rate restore its path.
+Root motion of a loop has constant speed and turning rate from the first frame to the one after the
+last, so that its path is a line or an arc. The rest, such as the sway of the hips, stays in the
+poses. So a loop in place closes, and two speeds and a rate restore its path.
+
+Root motion of other clips, which have no `Carry`, is the smoothed path and heading of the hips,
+since their speed varies. Its mean speeds are measured in the axes of the turning body.
 
 Source: the exponential map of rigid motions of the plane, as in Murray, Li, Sastry, "A
 Mathematical Introduction to Robotic Manipulation", 1994, section 3.2.
@@ -23,17 +26,23 @@ from typing import Literal, get_args
 import numpy as np
 
 from kineme._util import rotations as rot
-from kineme._util.arrays import Floats
-from kineme.clips.loops import Carry
+from kineme._util.arrays import Floats, Masks
+from kineme.clips.loops import Carry, find_carry
 from kineme.errors import EndEffectorError, MotionError
 from kineme.features import EndEffectors, compute_heading, end_effectors
 from kineme.features.pose import find_facing, find_parting
 from kineme.recordings import Motion
+from kineme.recordings.carriers import find_still_joints, place_frames
 from kineme.recordings.kinematics import compute_world_rotations
 from kineme.recordings.posing import add_root, get_rig
 
 STRAIGHT = 1e-9
 """Turn in radians per round below which a path is a straight line."""
+SMOOTH_S = 0.4
+"""Standard deviation of the Gaussian that smooths the path of the hips, seconds. It leaves 4 % of
+the sway at 1 Hz in the path."""
+TILT = 0.8
+"""Vertical part of the line of the hips above which its heading is not used."""
 Tag = Literal[
     "forwards", "backwards", "left", "right", "in place", "turn left", "turn right", "start", "stop"
 ]
@@ -55,7 +64,7 @@ _LEAST = 0.1  # horizontal length of the head's axis below which gaze is undefin
 
 @dataclass(frozen=True)
 class RootMotion:
-    """Constant root motion: metres per second in the body's axes, and radians per second.
+    """Mean root motion: metres per second in the body's axes, and radians per second.
 
     ``x`` is to the left and ``z`` ahead if the clip faces +z, as clips in place do.
 
@@ -75,22 +84,35 @@ class RootMotion:
         return hypot(self.x, self.z)
 
 
-def measure_root_motion(motion: Motion, carry: Carry) -> RootMotion:
-    """Return the root motion for this carry, in the axes of the recording."""
+def measure_root_motion(motion: Motion, carry: Carry | None) -> RootMotion:
+    """Return the root motion for this carry, or of no loop, in the axes of the recording."""
+    if carry is None:
+        # The path ends at the last frame, not one frame later.
+        turns, _, straight = (each[-1] for each in _trace_hips(motion))
+        seconds = max(motion.n_frames - 1, 1) / motion.fps
+        return RootMotion(straight[0] / seconds, straight[2] / seconds, float(turns) / seconds)
     # Relative to the start of the hips, the carry contains only the motion of the body.
     shift = _solve_even_shift(_move_origin(carry, _find_start(motion)))
     seconds = motion.n_frames / motion.fps
     return RootMotion(shift[0] / seconds, shift[2] / seconds, carry.turn / seconds)
 
 
-def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion]:
-    """Return the motion in place at the origin, facing +z, and the removed root motion."""
+def remove_root_motion(
+    motion: Motion, carry: Carry | None, still: Masks | None = None
+) -> tuple[Motion, RootMotion]:
+    """Return the motion in place at the origin, facing +z, and the removed root motion.
+
+    Joints that stand ``still`` stay; by default those that do so in this motion.
+    """
+    # Find them before the motion is removed, which makes more joints stand still.
+    still = find_still_joints(motion) if still is None else still
     start = measure_root_motion(motion, carry)
-    unmoved = _follow_path(motion, carry, np.zeros(3))
+    unmoved = _follow_path(motion, carry, still=still)
     x, _, z = unmoved.positions[:, motion.skeleton.carrier].mean(axis=0)
     facing, center = _measure_facing(unmoved), np.array([x, 0.0, z])
     # Turn the mean heading to +z, about the mean position of the hips, which moves to the origin.
-    settled = _turn_frames(unmoved, np.full(motion.n_frames, -facing), center, np.zeros(3))
+    turns = np.full(motion.n_frames, -facing)
+    settled = place_frames(unmoved, turns, center, np.zeros(3), still)
     # Velocity of the point that moves to the origin, not of the root in frame 0.
     arm = center - _find_start(motion)
     # Velocity of a point off the axis: rotation adds turn times arm, at right angles.
@@ -104,15 +126,15 @@ def remove_root_motion(motion: Motion, carry: Carry) -> tuple[Motion, RootMotion
     return _add_note(settled, "root motion removed, moved to the origin"), removed
 
 
-def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
+def extract_root_motion(motion: Motion, carry: Carry | None) -> Motion:
     """Return the motion with a root bone on the floor that follows the root motion.
 
     The root bone is the topmost bone above the hips, or a new one. Other joints do not move.
     """
-    _, path, turns = _compute_path(motion, carry)
+    turns, path, _ = _compute_path(motion, carry)
     places = _find_start(motion) + path
     places[:, 1] = 0.0
-    facing = _measure_facing(_follow_path(motion, carry, np.zeros(3)))
+    facing = _measure_facing(_follow_path(motion, carry))
     if motion.skeleton.parents[motion.skeleton.carrier] < 0:
         motion = add_root(motion)
     skeleton = motion.skeleton
@@ -132,26 +154,32 @@ def extract_root_motion(motion: Motion, carry: Carry) -> Motion:
     return _add_note(moved, "root motion moved to a root bone")
 
 
-def straighten(motion: Motion, carry: Carry) -> tuple[Motion, Carry]:
+def straighten(motion: Motion, carry: Carry | None) -> tuple[Motion, Carry | None]:
     """Return the motion without its turn, so that the body keeps its initial direction."""
+    straight = _add_note(_follow_path(motion, carry, straight=True), "turn removed")
+    if carry is None:
+        return straight, None
     shift = _solve_even_shift(_move_origin(carry, _find_start(motion)))
-    straight = _add_note(_follow_path(motion, carry, shift), "turn removed")
     return straight, Carry(0.0, float(shift[0]), float(shift[2]))
 
 
-def _follow_path(motion: Motion, carry: Carry, shift: Floats) -> Motion:
-    """Replace the root motion by a constant shift."""
-    shares, path, turns = _compute_path(motion, carry)
+def _follow_path(
+    motion: Motion, carry: Carry | None, *, straight: bool = False, still: Masks | None = None
+) -> Motion:
+    """Remove the root motion, or only its turn."""
+    turns, path, without_turn = _compute_path(motion, carry)
     start = _find_start(motion)
-    target = start + shares[:, None] * shift
-    return _turn_frames(motion, -turns, start + path, target)
+    target = start + without_turn if straight else start
+    return place_frames(motion, -turns, start + path, target, still)
 
 
-def _compute_path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]:
-    """Return the fraction of the round, shift and turn of each frame.
+def _compute_path(motion: Motion, carry: Carry | None) -> tuple[Floats, Floats, Floats]:
+    """Return the turn and shift of each frame, and its shift without the turn.
 
-    Shapes are (frames,), (frames, 3) and (frames,); the turn is in radians.
+    Shapes are (frames,), (frames, 3) and (frames, 3); the turn is in radians.
     """
+    if carry is None:
+        return _trace_hips(motion)
     about = _move_origin(carry, _find_start(motion))
     speed = _solve_even_shift(about)
     # The frame after the last one would be fraction 1, so the end is left out.
@@ -160,21 +188,49 @@ def _compute_path(motion: Motion, carry: Carry) -> tuple[Floats, Floats, Floats]
         # Position on the arc: time times the mean rotation so far, applied to the velocity.
         [share * (_compute_mean_rotation(share * about.turn) @ speed) for share in shares.tolist()]
     )
-    return shares, path, shares * about.turn
+    return shares * about.turn, path, shares[:, None] * speed
 
 
-def _turn_frames(motion: Motion, turns: Floats, centers: Floats, targets: Floats) -> Motion:
-    """Turn each frame about the vertical through its center, and move the center to its target."""
-    quaternions = rot.rotate_about_y(turns)[:, None]
-    centers, targets = (np.broadcast_to(each, (motion.n_frames, 3)) for each in (centers, targets))
-    positions = rot.rotate(quaternions, motion.positions - centers[:, None]) + targets[:, None]
-    rotations = motion.rotations
-    # Roots only: all other joints are relative to their parents.
-    if rotations is not None:
-        roots = [j for j, parent in enumerate(motion.skeleton.parents) if parent < 0]
-        rotations = np.array(rotations)
-        rotations[:, roots] = rot.multiply(quaternions, rotations[:, roots])
-    return replace(motion, positions=positions, rotations=rotations)
+def _trace_hips(motion: Motion) -> tuple[Floats, Floats, Floats]:
+    """Return the smoothed path of the hips, like `_compute_path`."""
+    path = _smooth(motion.positions[:, motion.skeleton.carrier] * [1, 0, 1], motion.fps)
+    path -= path[0].copy()
+    turns = _smooth(_measure_turns(motion), motion.fps)
+    # Turn each step back by the mean turn of its two frames.
+    back = rot.rotate_about_y(-(turns[1:] + turns[:-1]) / 2)
+    straight = np.zeros_like(path)
+    np.cumsum(rot.rotate(back, np.diff(path, axis=0)), axis=0, out=straight[1:])
+    return turns, path, straight
+
+
+def _measure_turns(motion: Motion) -> Floats:
+    """Return the turn of the hips since the first frame, radians (frames,)."""
+    try:
+        ends = end_effectors(motion)
+        _, left, right = find_parting(motion.skeleton, ends.left_ankle, ends.right_ankle)
+        _, headings = compute_heading(motion, effectors=ends)
+    except (EndEffectorError, MotionError):
+        return np.zeros(motion.n_frames)
+    across = motion.positions[:, left] - motion.positions[:, right]
+    # In a cartwheel the line of the hips turns over, so its direction does not tell a turn.
+    if (np.abs(across[:, 1]) > TILT * np.linalg.norm(across, axis=1)).any():
+        return np.linspace(0.0, find_carry(motion).turn, motion.n_frames, endpoint=False)
+    turns: Floats = np.unwrap(headings) - headings[0]
+    return turns
+
+
+def _smooth(values: Floats, fps: float) -> Floats:
+    """Return smoothed values (frames, ...); constant changes and the first value stay."""
+    from scipy.ndimage import gaussian_filter1d  # heavy, and seldom needed
+
+    if len(values) < 2:
+        return values.copy()
+    sigma = SMOOTH_S * fps
+    more = int(4 * sigma) + 1  # the filter reaches 4 standard deviations
+    # Mirror the curve in its end points, so that it goes on as it does there.
+    widths = [(more, more), *[(0, 0)] * (values.ndim - 1)]
+    padded = np.pad(values, widths, "reflect", reflect_type="odd")
+    return np.asarray(gaussian_filter1d(padded, sigma, axis=0)[more:-more])
 
 
 def _move_origin(carry: Carry, place: Floats) -> Carry:

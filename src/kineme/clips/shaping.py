@@ -38,6 +38,7 @@ from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, compute_body_frame, end_effectors
 from kineme.recordings import Motion
 from kineme.recordings.arrays import find_spans, to_samples
+from kineme.recordings.carriers import find_still_joints
 from kineme.recordings.operations import cut, resample
 from kineme.segments.table import Segment
 
@@ -255,8 +256,7 @@ def _shape_clip(
     rank: int | None,
 ) -> ShapedClip:
     """Return the clip of a segment in the requested shape; ``quality`` is None if it is no loop."""
-    clip = cut(motion, row.start_frame, row.stop_frame)
-    carry = find_carry(clip)
+    clip, carry = cut(motion, row.start_frame, row.stop_frame), None
     if quality is not None:
         # Loops have a carry of exactly one round after blending.
         clip, carry = make_loop(clip)
@@ -268,11 +268,12 @@ def _shape_clip(
     if shape.root_motion == "extract":
         clip = extract_root_motion(clip, carry)
     elif shape.root_motion == "in-place":
-        clip, root = remove_root_motion(clip, carry)
-        carry = Carry(0.0, 0.0, 0.0)
+        # A root bone that moves elsewhere in the recording is moved with the body here too.
+        clip, root = remove_root_motion(clip, carry, find_still_joints(motion))
+        carry = carry and Carry(0.0, 0.0, 0.0)
     # Computed before the first frame is repeated, so that `last` is the end of the round.
     poses = _describe_end_poses(clip)
-    if shape.close and quality is not None:
+    if shape.close and carry is not None:
         clip = repeat_first_frame(clip, carry)
     # Spans of frames of the clip in which each foot is planted.
     planted = {
@@ -283,7 +284,7 @@ def _shape_clip(
         index,
         row,
         motion=clip,
-        carry=carry if quality is not None else None,
+        carry=carry,
         root=root,
         planted=planted or None,
         quality=quality,

@@ -22,6 +22,7 @@ details (see `kineme.clips.manifest`):
 ``turn_deg``, ``x_m``,       for loops: motion from one round to the next, a turn
 ``z_m``                      about the vertical axis, then a shift
 ``animation``                for files with several clips: the name of the clip
+``source_take``              for recordings with takes: the take it was cut from
 ============================ =====================================================
 
 The folder is written atomically, and existing files are never changed.
@@ -382,6 +383,7 @@ class _ClipNamer:
             name=name,
             file=file or f"{own}{suffix}",
             source=self.source.encode(errors="backslashreplace").decode(),
+            source_take=self.recording.provenance.take,
             segment=segment,
             **fields,
         )

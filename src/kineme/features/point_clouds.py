@@ -106,7 +106,8 @@ def _make_clouds(
     """Return centred floor coordinates, heights, and the centre, with one row per cloud."""
     frames = centers[:, None] + np.arange(-half, half + 1)
     # (clouds, points of the window, 3).
-    cloud = points[np.clip(frames, 0, len(points) - 1)].reshape(len(frames), -1, 3)
+    size = frames.shape[1] * points.shape[1]  # not -1, as there may be no frames
+    cloud = points[np.clip(frames, 0, len(points) - 1)].reshape(len(frames), size, 3)
     floor = cloud[..., 0] + 1j * cloud[..., 2]
     center = floor.mean(axis=1)
     return floor - center[:, None], cloud[..., 1], center

@@ -27,6 +27,12 @@ from kineme.features import end_effectors
 from kineme.features.effectors import find_low_and_slow
 from kineme.recordings import Motion, Provenance
 from kineme.recordings.arrays import find_spans
+from kineme.recordings.carriers import (
+    find_carriers,
+    find_still_joints,
+    to_parent_axes,
+    to_world_axes,
+)
 from kineme.recordings.kinematics import (
     compute_local_translations,
     compute_world_rotations,
@@ -190,20 +196,17 @@ def _blend_spans(
     spans: Sequence[PlacedSpan], motions: Sequence[Motion], half: int
 ) -> tuple[Floats, Floats]:
     """Return rotations and translations of all spans, blended ``half`` frames around each jump."""
-    shifts = [
-        compute_local_translations(motion.skeleton, motion.positions, motion.rotations)
-        for motion in motions
-    ]
+    # Blend what carries the body in world axes, and leave bones above it that stand still alone.
+    still = find_still_joints(*motions)
+    carriers = find_carriers(motions[0].skeleton, still)
+    sources = [to_world_axes(motion, still) for motion in motions]
 
     def place_frames(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
-        rotations = np.array(motions[span.source].rotations)[start:stop]
-        shift = shifts[span.source][start:stop].copy()
-        # Roots only: all other joints are relative to their parents.
-        roots = [j for j, parent in enumerate(motions[0].skeleton.parents) if parent < 0]
+        rotations, shift = (each[start:stop].copy() for each in sources[span.source])
         about_y = rot.rotate_about_y(span.at.angle)
-        rotations[:, roots] = rot.multiply(about_y, rotations[:, roots])
-        shift[:, roots] = rot.rotate(about_y, shift[:, roots])
-        shift[:, roots] += [span.at.shift.real, 0, span.at.shift.imag]
+        rotations[:, carriers] = rot.multiply(about_y, rotations[:, carriers])
+        shift[:, carriers] = rot.rotate(about_y, shift[:, carriers])
+        shift[:, carriers] += [span.at.shift.real, 0, span.at.shift.imag]
         return rotations, shift
 
     placed_spans = [place_frames(span, span.start, span.stop) for span in spans]
@@ -220,7 +223,9 @@ def _blend_spans(
         w = w * w * (3 - 2 * w)
         rotations[t - n : t + n] = rot.slerp(before, after, w)
         translations[t - n : t + n] = (1 - w) * before_shift + w * after_shift
-    return rotations, translations
+    # Bones that stand still may do so elsewhere in each source: they stay as in the first.
+    rotations[:, still], translations[:, still] = (each[0, still] for each in sources[0])
+    return to_parent_axes(motions[0].skeleton, rotations, translations, still)
 
 
 def plant_feet(motion: Motion) -> Motion:

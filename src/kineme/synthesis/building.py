@@ -46,6 +46,9 @@ bundled recording, 0.05 already connects all but at most two nodes of each."""
 WINDOW = 1 / 3
 """Window of a jump in seconds, as used by Kovar and Gleicher."""
 
+OFFSET = 1e-3
+"""Metres by which offsets of one skeleton may differ, due to rounding in the files."""
+
 
 def motion_graph(
     motions: Sequence[Motion],
@@ -153,14 +156,24 @@ def check_source(motion: Motion, first: Motion) -> None:
     same = (
         motion.skeleton.names == first.skeleton.names
         and motion.skeleton.parents == first.skeleton.parents
-        # Offsets may differ by rounding in the files, up to a millimetre.
-        and np.allclose(motion.skeleton.offsets, first.skeleton.offsets, atol=1e-3)
+        and _have_equal_bones(motion, first)
     )
     if not same or motion.fps != first.fps:
         raise ParameterError(
             f"{where} has another skeleton or frame rate than "
             f"{first.provenance.path or 'the first motion'}: build one graph for each"
         )
+
+
+def _have_equal_bones(motion: Motion, first: Motion) -> bool:
+    """Return whether offsets are equal up to rounding, except those of joints that slide."""
+    parents = np.array(first.skeleton.parents)
+    rigid = parents >= 0
+    for each in (motion, first):
+        lengths = np.linalg.norm(each.positions - each.positions[:, parents], axis=2)
+        rigid &= np.ptp(lengths, axis=0) <= OFFSET
+    offsets = motion.skeleton.offsets[rigid], first.skeleton.offsets[rigid]
+    return np.allclose(*offsets, atol=OFFSET)
 
 
 def _make_nodes(segmentations: Sequence[Segmentation]) -> tuple[list[Node], list[Edge]]:

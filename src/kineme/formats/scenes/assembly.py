@@ -101,6 +101,10 @@ def assemble(
         if any(_find_uniform_scale(each.scale, UNIFORM) is None for each in transforms):
             remark = "its bones are scaled unevenly or over time: joints slide in clips instead"
             provenance = provenance.noted(Note(remark, "warning"))
+    if moving := [nodes[node].name for node in ancestors if _is_moving(transform(node))]:
+        root = nodes[joints[0]].name
+        remark = f"motion of {join_names(moving)}, above the bones, is that of {root} in clips"
+        provenance = provenance.noted(remark)
     rig = _build_rig(nodes, chain, len(joints), rest, to_metres(unit), turn, numbers)
     if rig is None:
         remark = "its bones are mirrored or scaled unevenly at rest: clips have another rest pose"
@@ -177,6 +181,11 @@ def _apply_scale(
         scales.append((_multiply_scale(world, parent_scale, factor, current.inheritance), factor))
         _store_shift(j, world * current.translation, offsets, slides)
     return rotations, offsets, slides
+
+
+def _is_moving(transform: Transform) -> bool:
+    curves = np.atleast_2d(transform.translation), np.atleast_2d(transform.rotation)
+    return any(np.ptp(curve, axis=0).max() > TOLERANCE for curve in curves)
 
 
 def _multiply_scale(world: float, parent: float, factor: float, inheritance: Inheritance) -> float:
