@@ -10,7 +10,8 @@ entry for each clip, and one for each recording with the ranges that were cut fr
      "clips": [{"sequence": "take_0000_walk", "file": "take.glb", "range_s": [0, 1.1],
                 "loop": true, "mirrored": false, "tags": ["walk", "forwards"],
                 "feet": {"left": [[0, 0.2]]}}],
-     "recordings": [{"source": "take.bvh", "ranges": [{"range_s": [2.7, 3.8], "tags": ["walk"]}]}]}
+     "recordings": [{"source": "take.bvh", "take": null,
+                     "ranges": [{"range_s": [2.7, 3.8], "tags": ["walk"]}]}]}
 
 Seconds throughout; a range ends one frame after its last. Needs Python only.
 """
@@ -36,15 +37,17 @@ def main() -> None:
 
 def motion_matching(clips: list[dict[str, Any]]) -> dict[str, Any]:
     """The list of the clips of a manifest."""
-    recordings: dict[str, list[dict[str, Any]]] = {}
+    recordings: dict[tuple[str, str | None], list[dict[str, Any]]] = {}
     for clip in sorted(clips, key=lambda clip: clip["start_s"]):
         span = [clip["start_s"], clip["stop_s"]]
-        recordings.setdefault(clip["source"], []).append({"range_s": span, "tags": tags(clip)})
+        source = clip["source"], clip["source_take"]
+        recordings.setdefault(source, []).append({"range_s": span, "tags": tags(clip)})
     return {
         "schema": "kineme.motion_matching/1",
         "clips": [sequence(clip) for clip in clips],
         "recordings": [
-            {"source": source, "ranges": ranges} for source, ranges in recordings.items()
+            {"source": source, "take": take, "ranges": ranges}
+            for (source, take), ranges in recordings.items()
         ],
     }
 

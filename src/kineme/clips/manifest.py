@@ -97,17 +97,12 @@ def _as_text(clip: Clip) -> str:
     return "{\n" + ",\n".join(lines) + "\n}"
 
 
-def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, int, str, int]:
-    """Return a sort key: loops by cluster and rank, then other clips."""
+def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, str, int, str, int]:
+    """Return a sort key: loops by recording, take, cluster and rank, then other clips."""
     if clip.rank is None:
-        return True, "", 0, "", 0
-    return (
-        False,
-        "" if together else clip.source,
-        clip.segment.cluster,
-        clip.segment.label,
-        clip.rank,
-    )
+        return True, "", "", 0, "", 0
+    source = ("", "") if together else (clip.source, clip.source_take or "")
+    return False, *source, clip.segment.cluster, clip.segment.label, clip.rank
 
 
 def _as_json(clip: Clip) -> dict[str, Any]:
