@@ -12,6 +12,7 @@ from kineme.errors import KinemeWarning
 from kineme.formats import read, write
 from kineme.formats.units import UNITS, infer_rate
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import compute_local_translations
 
 REAL = [
     ("formats/PyMO_AV_8Walk", "inch", 120.0),
@@ -97,6 +98,46 @@ def test_channels_in_any_order(tmp_path: Path) -> None:
     for x, y in (("0", "90"), ("1", "91"), ("2", "92")):
         text = text.replace(f"\n{x} {y} ", f"\n{y} {x} ")
     np.testing.assert_array_equal(load(tmp_path, text).positions, load(tmp_path).positions)
+
+
+def test_channels_stay_and_angles_are_continuous(tmp_path: Path) -> None:
+    turns = np.linspace(0, 800, 50)
+    frames = "".join(f"0 90 0 {a} 20 30 1 {a / 5} 3 0 -80 0 4 5 6 7 8 9\n" for a in turns)
+    head = BVH[: BVH.index("Frames:")]
+    text = f"{head}Frames: 50\nFrame Time: 0.01\n{frames}"
+    write(load(tmp_path, text, up="y"), tmp_path / "again.bvh")
+    again = (tmp_path / "again.bvh").read_text()
+    kept = [line for line in text.splitlines() if "CHANNELS" in line]
+    assert [line for line in again.splitlines() if "CHANNELS" in line] == kept
+    values = [[float(word) for word in line.split()] for line in again.splitlines()[-50:]]
+    expected = [[float(word) for word in line.split()] for line in frames.splitlines()]
+    np.testing.assert_allclose(values, expected, atol=1e-6)
+
+
+def test_channels_are_added_where_the_motion_needs_them(tmp_path: Path) -> None:
+    text = BVH.replace("3 Zrotation Yrotation Xrotation", "1 Xrotation").replace(" 7 8 9", " 9")
+    motion = load(tmp_path, text)
+    write(motion, tmp_path / "again.bvh")
+    assert "CHANNELS 1 Xrotation" in (tmp_path / "again.bvh").read_text()
+    assert motion.rotations is not None
+    rotations, positions = motion.rotations.copy(), motion.positions.copy()
+    rotations[:, 4] = Rotation.from_euler("zx", [0.3, 0.2]).as_quat(scalar_first=True)
+    positions[1, 1] += 0.1
+    changed = Motion.from_rotations(
+        motion.skeleton,
+        rotations,
+        motion.fps,
+        translations=compute_local_translations(motion.skeleton, positions, rotations),
+        provenance=motion.provenance,
+    )
+    write(changed, tmp_path / "changed.bvh")
+    again = read(tmp_path / "changed.bvh")
+    np.testing.assert_allclose(again.positions, changed.positions, atol=1e-9)
+
+
+def test_names_in_latin_1(tmp_path: Path) -> None:
+    motion = load(tmp_path, BVH.replace("Head", "R\u00fccken").encode("latin-1"))
+    assert motion.skeleton.names[4:] == ("R\u00fccken", "R\u00fccken_end")
 
 
 @pytest.mark.parametrize("declared", [1, 2, 4, 10_000_000])

@@ -204,8 +204,8 @@ class TakeWriter:
             if distance > RIGID or skeleton.parents[joint] < 0:
                 self._add_curves(layer, node, TRANSLATION, "T", times, translations)
             if joint not in skeleton.end_sites:
-                # Avoid jumps of 360 degrees, which would spin the joint between frames.
-                angles = np.unwrap(angles, period=360.0, axis=0)
+                # Avoid jumps, which would spin the joint between frames.
+                angles = rot.unwrap_euler(angles, 360.0)
                 self._add_curves(layer, node, ROTATION, "R", times, angles)
 
     def find_values(
@@ -457,7 +457,7 @@ def _make_properties(*entries: Sequence[Any]) -> FBXNode:
 
 def _to_angles(rotations: Floats) -> Floats:
     """Return the angles about x, y and z in degrees, applied in this order."""
-    angles: Floats = np.degrees(rot.to_euler_zyx(rotations))[..., ::-1]
+    angles: Floats = np.degrees(rot.to_euler(rotations, "zyx"))[..., ::-1]
     return angles
 
 

@@ -403,7 +403,7 @@ def write_amc(motion: Motion, path: Path) -> None:
     frames = rot.multiply(rig.turn, rig.world[1][rig.above :])
     frames[0] = rot.IDENTITY
     inverse = rot.conjugate(frames)
-    angles = np.degrees(rot.to_euler_zyx(rot.multiply(rot.multiply(inverse, turns), frames)))
+    angles = np.degrees(rot.to_euler(rot.multiply(rot.multiply(inverse, turns), frames), "zyx"))
     bones = _list_bones(skeleton, offsets, frames, slides, path)
     # Translations are added to the offsets; the root has no offset.
     shift = rot.rotate(inverse, translations - offsets) / UNIT
@@ -476,7 +476,7 @@ def _format_asf(bones: list[Bone]) -> Iterator[str]:
         direction = bone.tip / length if length > 0 else np.zeros(3)
         yield f"  begin\n    id {number}\n    name {bone.name}\n"
         yield "    direction " + " ".join(f"{x:.12f}" for x in direction) + "\n"
-        turns = np.degrees(rot.to_euler_zyx(bone.frame))[::-1] + 0.0  # no minus before a zero
+        turns = np.degrees(rot.to_euler(bone.frame, "zyx"))[::-1] + 0.0  # no minus before a zero
         axis = " ".join(f"{angle:.12g}" for angle in turns)
         yield f"    length {length / UNIT:.12f}\n    axis {axis} XYZ\n"
         if bone.joint is not None:
