@@ -38,7 +38,8 @@ class Rig:
 
     Raise MotionError if lengths differ, or a scale is not one positive number. ``binds`` is the
     bind pose of a skin, relative to the node above all joints, if it differs from the rest pose;
-    Blender uses it as the rest pose of a glTF. ``channels`` are those of a BVH, by joint.
+    Blender uses it as the rest pose of a glTF. ``channels`` are those of a BVH by joint;
+    ``asf`` is the text of an ASF.
     """
 
     names: tuple[str, ...]  # one per node, as in the file
@@ -52,6 +53,7 @@ class Rig:
     numbers: tuple[int, ...] = ()  # index of each node in the file; -1 if it is not in it
     binds: Floats | None = None  # (joints, 4, 4)
     channels: Mapping[str, Sequence[Channel]] = field(default_factory=dict)
+    asf: str = ""
 
     def __post_init__(self) -> None:
         for name in ("translations", "rotations", "scales", "axes", "turn"):
@@ -167,6 +169,7 @@ def make_rig(
     unit: float = 1.0,
     turn: Floats = rot.IDENTITY,
     channels: Mapping[str, Sequence[Channel]] | None = None,
+    asf: str = "",
 ) -> Rig:
     """Return the rig of joints with a rest pose without rotations.
 
@@ -188,4 +191,5 @@ def make_rig(
         unit=unit,
         turn=turn,
         channels=channels or {},
+        asf=asf,
     )

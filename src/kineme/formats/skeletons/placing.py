@@ -72,13 +72,14 @@ def build_motion(
     provenance: Provenance,
     frames: Floats | None = None,
     channels: Mapping[str, Sequence[Channel]] | None = None,
+    asf: str = "",
 ) -> Motion:
     """Return the motion in metres with y up, from rotations in a file's own units and axes.
 
     Rotations (frames, joints, 4) are changed in place and used in the motion. ``slides`` are
     translations (frames, 3) of joints relative to their parents that replace the offsets. A unit
-    or up axis of None is inferred. ``frames`` and ``channels`` are those of `make_rig`; they
-    are used if the skeleton has no rig.
+    or up axis of None is inferred. ``frames``, ``channels`` and ``asf`` are those of
+    `make_rig`; they are used if the skeleton has no rig.
     """
     means = skeleton.offsets.copy()
     for joint, translations in slides.items():
@@ -117,6 +118,7 @@ def build_motion(
             unit=scale,
             turn=make_up_rotation(up),
             channels=channels,
+            asf=asf,
         )
         skeleton = replace(skeleton, rig=rig)
     return Motion(skeleton, positions, fps, rotations, provenance)
