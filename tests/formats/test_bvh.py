@@ -8,7 +8,7 @@ from format_samples import BVH
 from scipy.spatial.transform import Rotation
 
 import naive
-from kineme.errors import KinemeWarning
+from kineme.errors import KinemeWarning, SeveralPeopleError
 from kineme.formats import read, write
 from kineme.formats.units import UNITS, infer_rate
 from kineme.recordings import Motion, Skeleton
@@ -133,6 +133,30 @@ def test_channels_are_added_where_the_motion_needs_them(tmp_path: Path) -> None:
     write(changed, tmp_path / "changed.bvh")
     again = read(tmp_path / "changed.bvh")
     np.testing.assert_allclose(again.positions, changed.positions, atol=1e-9)
+
+
+@pytest.mark.parametrize("prefix", ["B:", ""])
+def test_one_of_several_characters_is_read(tmp_path: Path, prefix: str) -> None:
+    """Also if both have the same names of joints; a small one is a prop."""
+    head, _, frames = BVH.partition("MOTION\n")
+    body = head.removeprefix("HIERARCHY\n")
+    prop = "ROOT Box\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n}\n"
+    other = body.replace("ROOT ", f"ROOT {prefix}").replace("JOINT ", f"JOINT {prefix}")
+    rows = frames.splitlines()
+    text = f"HIERARCHY\n{body}{prop}{other}MOTION\n{rows[0]}\n{rows[1]}\n" + "".join(
+        f"{row} 1 2 3 {' '.join(['5', *row.split()[1:]])}\n" for row in rows[2:]
+    )
+    with pytest.raises(SeveralPeopleError, match="2 characters are in it") as error:
+        load(tmp_path, text)
+    first, second = error.value.people
+    one, alone = load(tmp_path, text, person=first), load(tmp_path)
+    np.testing.assert_array_equal(one.positions, alone.positions)
+    assert one.skeleton.names == alone.skeleton.names
+    found = load(tmp_path, text, person=second)
+    assert found.skeleton.names[0] == f"{prefix}Hips"
+    assert found.provenance.people == (first, second)
+    assert found.positions[:, 0, 0] == pytest.approx(0.05)
+    np.testing.assert_allclose(found.positions[..., 1], alone.positions[..., 1])
 
 
 def test_names_in_latin_1(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ import re
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import islice
+from itertools import accumulate, islice
 from math import ceil
 from pathlib import Path
 from typing import NamedTuple
@@ -51,6 +51,7 @@ from kineme.formats.files import (
 )
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
+from kineme.formats.scenes.characters import Character, SceneNode, find_character
 from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
@@ -83,11 +84,13 @@ _JOINED = re.compile(rb"(?<=[0-9.])-")
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a BVH file."""
     head = _parse_head(content, options)
-    values = read_frames(content, head.start, head.width, head.declared)
+    values = read_frames(content, head.start, head.width, head.declared)[:, head.columns]
     if len(values) != head.declared:
         content.warn(f"{head.declared} frames declared, {len(values)} found and kept", head.line)
     require_frame_memory(content, len(head.joints), len(values))
     provenance = content.provenance("BVH", head.notes)
+    if len(head.character.people) > 1:
+        provenance = provenance.of_person(head.character.name, head.character.people)
     content.release()
     local = _compute_local(head.joints, values)
     del values  # release them before positions are computed
@@ -104,24 +107,24 @@ def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch 
     values = sample_frames(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != ceil(head.declared / every):
         return None
-    local, provenance = _compute_local(head.joints, values), Provenance(str(content.path), "BVH")
+    local = _compute_local(head.joints, values[:, head.columns])
+    provenance = Provenance(str(content.path), "BVH")
     motion = _place_joints(head.joints, local, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
 class _Head(NamedTuple):
-    """Everything before the frames."""
+    """Everything before the frames: the chosen character's joints and the columns of a frame."""
 
     joints: list[Joint]
+    character: Character
+    columns: slice
+    width: int
     declared: int
     fps: float
     notes: list[str]
     line: int
     start: int
-
-    @property
-    def width(self) -> int:
-        return sum(len(joint.channels) for joint in self.joints)
 
 
 def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
@@ -130,16 +133,40 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a complete BVH file")
     joints = _HierarchyParser(content, split.start()).joints
+    nodes = [
+        SceneNode(
+            joint.name, joint.parent, bone=True, geometry=False, animated=bool(joint.channels)
+        )
+        for joint in joints
+    ]
+    character = find_character(content, nodes, options.person)
+    first, stop = character.joints[0], character.joints[-1] + 1
+    # Column of the first channel of each joint.
+    columns = [0, *accumulate(len(joint.channels) for joint in joints)]
+    chosen = joints[first:stop]
+    for joint in chosen:
+        joint.parent = max(joint.parent - first, -1)
+    _name_end_sites(content, chosen)
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
     if header is None:
         raise content.error("'Frames:' is not followed by a number and 'Frame Time:'", line)
-    notes: list[str] = []
+    notes = list(character.notes)
     fps = options.fps
     if fps is None:
         fps, note = _parse_rate(content, header.group(2), content.line_at(header.start(2)))
         notes += [note] if note else []
-    return _Head(joints, int(header.group(1)), fps=fps, notes=notes, line=line, start=header.end())
+    return _Head(
+        chosen,
+        character,
+        columns=slice(columns[first], columns[stop]),
+        width=columns[-1],
+        declared=int(header.group(1)),
+        fps=fps,
+        notes=notes,
+        line=line,
+        start=header.end(),
+    )
 
 
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
@@ -203,7 +230,6 @@ class _HierarchyParser:
         if open_joints:
             reason = f"the '}}' of joint {self.joints[open_joints[-1]].name!r} is missing"
             raise content.error(f"{reason} before MOTION", self.words[-1][1])
-        self._name_end_sites()
 
     def _take_word(self) -> tuple[str, int]:
         if self.position >= len(self.words):
@@ -246,23 +272,24 @@ class _HierarchyParser:
             raise self.content.error("a position channel is listed twice", line)
         return channels
 
-    def _name_end_sites(self) -> None:
-        """Name end sites after their parent, and make all names unique."""
-        names: set[str] = set()
-        for joint in self.joints:
-            joint.end = joint.end and not joint.channels
-            if not joint.end:
-                if joint.name in names:
-                    raise self.content.error(f"a second joint is called {joint.name!r}", joint.line)
-                names.add(joint.name)
-        tried: dict[str, int] = {}  # last number appended to each name
-        for joint in self.joints:
-            if joint.end:
-                stem = joint.name = f"{self.joints[joint.parent].name}_end"
-                while joint.name in names:
-                    tried[stem] = tried.get(stem, 1) + 1
-                    joint.name = f"{stem}{tried[stem]}"
-                names.add(joint.name)
+
+def _name_end_sites(content: FileContent, joints: list[Joint]) -> None:
+    """Name end sites after their parent, and make all names unique."""
+    names: set[str] = set()
+    for joint in joints:
+        joint.end = joint.end and not joint.channels
+        if not joint.end:
+            if joint.name in names:
+                raise content.error(f"a second joint is called {joint.name!r}", joint.line)
+            names.add(joint.name)
+    tried: dict[str, int] = {}  # last number appended to each name
+    for joint in joints:
+        if joint.end:
+            stem = joint.name = f"{joints[joint.parent].name}_end"
+            while joint.name in names:
+                tried[stem] = tried.get(stem, 1) + 1
+                joint.name = f"{stem}{tried[stem]}"
+            names.add(joint.name)
 
 
 def read_frames(content: FileContent, start: int, width: int, declared: int) -> Floats:
