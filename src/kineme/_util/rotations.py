@@ -105,28 +105,23 @@ def to_euler(q: Floats, axes: str) -> Floats:
     return angles[..., [order.index(axis) for axis in axes]]
 
 
-def unwrap_euler(angles: Floats, turn: float = 2 * np.pi) -> Floats:
+def unwrap_euler(angles: Floats) -> Floats:
     """Return angles (frames, ..., n) of the same rotations, each nearest to the frame before.
 
-    Parameters
-    ----------
-    angles : ndarray
-        Angles about one axis each; about distinct axes if there are three.
-    turn : float, optional
-        Full turn in their unit, by default in radians.
+    Angles are in radians, about distinct axes, in the order of their product.
     """
     if angles.shape[-1] == 3:
-        # (a, b, c) and (a + half, half - b, c + half) are the same rotation. The step between two
-        # frames is as long if both are exchanged, so only changes between the two are decided.
-        other = np.array([1.0, -1.0, 1.0]) * angles + turn / 2
+        # (a, b, c) and (a + pi, pi - b, c + pi) are the same rotation. The step between two frames
+        # is as long if both are exchanged, so only changes from one to the other are decided.
+        other = np.array([1.0, -1.0, 1.0]) * angles + np.pi
         stay, change = (
-            (((each[1:] - angles[:-1] + turn / 2) % turn - turn / 2) ** 2).sum(axis=-1)
+            (((each[1:] - angles[:-1] + np.pi) % (2 * np.pi) - np.pi) ** 2).sum(axis=-1)
             for each in (angles, other)
         )
         is_other = np.zeros(angles.shape[:-1], np.bool_)
         is_other[1:] = np.logical_xor.accumulate(change < stay, axis=0)
         angles = np.where(is_other[..., None], other, angles)
-    unwrapped: Floats = np.unwrap(angles, period=turn, axis=0)
+    unwrapped: Floats = np.unwrap(angles, axis=0)
     return unwrapped
 
 

@@ -204,8 +204,8 @@ class TakeWriter:
             if distance > RIGID or skeleton.parents[joint] < 0:
                 self._add_curves(layer, node, TRANSLATION, "T", times, translations)
             if joint not in skeleton.end_sites:
-                # Avoid jumps, which would spin the joint between frames.
-                angles = rot.unwrap_euler(angles, 360.0)
+                # Avoid jumps of 360 degrees, which would spin the joint between frames.
+                angles = np.unwrap(angles, period=360.0, axis=0)
                 self._add_curves(layer, node, ROTATION, "R", times, angles)
 
     def find_values(
