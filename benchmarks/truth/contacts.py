@@ -19,6 +19,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections import defaultdict
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,7 @@ from _recordings import read_rows
 from kineme.cycles import Events, foot_events, stands_from_force
 from kineme.cycles.contacts import SMOOTH_S
 from kineme.cycles.events import OFF, STRIKE, normalize_event_name
-from kineme.recordings import Signals
+from kineme.recordings import Motion, Signals
 
 Floats = NDArray[np.float64]
 
@@ -159,7 +160,7 @@ def show_markers() -> bool:
     """Compare contacts from markers with force plates and treadmill events."""
     late: dict[str, list[float]] = {STRIKE: [], OFF: []}
     for path in sorted(find_data("gait/overground").glob("*.c3d")):
-        events = foot_events(kineme.read(path))
+        events = foot_events(drop_marks(kineme.read(path)))
         own = [each for side in SIDES for each in find_stances(events, side)]
         plates = kineme.read(path, columns=["Fz*"])
         for force in plates.values.T if own else ():
@@ -177,7 +178,7 @@ def show_markers() -> bool:
         record(f"{name}.deviation", round(float(deviation)), unit="ms")
     record("contacts.markers.plates", len(late[STRIKE]))
     motion = kineme.read(find_data("gait/treadmill/treadmill_events.c3d"))
-    events = foot_events(motion)
+    events = foot_events(drop_marks(motion))
     marked: dict[str, list[float]] = defaultdict(list)
     for at, name in motion.provenance.events:
         marked[normalize_event_name(name)].append(at)
@@ -188,6 +189,11 @@ def show_markers() -> bool:
     print(f"treadmill: {right} of {true} within 50 ms, {len(events)} found")
     record("contacts.treadmill", f"{right} of {true}")
     return right >= PROMISED["treadmill"] * true
+
+
+def drop_marks(motion: Motion) -> Motion:
+    """Return the motion without the events of its file, which would replace those found."""
+    return replace(motion, provenance=motion.provenance.marked(()))
 
 
 def find_stances(events: Events, side: str) -> list[tuple[float, float]]:

@@ -32,10 +32,11 @@ from kineme.evaluation.folder import (
     read_selected,
     run_job,
 )
-from kineme.evaluation.score import format_markdown, pool_scores, scores
+from kineme.evaluation.score import pool_scores, scores
 from kineme.formats import ReadOptions
 from kineme.labels.collections import find_labels
 from kineme.recordings import Motion, Signals
+from kineme_reproduction.figures import format_markdown
 
 SETS = ("hugadb", "hapt", "ipolgait", "utkinect")
 SHARES = ("mof", "edit", "f1@10", "f1@25", "f1@50")

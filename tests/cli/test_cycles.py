@@ -135,6 +135,10 @@ def test_force_plates_of_a_c3d_are_measured_at_their_own_rate(
     rows = rows_of(tmp_path / "c.csv")
     assert all(row["FZ1.range"] for row in rows if row["excluded"] == "")
     assert "FZ1" in kineme("info", "--channels", trial).stdout
+    shutil.copy(trial, tmp_path / "again.c3d")
+    kineme("cycles", trial, "again.c3d", "--channels", "FZ1,RFT1.speed", "-o", "both.csv", "-q")
+    both = [row["FZ1.range"] for row in rows_of(tmp_path / "both.csv")]
+    assert both == [row["FZ1.range"] for row in rows] * 2
 
 
 def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Path) -> None:
@@ -143,6 +147,24 @@ def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Pa
     Path("two.csv").write_text("\n".join(lines) + "\n")
     done = kineme("cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l")
     assert "walk: no inner repetitions; --ends includes the first and last" in done.stdout
+
+
+def test_rows_of_a_person_are_the_cycles_to_the_frame(kineme, take: Path) -> None:
+    rows = ["0.1,1.2,stride", "1.2,2.3,stride", "2.4,3.6,stride", "3.6,4.7,stride"]
+    for level in ("", "primitive,"):
+        header = f"{'level,' if level else ''}start_s,stop_s,label"
+        Path("cut.csv").write_text("\n".join([header, *(f"{level}{row}" for row in rows)]))
+        done = kineme(
+            "cycles", "take.bvh", "--segments", "cut.csv", "--channels", "knee_l", "-o", "c.csv"
+        )
+        starts = [float(row["start_frame"]) for row in rows_of(Path("c.csv"))]
+        assert starts == [6, 72, 144, 216]
+        assert " stride        4   4 " in done.stdout
+    kineme("cycles", "take.bvh", "--segments", "cut.csv", "--refine", "-q", "-o", "c.csv")
+    assert float(rows_of(Path("c.csv"))[1]["start_frame"]) != 72
+    Path("none.csv").write_text("start_s,stop_s,label\n0,4,transition\n")
+    none = kineme("cycles", "take.bvh", "--segments", "none.csv", "-q", code=1)
+    assert "Give a table with a row for each" in none.stderr
 
 
 def test_a_recording_of_other_channels_costs_itself_alone(

@@ -24,9 +24,9 @@ def run(*options: str, text: str = "") -> Result:
 @pytest.fixture(scope="module")
 def lines():
     rows = two_exercises(8.0)[: int(16 * FPS)]
-    seconds = np.arange(len(rows)) / FPS
-    return "time_s,x,y\n" + "".join(
-        f"{s:.3f},{x:.4f},{y:.4f}\n" for s, (x, y) in zip(seconds, rows, strict=True)
+    times = 81_000_000 + 1000 * np.arange(len(rows)) / FPS
+    return "t,x,y,note\n" + "".join(
+        f"{t:.0f},{x:.4f},{y:.4f},none\n" for t, (x, y) in zip(times, rows, strict=True)
     )
 
 
@@ -38,7 +38,9 @@ def test_lines_become_events_a_table_and_a_recording(lines, tmp_path):
     final = [e for e in events if e["event"] == "ActivityStarted" and e["state"] == "final"]
     rows = kineme.read_segments(table).activities
     assert [e["start_s"] for e in final] == [round(row.start_s, 4) for row in rows]
-    assert kineme.read(take.with_suffix(".parquet")).n_frames == 16 * FPS
+    recording = kineme.read(take.with_suffix(".parquet"))
+    assert (recording.n_frames, recording.fps) == (16 * FPS, FPS)
+    assert done.stderr == "skipped: columns that are not channels: note\n"
 
 
 def test_a_killed_run_is_recovered(lines, tmp_path):

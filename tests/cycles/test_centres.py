@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -92,7 +93,25 @@ def test_a_knee_that_hardly_moves_is_bent_about_the_line_of_the_hips() -> None:
     np.testing.assert_allclose(found, -8, atol=1.5)
 
 
-def test_knees_of_walks_are_those_of_plug_in_gait(data_dir: Path) -> None:
+def test_a_pelvis_with_markers_gives_hips_without_a_trunk() -> None:
+    true = 20 * np.sin(np.linspace(0, 4 * np.pi, 200)) + 10
+    tilt = 15 * np.cos(np.linspace(0, 2 * np.pi, 200))
+    motion = pose_figure(left_hip=true, left_knee=true + 30, tilt=tilt)
+    skin = place_skin_markers(motion)
+    turned = compute_world_rotations(motion.skeleton, motion.rotations)[:, 0]
+    offsets = {"LASI": (0.12, 0.05, 0.1), "RASI": (-0.12, 0.05, 0.1),
+               "LPSI": (0.05, 0.05, -0.1), "RPSI": (-0.05, 0.05, -0.1)}  # fmt: skip
+    at = [motion.positions[:, 0] + rot.rotate(turned, np.broadcast_to(offset, (200, 3)))
+          for offset in offsets.values()]  # fmt: skip
+    names = (*skin.skeleton.names, *offsets)
+    skeleton = Skeleton(names, [-1, *[0] * (len(names) - 1)], np.zeros((len(names), 3)))
+    positions = np.concatenate([skin.positions, np.stack(at, axis=1)], axis=1)
+    found = channels_of(Motion(skeleton, positions, skin.fps), ["hip_l"])[0]
+    assert found.source.startswith("against the pelvis")
+    assert np.sqrt(np.mean((found.values() - true) ** 2)) < 2
+
+
+def test_knees_and_hips_of_walks_are_those_of_plug_in_gait(data_dir: Path) -> None:
     """All walks, and ankles, too: a benchmark."""
     folder = data_dir / "gait" / "overground"
     if not folder.is_dir():
@@ -100,9 +119,9 @@ def test_knees_of_walks_are_those_of_plug_in_gait(data_dir: Path) -> None:
     for name in ("HC030A05", "HC038A11"):
         path = folder / f"{name}.c3d"
         file = parse_c3d(load(path))
-        for side in "LR":
-            true = file.points[:, file.labels.index(f"{side}KneeAngles"), 0]
-            found = channels_of(kineme.read(path), [f"knee_{side.lower()}"])[0].values()
+        for side, joint in product("LR", ("Knee", "Hip")):
+            true = file.points[:, file.labels.index(f"{side}{joint}Angles"), 0]
+            found = channels_of(kineme.read(path), [f"{joint.lower()}_{side.lower()}"])[0].values()
             assert np.ptp(found) == pytest.approx(np.ptp(true), abs=4)
             assert np.sqrt(np.mean((found - true) ** 2)) < 4
 

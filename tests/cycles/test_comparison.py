@@ -85,6 +85,18 @@ def test_times_on_both_sides_of_the_end_are_near(cycles: Cycles) -> None:
     assert np.allclose([sides["left"][at], sides["right"][at]], [[99], [2]])
 
 
+def test_sides_in_antiphase_differ_by_half_a_cycle(cycles: Cycles) -> None:
+    columns = {
+        **cycles.columns,
+        "knee_l.max_at": np.full(len(cycles), 72.0),
+        "knee_r.max_at": np.resize([23.0, 21.0, 22.0, 20.5], len(cycles)),
+    }
+    sides = compare_sides(replace(cycles, columns=columns), ends=True)
+    at = (sides["measure"] == "max_at") & (sides["group"] == "walk")
+    assert np.abs(sides["difference"][at]) == pytest.approx(50, abs=1)
+    assert (sides["high"] - sides["low"])[at] < 3
+
+
 def test_differences_and_bounds_are_those_of_welch(cycles) -> None:
     duration = cycles.columns["duration_s"]
     slow = duration * np.where(np.arange(len(cycles)) % 2, 1.2, 1.3)

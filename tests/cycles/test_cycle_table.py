@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
-from kineme.cycles import Cycles, foot_events
+from kineme.cycles import Cycles, compare_sides, foot_events
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
@@ -219,7 +219,7 @@ def test_channels_beside_are_measured_at_their_own_rate(walks) -> None:
     )
 
 
-@pytest.mark.parametrize("anchor", ["knee_r max", "knee_r > 40", "left foot strike"])
+@pytest.mark.parametrize("anchor", ["knee_r max", "knee_r > 40"])
 def test_cycles_begin_at_their_anchor(walks, anchor: str) -> None:
     cycles = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], anchor=anchor)
     walk = find_rows(cycles, "walk")
@@ -229,11 +229,45 @@ def test_cycles_begin_at_their_anchor(walks, anchor: str) -> None:
     start = cycles.columns["knee_r.start"][measured]
     if anchor == "knee_r max":
         assert (start > 0.9 * cycles.columns["knee_r.max"][measured]).all()
-    elif anchor == "knee_r > 40":
+    else:
         np.testing.assert_allclose(start, 40, atol=1e-6)
     last = cycles.columns["place"] == "last"
     assert {*cycles.columns["excluded"][last].tolist()} <= {"no event follows it", "no event"}
     assert np.isnan(cycles.columns["duration_s"][last]).all()
+
+
+def test_cycles_run_from_each_event_to_the_next_one(walks) -> None:
+    """Whatever the segments are, no stride is lost; the one with the squats in it counts not."""
+    strikes = foot_events(walks.motion).at("left foot strike")
+    segments = make_repetitions([1.0, 2.0], 3.0, 60, walks.motion.n_frames)
+    unlabelled, labelled = (
+        kineme.cycles(walks.motion, table, channels=["knee_l"], anchor="left_foot_strike").columns
+        for table in (segments, walks.truth)
+    )
+    assert {*unlabelled["group"]} == {"left foot strike"}
+    np.testing.assert_allclose(unlabelled["start_s"], strikes[:-1])
+    np.testing.assert_allclose(unlabelled["stop_s"], strikes[1:])
+    long = unlabelled["excluded"] == "much longer than the others"
+    assert unlabelled["duration_s"][long] > 5
+    assert (labelled["group"] == "walk").sum() == 9
+
+
+def test_each_side_begins_at_its_own_foot(walks) -> None:
+    channels = ["knee_l", "knee_r"]
+    left, right, both = (
+        kineme.cycles(walks.motion, walks.truth, channels=channels, anchor=f"{side}foot strike")
+        for side in ("left ", "right ", "")
+    )
+    own = {name: both.columns[f"{name}.max_at"][both.used()] for name in channels}
+    assert np.isin(own["knee_l"], left.columns["knee_l.max_at"]).all()
+    # One left cycle has no right one beside it.
+    in_right = np.isin(own["knee_r"], right.columns["knee_r.max_at"])
+    assert (in_right | np.isnan(own["knee_r"])).all()
+    assert in_right.sum() >= 8
+    assert "begin at the contacts of the right foot" in both.provenance["notes"][-1]
+    sides = compare_sides(both)
+    walk = (sides["measure"] == "max_at") & (sides["group"] == "walk")
+    assert sides["difference"][walk] == pytest.approx(0, abs=5)
 
 
 def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
@@ -242,11 +276,11 @@ def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
     middles = (squats.start_s + squats.stop_s) / 2
     by_time = kineme.cycles(walks.motion, walks.truth, channels=["knee_r"], anchor=middles)
     rows = find_rows(by_time, "squat")
-    np.testing.assert_allclose(by_time.columns["start_s"][rows], middles)
+    np.testing.assert_allclose(by_time.columns["start_s"][rows], middles[:-1])
     provenance = walks.motion.provenance.marked([(at, "Deepest") for at in middles.tolist()])
     marked = replace(walks.motion, provenance=provenance)
     by_name = kineme.cycles(marked, walks.truth, channels=["knee_r"], anchor="deepest")
-    np.testing.assert_allclose(by_name.columns["start_s"][rows], middles)
+    np.testing.assert_allclose(by_name.columns["start_s"][rows], middles[:-1])
     with pytest.raises(ParameterError, match="no event 'deepst'; there are Deepest, left foot"):
         kineme.cycles(marked, walks.truth, anchor="deepst")
 

@@ -11,10 +11,12 @@ import pytest
 from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
 
 import kineme
+from kineme.cycles import landmarks
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
+from kineme.labels.c3d_events import write_events
 from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
 
@@ -125,18 +127,40 @@ def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
 
 
 def test_two_subjects(tmp_path: Path) -> None:
-    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
-    points = np.concatenate([POINTS, POINTS + 1000], axis=1)
+    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT] + ["Box:top"]
+    points = np.concatenate([POINTS, POINTS + 1000, POINTS[:, :1]], axis=1)
     with pytest.warns(KinemeWarning, match="2 subjects: the body used is that of 'Ann'"):
         motion = read(tmp_path, to_c3d(points, labels))
     assert np.allclose(motion.positions[0, motion.joint("pelvis")], (0, 1, 0), atol=1e-4)
-    assert "Bob:LANK" in motion.skeleton.names
+    assert "Box:top" in motion.skeleton.names
+    assert not [name for name in motion.skeleton.names if name.startswith("Bob")]
     other = kineme.read(tmp_path / "take.c3d", person="Bob")
     assert np.allclose(other.positions[0, other.joint("pelvis")], (1, 2, -1), atol=1e-4)
-    assert "Ann:LANK" in other.skeleton.names
+    assert landmarks(other)["left_knee"] == other.joint("LKNE")
     assert "person Bob of 2" in other.provenance.notes
+    for person in ("bob", "1"):
+        assert kineme.read(tmp_path / "take.c3d", person=person).provenance.person == "Bob"
     with pytest.raises(SeveralPeopleError, match="no person 'Eve': choose from Ann, Bob"):
         kineme.read(tmp_path / "take.c3d", person="Eve")
+
+
+def test_events_of_two_subjects_stay_apart(tmp_path: Path) -> None:
+    labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
+    more = {
+        ("SUBJECTS", "NAMES"): ["Ann", "Bob"],
+        ("EVENT", "USED"): np.int16([2]),
+        ("EVENT", "CONTEXTS"): ["Left", "General"],
+        ("EVENT", "LABELS"): ["Foot Strike", "Start"],
+        ("EVENT", "TIMES"): np.float32([[0, 0.2], [0, 0.1]]),
+        ("EVENT", "SUBJECTS"): ["Ann", ""],
+    }
+    source, copy = tmp_path / "two.c3d", tmp_path / "copy.c3d"
+    source.write_bytes(to_c3d(np.concatenate([POINTS, POINTS + 1000], axis=1), labels, more=more))
+    strike = "left foot strike"
+    assert write_events(source, copy, [0.21, 0.4], [strike, strike], subject="Bob") == 2
+    read = {who: kineme.read(copy, person=who).provenance.events for who in ("Ann", "Bob")}
+    ours, theirs = ([round(at, 2) for at, _ in read[who]] for who in ("Ann", "Bob"))
+    assert (ours, theirs) == ([0.1, 0.2], [0.1, 0.21, 0.4])
 
 
 def test_what_the_file_does_not_say_is_inferred_and_said(tmp_path: Path) -> None:

@@ -12,10 +12,10 @@ import pyarrow as pa
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pyarrow import parquet
+from pyarrow import csv, parquet
 from scipy.io import savemat
 
-from kineme import Motion, Signals, bundled_recording, read
+from kineme import Motion, Signals, as_signals, bundled_recording, read
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
 from kineme.formats.channels.writing import write_signals
 from kineme.formats.dialects import hold_channels
@@ -226,6 +226,7 @@ EVEN = np.arange(400) / 100
         (EVEN - 0.05 * (EVEN >= 2), 395, (), "5 rows with the same time as another"),
         (EVEN + 5 * (EVEN >= 2), 900, ((200, 700),), "1 step longer than a frame and a half"),
         (EVEN + 0.1 * (EVEN >= 2), 410, (), "1 step longer"),
+        (1.769e9 + EVEN + 3600 * (EVEN >= 2), 360400, ((200, 360200),), "1 step longer"),
         (EVEN + 0.004 * (np.arange(400) % 3), 400, (), "jitter"),
         (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), 400, (), "19 rows with"),
     ],
@@ -239,8 +240,8 @@ def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) 
 @pytest.mark.parametrize(
     ("times", "n_frames", "gaps", "said"),
     [
-        (EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
-        (1.769e9 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (EVEN + 7198 - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (1_769_399_998 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (EVEN - 1.5 * (EVEN >= 2), 401, ((200, 201),), "goes back 1 time"),
         (EVEN + 1.7e9 * (EVEN >= 1), 401, ((100, 101),), "of 1.7e\\+09 s after second 0.99"),
         (np.floor(EVEN * 4) / 4, 400, (), "384 rows with the same time as the row before"),
@@ -313,23 +314,45 @@ def test_holes_are_filled_or_split_the_recording(tmp_path) -> None:
 
 
 def test_what_tells_of_the_device_or_the_place_is_no_channel(tmp_path) -> None:
-    names = "acc_x,hand_temperature,Temp (degC),Battery level,lux,template"
-    rows = [f"{i % 7},30,20,{100 - i},{i % 3},{i % 5}\n" for i in range(20)]
-    path = write(tmp_path, "a.csv", f"{names}\n" + "".join(rows))
-    assert read(path, fps=50).names == ("acc_x", "template")
+    others = "hand_temperature,Temp (degC),Battery level,lux,HR [bpm],HeartRate,steps,lat,GPS_lon"
+    others += ",locationLatitude(WGS84),batteryLevel(R),pedometerNumberOfSteps(N),seq,Speed (m/s)"
+    names = f"acc_x,heel_pressure,belt speed,template,{others}"
+    rows = ["".join(f"{(i * k) % 7}," for k in range(1, 19)).rstrip(",") for i in range(20)]
+    path = write(tmp_path, "a.csv", names + "\n" + "\n".join(rows))
+    motion = ("acc_x", "heel_pressure", "belt speed", "template")
+    assert read(path, fps=50).names == as_signals(csv.read_csv(path).to_pandas(), fps=50).names
+    assert read(path, fps=50).names == motion
     assert read(path, fps=50, columns=["hand_temperature"]).names == ("hand_temperature",)
+    alone = write(tmp_path, "b.csv", "heart_rate\n70\n71\n71\n")
+    assert read(alone, fps=1).names == ("heart_rate",)
 
 
-@pytest.mark.parametrize("column", ["device", "person_id", "Joint"])
+@pytest.mark.parametrize("column", ["device", "person_id", "Joint", "sensorName"])
 @pytest.mark.parametrize("channels", ["x,y", "head_x,head_y"])
-def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels) -> None:
-    rows = [f"{i // 2 / 50},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
+@pytest.mark.parametrize("late", [0, 0.003])
+def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels, late) -> None:
+    rows = [f"{i // 2 / 50 + late * (i % 2)},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
     path = write(tmp_path, "a.csv", f"time,{column},{channels}\n" + "".join(rows))
-    with pytest.raises(ReadError, match=rf"differ in column '{column}' \(A, B\)"):
+    said = rf"alternate \(column '{column}': A, B\)"
+    with pytest.raises(ReadError, match=said):
         read(path)
-    path.write_text(path.read_text().replace("B", "A"), encoding="utf-8")
-    with pytest.warns(KinemeWarning, match="20 rows with the same time as the row before"):
-        assert read(path).n_frames == 40
+    table = csv.read_csv(path)
+    parquet.write_table(table, tmp_path / "a.parquet")
+    with pytest.raises(ReadError, match=said):
+        read(tmp_path / "a.parquet")
+    with pytest.raises(ParameterError, match=said):
+        as_signals(table.to_pandas())
+
+
+def test_owners_of_many_successive_rows_are_one_recording(tmp_path) -> None:
+    rows = [f"{i / 50},{'AB'[i > 20]},{i % 7}.5,0.25\n" for i in range(40)]
+    path = write(tmp_path, "a.csv", "time,device,x,y\n" + "".join(rows))
+    assert read(path).n_frames == as_signals(csv.read_csv(path).to_pandas()).n_frames == 40
+    steps = [f"{i / 50},{'LR'[i // 10 % 2]},{i % 7}.5,0.25\n" for i in range(200)]
+    assert read(write(tmp_path, "c.csv", "time,side,x,y\n" + "".join(steps))).n_frames == 200
+    sole = write(tmp_path, "b.csv", "sensor\n" + "7\n9\n" * 20)  # a measurement, no owner
+    found = as_signals(csv.read_csv(sole).to_pandas(), fps=50)
+    assert read(sole, fps=50).names == found.names == ("sensor",)
 
 
 def test_parquet(tmp_path) -> None:
@@ -342,6 +365,20 @@ def test_parquet(tmp_path) -> None:
     assert signals.provenance.notes == ("columns that are not channels: who",)
     with pytest.raises(ReadError, match="cannot be read as numbers"):
         read(tmp_path / "a.parquet", columns=["who"])
+
+
+@pytest.mark.parametrize("kind", ["M8[ns]", "m8[ms]"])
+@pytest.mark.parametrize("name", ["time", "recorded_at", "__index_level_0__"])
+@pytest.mark.parametrize("channels", [["a", "b"], ["hip_x", "hip_y"]])
+def test_the_only_column_of_dates_is_the_clock(tmp_path, kind, name, channels) -> None:
+    times = (np.arange(50) * 20 + 1_790_000_000_000).astype("i8").astype(f"{kind[:2]}[ms]")
+    columns = {channel: 1 + np.arange(50) % 7 / 9 for channel in channels}
+    columns[name] = times.astype(kind)
+    parquet.write_table(pa.table(columns), tmp_path / "a.parquet")
+    recording = read(tmp_path / "a.parquet", unit="m")
+    assert (recording.fps, recording.n_frames) == (50, 50)
+    found = as_signals(pa.table(columns).to_pandas())
+    assert (found.fps, found.names) == (50, tuple(channels))
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,7 @@ from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, list_people
 from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
+from kineme.formats.keypoints.people import track_people
 
 
 def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
@@ -169,6 +170,20 @@ def test_one_of_several_people(tmp_path: Path) -> None:
         read(tmp_path, "a.json", frames, fps=25, person=7)
 
 
+def test_who_left_does_not_take_over_who_stayed() -> None:
+    rng = np.random.default_rng(0)
+    body = rng.uniform(size=(17, 3)) * [80, 250, 0]
+    frames, points, who = [], [], []
+    for frame in range(400):
+        # The first one kicks and then walks past the place where the second one was seen last.
+        kick = 60 * np.sin(frame / 3) + 3 * max(frame - 200, 0)
+        for person, x in enumerate((kick, 350.0)[: 1 + (frame < 100)]):
+            frames.append(frame)
+            points.append(body + rng.normal(0, 2, body.shape) * [1, 1, 0] + [x, 0, 0])
+            who.append(person)
+    assert track_people(np.array(frames), np.array(points)) == who
+
+
 def test_somebody_in_passing_is_left_out(tmp_path: Path) -> None:
     frames = make_openpose()
     frames[10]["people"].append(
@@ -212,6 +227,19 @@ def test_coco_with_people_and_names_of_images(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match=r"2 people are in it: .* 1 \(30 frames .*, 4 \(30 frames"):
         read(tmp_path, "a.json", both, fps=30)
     assert is_standing(read(tmp_path, "a.json", both, fps=30, person=4))
+    for entry in both:
+        entry["idx"] = [float(entry["idx"])]  # as AlphaPose writes it
+    assert read(tmp_path, "a.json", both, fps=30, person=1).provenance.people == ("1", "4")
+
+
+def test_a_number_that_two_people_share_is_ignored(tmp_path: Path) -> None:
+    left, right = (make_coco(results=True, idx=[0.0], x=x) for x in (400, 1300))
+    # Untracked AlphaPose: the order within a frame may change.
+    pairs = [pair[:: 1 - 2 * (i % 2)] for i, pair in enumerate(zip(left, right, strict=True))]
+    motion = read(tmp_path, "a.json", [entry for pair in pairs for entry in pair], fps=30, person=0)
+    assert motion.provenance.people == ("0", "1")
+    alone = read(tmp_path, "b.json", left, fps=30)
+    assert np.allclose(motion.positions, alone.positions)
 
 
 @pytest.mark.parametrize("named", [False, True])

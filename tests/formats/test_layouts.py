@@ -96,6 +96,11 @@ def test_ultralytics_people_by_frame(tmp_path: Path) -> None:
     motion = kineme.read(path, fps=30)
     assert motion.n_frames == 40
     assert "left_knee" in motion.skeleton.names
+    # The same as fractions of the image, as with normalize=True.
+    keypoints.update(x=[value / 1280 for value in x], y=[value / 720 for value in y])
+    path.write_text(json.dumps([[person]] * 40))
+    with pytest.warns(kineme.KinemeWarning, match="unknown size, assumed square"):
+        kineme.read(path, fps=30)
 
 
 def test_freemocap_counts_nanoseconds(tmp_path: Path) -> None:

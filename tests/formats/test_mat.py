@@ -144,7 +144,8 @@ def test_channels_are_signals(tmp_path: Path) -> None:
     assert signals.names == ("emg_1", "emg_2", "emg_3", "force")
     assert signals.fps == 1000
     assert np.array_equal(signals.values[:, :3], emg)
-    some = kineme.read(tmp_path / "a.mat", columns=["force"], fps=500)
+    with pytest.warns(kineme.KinemeWarning, match="the file states 1000 Hz; 500 is used"):
+        some = kineme.read(tmp_path / "a.mat", columns=["force"], fps=500)
     assert (some.names, some.fps) == (("force",), 500)
     (tmp_path / "a.mat").write_bytes(to_mat(emg=emg.T, time=np.arange(500) / 200))
     assert kineme.read(tmp_path / "a.mat").fps == 200

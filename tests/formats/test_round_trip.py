@@ -13,7 +13,7 @@ from hypothesis import given
 
 import _fbx
 from kineme import bundled_recording, segment
-from kineme.errors import WriteError
+from kineme.errors import KinemeWarning, WriteError
 from kineme.formats import read, read_motion, write
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import compute_world_rotations
@@ -59,6 +59,16 @@ def test_amc(motion: Motion) -> None:
     skeleton = motion.skeleton
     inner = [n for i, n in enumerate(skeleton.names) if i not in skeleton.end_sites]
     assert_same_joints(motion, again, inner)
+
+
+@pytest.mark.parametrize("suffix", [".bvh", ".amc", ".npz", ".trc"])
+def test_a_rate_that_differs_from_that_of_the_file_is_said(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"a{suffix}"
+    write(read_motion(bundled_recording())[:60], path)
+    with pytest.warns(KinemeWarning, match=r"a\.\w+: the file states 60 Hz; 30 is used") as caught:
+        assert read(path, fps=30).fps == 30
+    assert len(caught) == 1
+    assert read(path, fps=59.94).fps == 59.94  # the same but for rounding, without a warning
 
 
 @pytest.mark.parametrize("suffix", [".amc", ".bvh"])

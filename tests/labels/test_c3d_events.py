@@ -246,6 +246,8 @@ def test_the_command_writes_them(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["events", str(source), "--c3d", str(copy)])
     assert done.exit_code == 0, done.output
     assert "copy.c3d" in done.output
+    again = CliRunner().invoke(app, ["events", str(copy), "--c3d", str(tmp_path / "again.c3d")])
+    assert "0 events added" in again.output
     events = foot_events(kineme.read(source))
     found = parse_c3d(load(copy)).events
     np.testing.assert_allclose([at for at, _ in found], events.times, atol=1e-5)

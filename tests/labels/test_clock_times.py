@@ -14,7 +14,7 @@ import kineme
 from growth import LINEAR, times_longer
 from kineme._util.checks import format_count
 from kineme.errors import KinemeWarning, ParameterError, ReadError
-from kineme.labels.collections import convert_to_frames, find_labels
+from kineme.labels.collections import LabelSource, convert_to_frames, find_labels
 from kineme.labels.spans import Labels, Span, convert_clock_times
 from kineme.recordings.times import Clock
 from segmentations import make_activities
@@ -152,8 +152,24 @@ def test_a_table_at_another_rate_is_refused(tmp_path: Path) -> None:
     kineme.write_segments(table, tmp_path / "walk.json")
     (source,) = find_labels([Path("walk.bvh")], tmp_path).values()
     assert source.of(n_frames=90, fps=50.001) == table
-    with pytest.raises(ReadError, match="is of 50 frames per second, but the recording has 25"):
+    with pytest.raises(ReadError, match="has 50 frames per second, but the recording has 25"):
         source.of(n_frames=90, fps=25)
+
+
+def test_seconds_fit_any_rate_and_frames_only_their_own(tmp_path: Path) -> None:
+    # People label a video of 25 frames per second; the recording has 60.
+    table = make_activities(25, 55, fps=25, label=["walk", "jump"])
+    for name in ("boris.csv", "elan.eaf"):
+        kineme.write_segments(table, tmp_path / name, format=name.partition(".")[0])
+        found = kineme.read_segments(tmp_path / name, fps=60, n_frames=132)
+        assert found == LabelSource(tmp_path / name).of(n_frames=132, fps=60)
+        assert found.activities.stop_frame.tolist() == [60, 132]
+    kineme.write_segments(table, tmp_path / "clips.csv", format="clips")
+    refused = pytest.raises(ReadError, match="has 25 frames per second, but the recording has 60")
+    with refused:
+        kineme.read_segments(tmp_path / "clips.csv", format="clips", fps=60)
+    with refused:
+        LabelSource(tmp_path, Labels([Span(0, 9, "a")], "frames", 25)).of(n_frames=132, fps=60)
 
 
 @st.composite

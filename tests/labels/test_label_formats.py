@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -270,10 +271,11 @@ Time,Media file path,Total length,FPS,Subject,Behavior,Behavioral category,Comme
 5.960,25.0,blink,POINT,1.000,1.000
 5.960,25.0,step,STATE,2.000,3.040
 """
-    for text in (old, aggregated):
-        (tmp_path / "events.csv").write_text(text)
+    for suffix, text in product((".csv", ".tsv"), (old, aggregated)):
+        path = tmp_path / f"events{suffix}"
+        path.write_text(text if suffix == ".csv" else text.replace(",", "\t"))
         with pytest.warns(KinemeWarning, match=r"left out: blink \(1\)"):
-            back = read_segments(tmp_path / "events.csv", format="boris")
+            back = read_segments(path)
         assert back.activities.start_frame.tolist() == [0, 30, 50, 76]
         assert back.activities.label.tolist() == ["", "step", "step", ""]
         assert (back.fps, back.n_frames) == (25.0, 149)
@@ -366,7 +368,7 @@ def test_gaps_become_transitions_that_respect_the_borders_of_activities(tmp_path
 
 def test_points_are_left_out_and_the_end_is_said_to_be_guessed(tmp_path) -> None:
     (tmp_path / "l.txt").write_text(
-        "0\t1\twalk\n0.5\t0.5\tclap\n\\\t100\t200\n1.0\t2.0\trun\tfast\n"
+        "0\t1,0\twalk\n0.5\t0.5\tclap\n\\\t100\t200\n1.0\t2.0\trun\tfast\n"
     )
     with pytest.warns(
         KinemeWarning, match="left out, since they are shorter than a frame: 1 label"

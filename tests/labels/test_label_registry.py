@@ -19,6 +19,7 @@ from kineme.labels import (
     registry,
     write_segments,
 )
+from kineme.labels.collections import find_labels_and_unmatched, read_labels
 from segmentations import make_activities
 
 SEGMENTS = make_activities(40, 60, fps=10, label=["walk", "jump"])
@@ -54,6 +55,36 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
     path.write_text("start_s,stop_s,label,count\n0,6,a,many\n")
     with pytest.raises(ReadError, match="line 2: count must be a whole number, not 'many'"):
         read_segments(path, fps=10)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Start Time,End Time,Activity\n0,2,walk\n2.5,4,jump\n",
+        "onset;duration;label\n0;2,0;walk\n2,5;1,5;jump\n",
+        "name\tbegin (ms)\tend (ms)\nwalk\t0\t2000\njump\t2500\t4000\n",
+        "label,start,end,start_frame,stop_frame\nwalk,,,0,20\njump,,,25,40\n",
+    ],
+)
+def test_columns_of_intervals_have_usual_names(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "labels.csv"
+    path.write_text(text)
+    assert holds_labels(path)
+    found = read_segments(path, fps=10)
+    assert found.activities.label.tolist() == ["walk", "", "jump"]
+    assert found.activities.stop_frame.tolist() == [20, 25, 40]
+
+
+@pytest.mark.parametrize("column", ["recording", "File"])
+def test_recordings_in_a_table_are_matched_without_case_unless_ambiguous(
+    tmp_path: Path, column: str
+) -> None:
+    path = tmp_path / "labels.csv"
+    path.write_text(f"{column},start_s,stop_s,label\nTAKE,0,2,walk\nRun.bvh,0,2,a\nrun,0,2,b\n")
+    recordings = [Path("take.bvh"), Path("RUN.bvh")]
+    found, unmatched = find_labels_and_unmatched(recordings, path)
+    assert (list(found), unmatched) == ([Path("take.bvh")], ["Run.bvh", "run"])
+    assert read_labels(recordings[0], path, n_frames=20, fps=10).activities.label[0] == "walk"
 
 
 def test_levels_kinds_and_clusters_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None:

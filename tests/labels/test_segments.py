@@ -243,7 +243,7 @@ def test_a_list_kept_by_hand_is_read(tmp_path: Path) -> None:
     ]
     path.write_text("start_frame,stop_frame,label\n0,40,walk\n")
     assert read_segments(path, fps=10).activities.stop_frame.tolist() == [40]
-    path.write_text("start,end,label\n0,40,walk\n")
+    path.write_text("from,to,label\n0,40,walk\n")
     with pytest.raises(ReadError, match="no header line with the columns 'start_s', 'stop_s'"):
         read_segments(path, fps=10)
 

@@ -17,7 +17,7 @@ def intake(
     rows: np.ndarray, times: np.ndarray | None, size: int
 ) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Values and missing of all frames, and what was said."""
-    taken = Intake(FPS, rows.shape[1])
+    taken = Intake(FPS, ["x", "y"])
     pieces = []
     for start in range(0, len(rows), size):
         part = slice(start, start + size)
@@ -44,17 +44,23 @@ CASES = {
     "nanoseconds since boot": (ROWS, EVEN * 1e9 + 8.1e10, N, 0, ""),
     "milliseconds since 1970": (ROWS, np.round(EVEN * 1e3) + 1.7e12, N, 0, ""),
     "jitter": (ROWS, EVEN + np.random.default_rng(0).uniform(-0.004, 0.004, N), N, 0, ""),
+    "pause before the second row": (ROWS, np.append(-0.7, EVEN[1:]), N + 35, 35, ""),
+    "microseconds, two rows at once": (ROWS, np.append([0, 200], EVEN[2:] * 1e6), N, 0, ""),
+    "whole seconds": (ROWS, np.floor(EVEN), N, 0, ""),
     "every row twice": (ROWS.repeat(2, 0), EVEN.repeat(2), N, 0, "rows come at about 100 Hz"),
     "packets of ten": (ROWS, EVEN[np.arange(N) // 10 * 10], N, 0, ""),
     "one row lost": (np.delete(ROWS, 99, 0), np.delete(EVEN, 99), N, 0, ""),
     "a hole": (np.delete(ROWS, slice(99, 199), 0), np.delete(EVEN, slice(99, 199)), N, 100, ""),
     "set back": (ROWS, set_back(5, 3), N + 11, 11, "the clock goes back by 2.98 s"),
     "summer time": (ROWS, set_back(5, 3600) + 1.7e9, N, 0, "an hour or a day"),
+    "summer time begins": (ROWS, set_back(5, -3600) + 1_699_999_195, N, 0, "an hour or a day"),
+    "a pause of an hour": (ROWS, set_back(5, -3600) + 1.7e9, N + 180_000, 180_000, ""),
     "a single wrong time": (ROWS, np.where(np.arange(N) == 99, 1e6, EVEN), N, 0, "single rows"),
     "no time": (ROWS, np.where(np.arange(N) == 99, np.nan, EVEN), N, 0, "without a time"),
     "twice the rate": (ROWS, EVEN / 2, N // 2, 0, "instead of 50 Hz"),
     "some NaN": (np.where(np.arange(2 * N).reshape(N, 2) % 3 == 1, np.nan, ROWS), None, N, 0, ""),
     "NaN for a second": (np.where((EVEN // 1 == 3)[:, None], np.nan, ROWS), None, N, 50, ""),
+    "a channel of NaN": (ROWS * [1, np.nan], EVEN, N, 100, "channel y has no value"),
     "NaN throughout": (np.full((N, 2), np.nan), EVEN, N, N, ""),
     "one row": (ROWS[:1], EVEN[:1], 1, 0, ""),
 }

@@ -38,6 +38,43 @@ def test_lines_are_rows_with_times(lines):
     assert "2 lines" in " ".join(chain.from_iterable(each.remarks for each in rows))
 
 
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["time_ms,x,index,note,y\n", "ms,g,,,g\n", "0,1,1,a,2\n", "20,3,2,b,\n"],
+        ["time_ms;x;index;note;y\n", "0;1,0;1;a;2,0\n", "20;3,0;2;b;\n"],
+        [
+            '{"time_ms": 0, "x": 1, "y": 2, "note": "a", "index": 1}',
+            '{"time_ms": 20, "x": 3, "y": null, "note": "b"}',
+        ],
+    ],
+)
+def test_columns_of_text_and_counters_are_no_channels(lines):
+    source = read_lines(lines)
+    assert source.channels == ("x", "y")
+    rows = list(source.rows)
+    values = np.concatenate([each.values for each in rows])
+    np.testing.assert_array_equal(values, [[1, 2], [3, np.nan]])
+    remarks = [*chain.from_iterable(each.remarks for each in rows)]
+    assert "note" in remarks[0]
+    assert "index" in remarks[0]
+
+
+def test_nested_json_becomes_channels():
+    source = read_lines(['{"t": 0, "acc": {"x": 1, "y": 2}, "gyro": [3, 4]}'])
+    assert source.channels == ("acc_x", "acc_y", "gyro_1", "gyro_2")
+    np.testing.assert_array_equal(next(source.rows).values, [[1, 2, 3, 4]])
+
+
+@pytest.mark.parametrize("fps", [0.0, 40.0])
+def test_times_of_a_source_become_seconds(fps):
+    lines = [f"{25 * i + 81_000_000},{i}\n" for i in range(60)]
+    source = measure_rate(read_lines(["t,x\n", *lines]), fps)
+    assert source.fps == pytest.approx(40)
+    seconds = np.concatenate([each.seconds for each in source.rows])
+    np.testing.assert_allclose(np.diff(seconds), 0.025)
+
+
 def test_lines_without_names_and_chosen_columns():
     assert read_lines(["1.5,2\n", "3,4\n"]).channels == ("1", "2")
     source = read_lines(["acc_x,acc_y,pulse\n", "1,2,3\n"], ["acc_*"])
@@ -99,3 +136,8 @@ def test_osc_and_vmc():
     assert got.values[0, 0] == got.values[0, 4] >= 1
     source.rows.close()
     thread.join()
+
+
+def test_a_first_line_of_damaged_json_is_refused() -> None:
+    with pytest.raises(ParameterError, match="first line is not complete JSON"):
+        read_lines(['{"time_ms": 0, "x"'])

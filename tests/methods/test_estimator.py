@@ -85,6 +85,8 @@ def test_as_many_segments_and_states_as_are_wanted() -> None:
         found = Segmenter(fps=50, n_segments=wanted).fit(x)
         assert len(found.segmentation_.activities) == wanted
         assert len(found.change_points_) == wanted - 1
+    coarse = Segmenter(fps=50, detail=0.01).fit(x).segmentation_
+    assert len(coarse.activities) == 1
     with pytest.warns(KinemeWarning, match="no level has 400 states: the nearest has"):
         Segmenter(fps=50, n_states=400).fit(x)
     with pytest.raises(ParameterError, match="krueger2017 has one level"):
@@ -154,6 +156,9 @@ def test_data_frames_name_the_channels_and_pipelines_hold_it() -> None:
     assert "channels: acc_x, acc_y, acc_z" in estimator.segmentation_.provenance["notes"][0]
     piped = make_pipeline(FunctionTransformer(), Segmenter(fps=50)).fit_predict(frame.to_numpy())
     assert piped.tolist() == estimator.labels_.tolist()
+    frame.columns = pd.MultiIndex.from_product([["acc"], list("xyz")])
+    assert Signals(frame, 50).names == ("acc_x", "acc_y", "acc_z")
+    assert Segmenter(fps=50).fit_predict(frame).tolist() == estimator.labels_.tolist()
 
 
 @pytest.mark.parametrize("zone", [None, "Europe/Berlin"])

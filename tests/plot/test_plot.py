@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
@@ -18,7 +19,7 @@ import kineme
 from kineme.errors import ParameterError, WriteError
 from kineme.plot import matrix, plot_matrix, plot_segmentation, plot_strip
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.segments.display import NO_CLUSTER, PALETTE
+from kineme.segments.display import NO_CLUSTER, PALETTE, TRANSITION
 from kineme.segments.segmentation import Segmentation
 from segmentations import from_rows, segmentations
 
@@ -88,6 +89,23 @@ def test_every_segmentation_can_be_drawn(result: Segmentation) -> None:
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     for cluster, count in result.repetitions().items():
         assert f"{cluster}  ({count}×)" in legend
+
+
+def test_a_cluster_without_repetitions_is_drawn() -> None:
+    result = from_rows([
+        ("activity", "activity", 0, 40, 0, ""),  # standing
+        ("activity", "activity", 40, 100, 1, ""),
+        ("primitive", "transition", 0, 40, -1, ""),
+        ("primitive", "primitive", 40, 90, 1, ""),
+        ("primitive", "transition", 90, 100, -1, ""),
+    ])  # fmt: skip
+    axes = Figure().add_subplot()
+    plot_matrix(result, make_turning(100), ax=axes)
+    legend = axes.get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["0", "1  (1×)", "none"]
+    bars = axes.collections[-1].get_facecolors()
+    shown = [to_hex(color, keep_alpha=False).upper() for color in bars]
+    assert shown == [PALETTE[0].upper(), PALETTE[1].upper(), TRANSITION.upper()]
 
 
 def test_a_legend_of_many_clusters_says_how_many_are_left_out() -> None:

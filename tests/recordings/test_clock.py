@@ -154,6 +154,18 @@ def test_the_border_stands_where_the_clock_says(case, container, tmp_path) -> No
     assert signals.gaps == (((1250, 2250),) if case == "a hole of 20 s" else ())
 
 
+@pytest.mark.parametrize(
+    ("fps", "slower", "late"), [(50, 20, 0.003), (100, 10, 0.0), (50, 20, 0.0)]
+)
+def test_merged_sensors_have_the_rate_of_the_fastest(fps, slower, late) -> None:
+    fast, slow = np.arange(0, 20, 1 / fps), np.arange(0, 20, 1 / slower) + late
+    acc = make_movement(fast, ACC).set_index(fast.round(4))
+    both = acc.join(make_movement(slow, GYRO).set_index(slow.round(4)), how="outer")
+    signals = as_signals(both.reset_index(drop=True), times=both.index.to_numpy())
+    assert signals.fps == fps
+    assert np.allclose(signals.values[: len(fast), :3], acc)  # noqa: PD011
+
+
 def write_two_clocks(folder: Path) -> tuple[Path, Path]:
     """An accelerometer in milliseconds since 1970 and a gyroscope at dates, begun 1.5 s later."""
     acc_at, gyro_at = np.arange(0, LENGTH, 0.02), np.arange(1.5034, LENGTH, 0.01)
@@ -187,6 +199,11 @@ def test_the_command_joins_files_and_names_rows(tmp_path) -> None:
     frame, times = lose_rows()
     with pytest.warns(KinemeWarning, match="no common clock: assumed to begin together"):
         join_signals(as_signals(frame, times=times + 1.7e9), as_signals(frame, times=times))
+    zones = [as_signals(frame, times=times + start) for start in (1.7e9, 1.7e9 - 7200)]
+    with pytest.warns(KinemeWarning, match="no common clock: assumed to begin together"):
+        assert join_signals(*zones).duration == zones[0].duration
+    with pytest.warns(KinemeWarning, match="s left out in which not all sensors recorded"):
+        join_signals(as_signals(frame, times=times), as_signals(frame[:500], times=times[:500]))
     with pytest.raises(ParameterError, match="do not overlap in time"):
         join_signals(as_signals(frame, times=times), as_signals(frame, fps=50), offsets=[0, 900])
     table = kineme.segment(frame, times=times).to_dataframe()

@@ -31,7 +31,8 @@ def test_what_files_do_not_say_can_be_said(start) -> None:
     studio = start("--fps", "30", "--unit", "inch", "--effectors", "head=Neck")
     message = studio.recording()
     assert (message["fps"], message["segmentation"]["fps"]) == (30, 30)
-    given = kineme.read(studio.path, fps=30, unit="inch")
+    with pytest.warns(kineme.KinemeWarning, match="Hz; 30 is used"):
+        given = kineme.read(studio.path, fps=30, unit="inch")
     expected = kineme.segment(given, effectors={"head": "Neck"})
     starts = expected.activities.start_frame.tolist()
     assert studio.starts() == starts

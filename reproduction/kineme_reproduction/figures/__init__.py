@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.score import format_markdown, format_score, make_score_rows
+from kineme.evaluation.score import format_score, make_score_rows
 from kineme.evaluation.truth import Labelling
 from kineme_reproduction.benchmark import (
     PublishedCuts,
@@ -104,6 +104,12 @@ def markdown_scores(columns: Mapping[str, Mapping[str, float]]) -> str:
         rows.append([f"**{group}**", *[""] * len(columns)])
         rows += [[title, *cells] for title, cells in lines]
     return format_markdown(["", *columns], rows)
+
+
+def format_markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Format a Markdown table whose first column is left-aligned, the others right."""
+    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def _uniform_table(trials: Sequence[Trial]) -> str:

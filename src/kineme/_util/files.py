@@ -147,8 +147,8 @@ def translate_read_errors(path: str | os.PathLike[str]) -> Iterator[None]:
             path, f"cannot be read: {error.strerror or shorten_error(error)}"
         ) from error
     except UnicodeDecodeError as error:
-        encoding = error.encoding.upper()
-        raise ReadError(path, f"is not {encoding} text (byte {error.start})") from error
+        reason = f"is not {error.encoding.upper()} text (byte {error.start}): save it as UTF-8"
+        raise ReadError(path, reason) from error
     except MemoryError as error:
         raise ReadError(
             path,

@@ -106,17 +106,26 @@ def cycles(
             "--common",
         ),
     ] = False,
+    refine: Annotated[
+        bool,
+        option(
+            MEASUREMENT,
+            "Move borders of labels in --segments to equal phase; by default they stay.",
+            "--refine",
+        ),
+    ] = False,
     segments: SegmentTable = None,
     recursive: Recursive = False,
     quiet: Quiet = False,
 ) -> None:
     """Measure each repetition: duration, ranges, mean curves.
 
-    Borders are moved to equal phase. Several recordings are measured together.
+    Borders are moved to equal phase. Several recordings are measured together. Labels in --segments
+    without a level of repetitions are measured one by one.
     """
     from kineme.cli.tables import show_written
     from kineme.cli.terminal import Console
-    from kineme.cycles import channels_of, compare_sides, write_cycles, write_table
+    from kineme.cycles import channels_of
     from kineme.cycles.measure import cycles as measure_cycles
 
     batch = Batch(files, recursive=recursive, quiet=quiet)
@@ -133,39 +142,41 @@ def cycles(
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             part = read_and_segment(path, options, table, segment_options, stage)
-            found = channels_of(part[0], names) if len(batch.paths) > 1 else ()
-            parts.append(_SegmentedRecording(path, *part, tuple(channel.name for channel in found)))
+            analog = _read_analog_channels(path, part[0], options) if names else []
+            found = channels_of(part[0], names, beside=analog) if len(batch.paths) > 1 else ()
+            channel_names = tuple(channel.name for channel in found)
+            parts.append(
+                _use_labels(path, *part, analog, channel_names, has_table=table is not None)
+            )
 
     for path in batch.paths:
         batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
     parts = _keep_common_channels(parts, batch)
     recordings, tables = [part.recording for part in parts], [part.segments for part in parts]
+    refine |= not any(part.are_labels for part in parts)
+    ends |= anchor is None and any(part.are_cycles for part in parts)
     if recordings:
         with batch.catch_result_errors():
-            analog = _read_analog_channels(batch.paths, recordings, read_options) if names else []
+            analog = [part.analog for part in parts]
             if sides is not None:
                 names = _choose_channels(recordings, names)
+                anchor = _leave_out_side(anchor)
             result = measure_cycles(
                 recordings, tables, channels=names, anchor=anchor, beside=analog, common=common,
-                align=align,
+                refine=refine, align=align,
             )  # fmt: skip
+            if len(result) == 0:
+                raise ParameterError(_explain_nothing(anchor, has_table=segments is not None))
             result = _exclude_cycles(result, exclude or [])
             # The cycles of each recording that has some.
             owners = result.columns["recording"]
             named = dict.fromkeys(owners.tolist()) if compare is not None else ()
             sessions = [result.select(owners == name) for name in named]
-            if output is not None:
-                write_cycles(result, output, ends=ends)
-            if plot is not None:
-                _draw(result, sessions, plot, ends=ends, sides=sides is not None)
-            if compare is not None:
-                _compare(sessions, compare, ends=ends)
-            if sides is not None:
-                write_table(compare_sides(result, ends=ends), sides)
+            targets = output, plot, compare, sides
+            _write_results(result, sessions, *targets, ends=ends)
             if not quiet:
-                given = {"has_channels": channels is not None, "has_table": segments is not None}
-                _show(result, sessions, ends=ends, **given)
-                show_written(Console(highlight=False), [output, plot, compare, sides])
+                _show(result, sessions, has_channels=channels is not None, ends=ends)
+                show_written(Console(highlight=False), [*targets])
     batch.exit()
 
 
@@ -173,7 +184,32 @@ class _SegmentedRecording(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
+    analog: list[Signals]
+    are_labels: bool  # borders given by people, which stay
+    are_cycles: bool  # each row given is one, and all count
     channels: tuple[str, ...]
+
+
+def _use_labels(
+    path: Path,
+    recording: Motion | Signals,
+    segments: Segmentation,
+    analog: list[Signals],
+    channels: tuple[str, ...],
+    *,
+    has_table: bool,
+) -> _SegmentedRecording:
+    """Return a recording with its segments; rows of a table of labels become repetitions."""
+    from kineme.cycles import as_repetitions
+
+    # What kineme found without repetitions holds none.
+    is_found = not has_table or "preset" in segments.provenance
+    repetitions = segments if is_found else as_repetitions(segments)
+    are_cycles = repetitions is not segments
+    are_labels = are_cycles or "labels" in segments.provenance
+    return _SegmentedRecording(
+        path, recording, repetitions, analog, are_labels, are_cycles, channels
+    )
 
 
 def _keep_common_channels(
@@ -191,14 +227,14 @@ def _keep_common_channels(
 
 
 def _read_analog_channels(
-    paths: list[Path], recordings: list[Motion | Signals], options: ReadOptions
+    path: Path, recording: Motion | Signals, options: ReadOptions
 ) -> list[Signals]:
-    """Return the analog channels in the file of a single motion, such as force plates."""
+    """Return the analog channels in the file of a motion, such as force plates."""
     from kineme.recordings import Motion
 
-    if len(paths) > 1 or not isinstance(recordings[0], Motion):
+    if not isinstance(recording, Motion):
         return []
-    signals = read_analog(paths[0], options)
+    signals = read_analog(path, options)
     return [] if signals is None else [signals]
 
 
@@ -234,6 +270,53 @@ def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:
                 ) from None
             cycles = cycles.exclude(rows)
     return cycles
+
+
+def _explain_nothing(anchor: str | None, *, has_table: bool) -> str:
+    """Return why there are no cycles, and what to do."""
+    from kineme.cycles.repetitions import is_event
+
+    if anchor is not None and is_event(anchor):
+        return f"nothing to measure: no two events {anchor!r} follow one another; see kineme events"
+    if has_table:
+        return (
+            "nothing to measure: the segments given have no repetitions. Give a table with a row "
+            "for each (start_s, stop_s, label)"
+        )
+    return (
+        "nothing repeats in this recording: give the repetitions with --segments (a table of "
+        "start_s, stop_s, label) or an event with --anchor, such as left_foot_strike"
+    )
+
+
+def _leave_out_side(anchor: str | None) -> str | None:
+    """Return the contact of either foot, from which each side has cycles of its own."""
+    from kineme.cycles.events import OFF, STRIKE, normalize_event_name
+
+    contact = normalize_event_name(anchor or "").partition(" ")[2]
+    return contact if contact in (STRIKE, OFF) else anchor
+
+
+def _write_results(
+    cycles: Cycles,
+    sessions: list[Cycles],
+    output: Path | None,
+    plot: Path | None,
+    compare: Path | None,
+    sides: Path | None,
+    *,
+    ends: bool,
+) -> None:
+    from kineme.cycles import compare_sides, write_cycles, write_table
+
+    if output is not None:
+        write_cycles(cycles, output, ends=ends)
+    if plot is not None:
+        _draw(cycles, sessions, plot, ends=ends, sides=sides is not None)
+    if compare is not None:
+        _compare(sessions, compare, ends=ends)
+    if sides is not None:
+        write_table(compare_sides(cycles, ends=ends), sides)
 
 
 def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
@@ -307,9 +390,7 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
         figure.savefig(draft)
 
 
-def _show(
-    cycles: Cycles, sessions: list[Cycles], *, has_channels: bool, ends: bool, has_table: bool
-) -> None:
+def _show(cycles: Cycles, sessions: list[Cycles], *, has_channels: bool, ends: bool) -> None:
     """Print a line per group (per session and group for two sessions), and the notes."""
     from rich.text import Text
 
@@ -332,10 +413,6 @@ def _show(
     if without_inner and not ends:
         groups = ", ".join(without_inner)
         console.print(f"{groups}: no inner repetitions; --ends includes the first and last.")
-    if len(cycles) == 0:
-        no_primitives = "the segments given have no primitives"
-        why = no_primitives if has_table else "nothing repeats in this recording"
-        console.print(f"no repetitions: {why}.")
     for note in cycles.provenance["notes"]:
         console.print(Text(f"note: {note}", style="dim"), soft_wrap=not console.is_terminal)
 

@@ -95,6 +95,7 @@ def events(
         for target in filter(None, targets):
             target.parent.mkdir(exist_ok=True)
         table, measured, span, copy = targets
+        note = ""
         if table is not None:
             write_table(contacts.columns(), table)
         if measured is not None:
@@ -105,17 +106,20 @@ def events(
         if span is not None:
             write_segments(contacts.segmentation(), span)
         if copy is not None:
-            write_events(path, copy, contacts.times, contacts.names)
+            several = len(recording.provenance.people) > 1
+            subject = recording.provenance.person if several else None
+            n_added = write_events(path, copy, contacts.times, contacts.names, subject=subject)
+            note = f"{format_count(n_added, 'event')} added to those in the file"
         if not quiet:
-            _show(path, contacts, measures, [*targets])
+            _show(path, contacts, measures, [*targets], note)
 
     for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
         batch.run_each_person(path, read_options, work, *targets)
     batch.exit()
 
 
-def _show(path: Path, events: Events, gait: Columns, written: list[Path | None]) -> None:
-    """Print the number of events and the gait measures."""
+def _show(path: Path, events: Events, gait: Columns, written: list[Path | None], note: str) -> None:
+    """Print the number of events, the gait measures, and the note if there is one."""
     from rich.text import Text
 
     from kineme.cli.tables import make_table, show_written
@@ -135,6 +139,8 @@ def _show(path: Path, events: Events, gait: Columns, written: list[Path | None])
         )  # fmt: skip
     if len(gait["measure"]):
         console.print(table)
+    if note:
+        console.print(note)
     show_written(console, written)
 
 

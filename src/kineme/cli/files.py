@@ -28,7 +28,6 @@ from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.options import expand_read_options
 from kineme.cli.terminal import format_line, print_error, print_skipped, show_progress
 from kineme.errors import KinemeError, ReadError, WriteError
-from kineme.labels.delimited import read_columns
 
 if TYPE_CHECKING:
     from kineme.formats.options import ReadOptions
@@ -273,7 +272,9 @@ def find_tables(option: str, source: Path, inputs: list[Path], person: str = "")
     In a folder, the table of this ``person`` is preferred.
     """
     if not _is_folder(source):
-        is_shared = "recording" in read_columns(source)  # one table for several recordings
+        from kineme.labels.csv_table import lists_recordings
+
+        is_shared = lists_recordings(source)  # one table for several recordings
         return [source] * len(inputs) if is_shared else _fill_patterns(option, source, inputs)
     if not source.exists() and not _FIELD.search(str(source)):
         raise ReadError(source, "there is no such file or folder")

@@ -124,7 +124,7 @@ def _push_all(
         for rows in source.rows if journal is None else journal.write_ahead(source.rows):
             for remark in rows.remarks:
                 print_skipped(remark)
-            tell(stream.push(rows.values, rows.seconds))
+            tell(stream.push(rows.values, rows.seconds, unit="s"))
     except KeyboardInterrupt:
         return True
     finally:
@@ -185,9 +185,10 @@ def _open_source(
         source = sources.receive_osc(port, osc[1])
     else:
         source = sources.read_lines(sys.stdin, options.columns or ())
-    if options.fps is not None:
-        return replace(source, fps=options.fps)
-    return source if source.fps else sources.measure_rate(source)
+    fps = source.fps if options.fps is None else options.fps
+    if fps and source.has_unit:
+        return replace(source, fps=fps)
+    return sources.measure_rate(source, fps)
 
 
 def _make_stream(source: Source, options: SegmentOptions, delay: float, interval: float) -> Stream:

@@ -51,7 +51,8 @@ BODY: dict[str, Any] = {
         option(READING_OPTIONS, "Axis that points up: x, y, z, -x, -y, -z.", metavar="AXIS"),
     ],
     "person": Annotated[
-        str | None, option(READING_OPTIONS, "Person to read: name or number.", metavar="NAME")
+        str | None,
+        option(READING_OPTIONS, "Person to read: name or number (0, 1, …).", metavar="NAME"),
     ],
     "confidence": Annotated[
         float | None, option(READING_OPTIONS, "Least confidence of points, such as 0.5.")

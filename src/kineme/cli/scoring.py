@@ -5,7 +5,7 @@ These are the parts of `kineme evaluate` that import the methods.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +39,7 @@ from kineme.evaluation.inputs import (
     score,
 )
 from kineme.evaluation.score import (
+    Result,
     explain_disagreement,
     format_score,
     make_score_rows,
@@ -97,12 +98,7 @@ def run_folder(
             [path.name for path in recordings if path not in labelled],
         )
     _print_problems(result, quiet=quiet)
-    if as_json:
-        typer.echo(result.to_json())
-    elif not quiet:
-        _show_scores(result)
-    if output is not None:
-        write_result(result, output)
+    _output_result(result, lambda: _show_scores(result), output, as_json=as_json, quiet=quiet)
     return any(not one.error for ones in result.methods.values() for one in ones)
 
 
@@ -173,10 +169,17 @@ def run_people(
     if not any(len(sides) > 1 for sides in labelled.values()):
         raise ReadError(folder, "has no recording that two people labelled")
     result = annotator_agreement(labelled)
+    _output_result(result, lambda: _show_agreement(result), output, as_json=as_json, quiet=quiet)
+
+
+def _output_result(
+    result: Result, show: Callable[[], None], output: Path | None, *, as_json: bool, quiet: bool
+) -> None:
+    """Print a result as JSON or tables, and write it."""
     if as_json:
         typer.echo(result.to_json())
     elif not quiet:
-        _show_agreement(result)
+        show()
     if output is not None:
         write_result(result, output)
 

@@ -18,12 +18,14 @@ from kineme.cycles.events import Events, foot_events, gait, strides
 from kineme.cycles.export import write_cycles, write_table
 from kineme.cycles.joints import bend, cardan, landmarks, measure_angle
 from kineme.cycles.measure import cycles
+from kineme.cycles.repetitions import as_repetitions
 from kineme.cycles.table import Cycles
 
 __all__ = [
     "Channel",
     "Cycles",
     "Events",
+    "as_repetitions",
     "bend",
     "cardan",
     "channels_of",

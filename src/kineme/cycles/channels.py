@@ -5,7 +5,8 @@ Names end with the side, as in ``knee_l``. Angles of a body:
 =============== ===============================================================================
 ``knee_l``      angle between thigh and shank, for markers about the axis of the knee;
                 ``elbow_l`` between both limbs
-``hip_l``       thigh forward: relative to the pelvis if there are rotations, else to the trunk
+``hip_l``       thigh forward: relative to the pelvis if its rotation is known or it has markers,
+                else to the trunk
 ``ankle_l``     toes up: 90 degrees less the angle between shank and foot
 ``shoulder_l``  between upper arm and trunk: 0 if the arm hangs down
 ``trunk_lean``  trunk forward from the vertical; ``trunk_side`` to the right
@@ -36,6 +37,7 @@ from kineme.cycles.joints import (
     bend,
     cardan,
     find_hinge_axis,
+    find_pelvis_axes,
     landmarks,
     measure_angle,
     measure_turn,
@@ -273,6 +275,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
     shoulders = [joints.get(f"{side}_shoulder", -1) for side in SIDES]
     if min(hips) < 0:
         return
+    axes = find_pelvis_axes(motion)
     for side, hip in zip(SIDES, hips, strict=True):
         if f"{side}_knee" in joints:
             thigh = hip, joints[f"{side}_knee"]
@@ -280,6 +283,9 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
             if motion.rotations is not None and pelvis >= 0:
                 against = f"against {motion.skeleton.names[pelvis]}"
                 compute = partial(_measure_against_pelvis, motion, *thigh, hips)
+            elif axes is not None:
+                against = "against the pelvis"
+                compute = partial(_measure_against_axes, places, *thigh, axes)
             elif min(shoulders) >= 0:
                 against = "against the trunk"
                 compute = partial(_measure_against_trunk, places, *thigh, hips, shoulders)
@@ -329,6 +335,14 @@ def _measure_against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[
     rest, to_left = places[knee] - places[hip], places[hips[0]] - places[hips[1]]
     # A right-handed turn about the axis to the left swings a hanging thigh back, hence the minus.
     return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
+
+
+def _measure_against_axes(
+    places: Floats, hip: int, knee: int, axes: tuple[Floats, Floats, Floats]
+) -> Floats:
+    """Return the thigh's forward rotation in the sagittal plane of the pelvis."""
+    left, _, up = axes
+    return -measure_turn(left, -up, places[:, knee] - places[:, hip])
 
 
 def _find_trunk(places: Floats, hips: Sequence[int], shoulders: Sequence[int]) -> Floats:

@@ -27,6 +27,7 @@ from kineme.cycles.table import (
     compute_mean_phase,
     compute_phase_differences,
     is_phase,
+    unwrap_phases,
 )
 from kineme.errors import ParameterError
 
@@ -100,6 +101,11 @@ def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
     return pairs
 
 
+def is_right(channel: str) -> bool:
+    """Return whether a channel is of the right side, judging by its name."""
+    return re.search("(?i:right)|_r$", channel) is not None
+
+
 def _compare_values(
     left: Floats, right: Floats, measure: str, *, indexed: bool
 ) -> tuple[float, ...]:
@@ -112,12 +118,14 @@ def _compare_values(
     differences = left[both] - right[both]
     of_left, of_right = left[both].mean(), right[both].mean()
     if is_phase(measure):
-        differences = compute_phase_differences(differences)
+        differences = unwrap_phases(differences)
         of_left, of_right = compute_mean_phase(left[both]), compute_mean_phase(right[both])
     mean, half = (
         differences.mean(),
         compute_half_width(differences.std(ddof=1) if n > 1 else np.nan, n),
     )
+    if is_phase(measure):
+        mean = compute_phase_differences(mean)  # the bounds around it may pass half a cycle
     total = of_left + of_right
     # Per cent of the mean of both sides: 100 / (total / 2).
     index = 200 * mean / total if indexed and total > 0 else np.nan

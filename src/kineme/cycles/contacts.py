@@ -8,7 +8,8 @@ fraction. Both fractions were fitted to recordings with manually checked contact
 are neither early nor late on average.
 
 *Positions.* Heel and toe stand while they are low and slow; the foot stands while one of them does.
-Speed is relative to the ground, which is the belt on a treadmill.
+Speed is relative to the ground, which is the belt on a treadmill. Height is above the line of the
+ground, which rises on a ramp.
 
 *Force.* The foot stands while the force exceeds a threshold above that of the empty plate.
 """
@@ -24,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
 from kineme.errors import ParameterError
-from kineme.features.effectors import find_low_and_slow
+from kineme.features.effectors import find_low_and_slow, measure_speed
 from kineme.recordings.arrays import find_spans
 
 STEADY = 0.12
@@ -43,6 +44,8 @@ FIRST = 0.3
 """First fraction of a movement, in which the heel rises."""
 LOW, SLOW = 0.04, 0.8
 """Height (m, above the lowest position) and speed (m/s) below which heel or toe stands."""
+REACH, STEEPEST = 1.0, 0.25
+"""Least length (m) and largest slope of a ramp: leg raises are shorter, stairs steeper."""
 BRIDGE_S, STAND_S = 0.1, 0.1
 """Shortest break between stands, and shortest stand, in seconds."""
 NEWTON = 20.0
@@ -209,32 +212,58 @@ def stands_from_positions(points: Sequence[ArrayLike], fps: float) -> Floats:
     # (frames, 3): how far the ground has moved since the start.
     ground_shift = np.arange(len(paths[0]))[:, None] / fps * measure_ground_velocity(paths, fps)
     stands = np.zeros(len(paths[0]), bool)
-    for path in paths:
-        stands |= find_low_and_slow(path - ground_shift, fps, height=LOW, speed=SLOW)
+    for path in _subtract_slope([path - ground_shift for path in paths], fps):
+        stands |= find_low_and_slow(path, fps, height=LOW, speed=SLOW)
     return _join_stands(stands, fps)
 
 
 def measure_ground_velocity(points: Sequence[Floats], fps: float) -> Floats:
     """Return the velocity of the ground: that of a treadmill's belt, else 0.
 
-    A foot is low mostly while it stands, so the median velocity of its low points is that of the
-    ground. On a belt the foot returns to its position; overground it travels with the body. Points
-    are (frames, 3) in metres, y up; the result (3,) is horizontal, metres per second.
+    It is the median velocity of a foot that stands flat: all its points are low and move alike,
+    unlike those of a foot that lands or rises. On a belt the foot returns to its position;
+    overground it travels with the body. Points are (frames, 3) in metres, y up; the result (3,) is
+    horizontal, metres per second.
     """
     if len(points[0]) < 2:
         return np.zeros(3)
     # Without a limit of speed: a foot that stands on a belt is fast.
-    low = [find_low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points]
-    velocities = [np.gradient(path, axis=0)[each] * fps
-                  for path, each in zip(points, low, strict=True)]  # fmt: skip
+    low = np.stack([find_low_and_slow(path, fps, height=LOW, speed=np.inf) for path in points])
+    velocities = np.gradient(np.stack(points), axis=1) * fps
+    if (flat := low.all(axis=0)).any():
+        # Distance of the points' velocities; the half in which they are most alike.
+        apart = np.linalg.norm(np.ptp(velocities, axis=0), axis=1)
+        low[:] = flat & (apart <= np.median(apart[flat]))
     # The belt is level: no vertical velocity.
-    belt = np.median(np.concatenate(velocities), axis=0) * [1, 0, 1]
+    belt = np.median(velocities[low], axis=0) * [1, 0, 1]
     travel = np.mean([path[-1] - path[0] for path in points], axis=0) * [1, 0, 1]
     # From metres in all to metres per second; n frames are n - 1 steps.
     travel *= fps / (len(points[0]) - 1)
     # Overground the low points hardly move, so the feet travel much faster than these.
     is_belt = np.linalg.norm(travel) < np.linalg.norm(belt) / 2
     return np.asarray(belt if is_belt else np.zeros(3))
+
+
+def _subtract_slope(paths: Sequence[Floats], fps: float) -> list[Floats]:
+    """Return paths of a foot with heights above the ramp that it walks on, if it does."""
+    places: list[Floats] = []
+    for path in paths:
+        slow = find_spans(measure_speed(path, fps) < SLOW).tolist()
+        rests = [np.median(path[a:b], axis=0) for a, b in slow if b - a >= STAND_S * fps]
+        # Heel and toe have different heights: only differences from their means are compared.
+        places += [rest - np.mean(rests, axis=0) for rest in rests]
+    # Each point has its own height, so a line needs two more places than points.
+    if len(places) < len(paths) + 2:
+        return [*paths]
+    height, flat = np.array(places)[:, 1], np.array(places)[:, [0, 2]]
+    # The direction in which the places lie apart: the first right singular vector.
+    direction = np.linalg.svd(flat, full_matrices=False)[2][0]
+    along = flat @ direction
+    slope = float(along @ height / max(along @ along, 1e-12))
+    is_ramp = np.ptp(along) > REACH and LOW / np.ptp(along) < abs(slope) < STEEPEST
+    if not is_ramp or np.abs(height - slope * along).max() > LOW:
+        return [*paths]
+    return [path - np.outer(path[:, [0, 2]] @ direction * slope, [0, 1, 0]) for path in paths]
 
 
 def stands_from_force(force: ArrayLike, fps: float, *, least: float = NEWTON) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
@@ -20,9 +20,10 @@ from kineme.cycles.contacts import (
     stands_from_positions,
     swings_from_gyroscope,
 )
-from kineme.cycles.joints import OTHER_SIDE, find_feet
+from kineme.cycles.joints import OTHER_SIDE, find_feet, landmarks
 from kineme.cycles.table import Columns
 from kineme.errors import KinemeWarning, ParameterError
+from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
 from kineme.recordings.column_names import COORDINATE
 from kineme.recordings.joint_names import GYROSCOPE, SIDES, has_word, mentions
@@ -33,8 +34,11 @@ LONGEST = 1.8
 """Longest stride relative to the median; longer ones contain a stop or a missed contact."""
 STANCE, ASYMMETRY = (40.0, 85.0), 50.0
 """Plausible stance phase in per cent of a stride, and largest asymmetry in per cent."""
+RENAME = "Name the markers of heels and toes LHEE, LTOE, RHEE, RTOE and fill their gaps"
+"""Remedy if heels or toes are not found."""
 NAMED = 20
 """Number of channels that a message names; it counts the others."""
+_UNIT = re.compile(r"[\s_]*[\[(][^\])]*[\])]$")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -149,6 +153,8 @@ def foot_events(
 ) -> Events:
     """Return the times of ``left foot strike``, ``left foot off``, and the same for the right.
 
+    Contacts marked in the file replace those found within 0.2 s.
+
     Parameters
     ----------
     recording : Motion or Signals
@@ -175,7 +181,8 @@ def foot_events(
     times: list[float] = []
     names: list[str] = []
     sources: dict[str, str] = {}
-    is_body = isinstance(recording, Motion)
+    n_marks = dict.fromkeys(SIDES, 0)
+    marked, is_body = recording.provenance.events, isinstance(recording, Motion)
     for side, pattern in zip(SIDES, (left, right), strict=True):
         if is_body and pattern is not None:
             raise ParameterError(
@@ -195,14 +202,29 @@ def foot_events(
             )
         for seconds, event in zip((starts, stops), (STRIKE, OFF) if are_stands else (OFF, STRIKE),
                                   strict=True):  # fmt: skip
-            times += seconds
-            names += [f"{side} {event}"] * len(seconds)
+            name = f"{side} {event}"
+            marks = [at for at, text in marked if normalize_event_name(text) == name]
+            apart = [at for at in seconds if all(abs(at - mark) >= SAME_S for mark in marks)]
+            times += marks + apart
+            names += [name] * len(marks + apart)
+            n_marks[side] += len(marks)
+    if not sources and is_body:
+        raise ParameterError(
+            f"no foot found: no heel or ankle has a usual name. {RENAME}, or use force plates "
+            "(for a C3D --columns '*' --left Fz1 --right Fz2)"
+        )
     if not sources:
         raise ParameterError(
-            "no foot found: a body needs heels or ankles with usual names. For signals, "
-            "name each foot's gyroscope or force channels, as in left='lf_gyr_*' (--left "
-            "'lf_gyr_*'; for a C3D --columns '*' --left Fz1 --right Fz2)"
+            "no foot found: name each foot's gyroscope or force channels, as in left='lf_gyr_*' "
+            "(--left 'lf_gyr_*')"
         )
+    if isinstance(recording, Motion) and recording.rotations is None:
+        _warn_missing_points(recording, sources)
+    sources |= {
+        side: f"{source}, {n_marks[side]} of them marked in the file"
+        for side, source in sources.items()
+        if n_marks[side]
+    }
     # The stable sort keeps the left foot first at equal times.
     order = np.argsort(times, kind="stable")
     return Events(
@@ -212,6 +234,23 @@ def foot_events(
         recording.fps,
         sources,
     )
+
+
+def _warn_missing_points(motion: Motion, sources: Mapping[str, str]) -> None:
+    """Warn if the contacts of feet were found without markers of heel and toe."""
+    joints, parents = landmarks(motion), motion.skeleton.parents
+    toes = [joints.get(f"{side}_toe", -1) for side in sources]
+    # In a skeleton with bones the foot ends in a toe, and its ankle serves as the heel.
+    has_bones = [parents[toe] for toe in toes] == [joints.get(f"{side}_ankle") for side in sources]
+    has_heels = has_bones or all(f"{side}_heel" in joints for side in sources)
+    missing = ["heel"] * (not has_heels) + ["toe"] * (min(toes) < 0)
+    if missing:
+        warnings.warn(
+            f"no {' and no '.join(missing)} was found on both sides: contacts are from "
+            f"{', '.join(sources.values())}, and stances may be 0.1 s too short. {RENAME}.",
+            KinemeWarning,
+            stacklevel=3,
+        )
 
 
 def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None) -> list[str]:
@@ -236,7 +275,7 @@ def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None
         chosen = [
             name
             for name in names
-            if COORDINATE.fullmatch(name)
+            if COORDINATE.fullmatch(_UNIT.sub("", name))
             and has_word(name, GYROSCOPE)
             and mentions(name, place, side=side)
         ]

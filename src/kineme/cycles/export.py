@@ -31,6 +31,8 @@ from kineme.labels.delimited import open_new_text, write_rows
 
 NAME_OF_MATLAB = 63
 """Longest name in MATLAB, in characters."""
+DIGITS = 12
+"""Significant digits in CSV and Excel."""
 SHEET_ROWS = 1_048_575
 """Largest number of rows in an Excel sheet below the header."""
 
@@ -108,10 +110,10 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
 
 
 def _format_cells(column: np.ndarray[Any, Any]) -> list[Any]:
-    """Return the cells of a column, "" for nan."""
+    """Return the cells of a column, "" for nan; rounding errors such as 1.1400000000000001 go."""
     if column.dtype.kind != "f":
         return list(column.tolist())
-    return ["" if isnan(cell) else cell for cell in column.tolist()]
+    return ["" if isnan(cell) else float(f"{cell:.{DIGITS}g}") for cell in column.tolist()]
 
 
 def _make_tables(cycles: Cycles, ends: bool) -> dict[str, Columns]:

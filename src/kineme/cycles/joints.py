@@ -94,6 +94,11 @@ def landmarks(motion: Motion) -> dict[str, int]:
 def find_feet(motion: Motion) -> dict[str, tuple[int, ...]]:
     """Return the joints used to find contacts of each foot: heel or ankle, and toe."""
     joints = landmarks(motion)
+    # Left and right are compared with each other, so both use the same points.
+    for part in ("heel", "toe"):
+        has_ankles = all(f"{side}_ankle" in joints for side in SIDES)
+        if has_ankles and not all(f"{side}_{part}" in joints for side in SIDES):
+            joints = {joint: at for joint, at in joints.items() if not joint.endswith(part)}
     heels = {side: joints.get(f"{side}_heel", joints.get(f"{side}_ankle")) for side in SIDES}
     # The keys of a dict are unique: a foot without a toe has its heel only once.
     return {
@@ -111,8 +116,7 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     marker farthest from their line, or else the other hip.
     """
     names = [simplify_name(name.rpartition(":")[2]) for name in motion.skeleton.names]
-    found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
-    marker = {joint: points[0] for joint, points in found.items()}
+    marker = _find_markers(motion)
     places = motion.positions
     new_joints: dict[str, Floats] = {}
     # A skeleton with rotations has its joints at their centres; only markers need this.
@@ -168,26 +172,53 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
     return replace(motion, skeleton=extended, positions=positions), result
 
 
-def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
-    """Return both hip centres from the file or pelvis markers; empty without these."""
-    centres, fronts, backs = (
+def find_pelvis_axes(motion: Motion) -> tuple[Floats, Floats, Floats] | None:
+    """Return the unit vectors (frames, 3) left, ahead and up of a pelvis with markers, or None.
+
+    These are the axes of Plug-in Gait: left along the markers in front, ahead in the plane of all.
+    """
+    pelvis = _find_pelvis(motion.positions, _find_markers(motion))
+    return None if pelvis is None else _orient_pelvis(*pelvis[1:])
+
+
+def _find_markers(motion: Motion) -> dict[str, int]:
+    found = find_joints(motion.skeleton.names, MARKERS, exact=True, single=True)
+    return {joint: points[0] for joint, points in found.items()}
+
+
+def _find_pelvis(places: Floats, marker: Mapping[str, int]) -> tuple[Floats, Floats, Floats] | None:
+    """Return the front middle of a pelvis, and its vectors from right to left and back to front."""
+    fronts, backs = (
         [marker.get(f"{side}_{part}", -1) for side in SIDES]
-        for part in ("hip_centre", "waist_front", "waist_back")
+        for part in ("waist_front", "waist_back")
     )
-    if min(centres) >= 0:
-        return {side: places[:, j] for side, j in zip(SIDES, centres, strict=True)}
     # A marker on the sacrum replaces the two at the back.
     if min(backs) < 0:
         backs = [marker.get("sacrum", -1)]
     if min(fronts + backs) < 0:
-        return {}
+        return None
     front, back = places[:, fronts].mean(axis=1), places[:, backs].mean(axis=1)
-    across, ahead = places[:, fronts[0]] - places[:, fronts[1]], front - back
-    width, depth = (float(np.median(np.linalg.norm(each, axis=1))) for each in (across, ahead))
-    # Axes of the pelvis: left, ahead without its share of left, and up.
+    return front, places[:, fronts[0]] - places[:, fronts[1]], front - back
+
+
+def _orient_pelvis(across: Floats, ahead: Floats) -> tuple[Floats, Floats, Floats]:
     left = normalize(across)
+    # Ahead without its share of left.
     forward = normalize(remove_along(ahead, left))
-    up = np.cross(forward, left)
+    return left, forward, np.cross(forward, left)
+
+
+def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
+    """Return both hip centres from the file or pelvis markers; empty without these."""
+    centres = [marker.get(f"{side}_hip_centre", -1) for side in SIDES]
+    if min(centres) >= 0:
+        return {side: places[:, j] for side, j in zip(SIDES, centres, strict=True)}
+    pelvis = _find_pelvis(places, marker)
+    if pelvis is None:
+        return {}
+    front, across, ahead = pelvis
+    width, depth = (float(np.median(np.linalg.norm(each, axis=1))) for each in (across, ahead))
+    left, forward, up = _orient_pelvis(across, ahead)
     # Regression of Harrington et al.: factor times depth or width, plus a constant, in metres.
     middle = front + (DEPTH[0] * depth + DEPTH[1]) * forward
     middle = middle + (WIDTH_DOWN[0] * width + WIDTH_DOWN[1]) * up

@@ -22,11 +22,15 @@ from kineme._util.files import as_display_name, make_person_suffix
 from kineme._version import __version__
 from kineme.cycles.align import ALIGNMENTS, LINEAR, align_curves
 from kineme.cycles.channels import Channel, channels_of
+from kineme.cycles.comparison import is_right
 from kineme.cycles.repetitions import (
     Repetition,
     anchor_repetitions,
+    cut_at_events,
     find_repetitions,
     get_movement_key,
+    is_event,
+    list_repetitions,
 )
 from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
@@ -47,8 +51,9 @@ def cycles(
     *,
     channels: Iterable[str] | None = None,
     anchor: str | Sequence[float] | None = None,
-    beside: Sequence[Signals] = (),
+    beside: Sequence[Signals] | Sequence[Sequence[Signals]] = (),
     common: bool = False,
+    refine: bool = True,
     align: str = LINEAR,
     points: int = POINTS,
 ) -> Cycles:
@@ -58,19 +63,26 @@ def cycles(
     ----------
     recordings : Motion or Signals, or a sequence of them
     segments : Segmentation, or a sequence of them
-        One for each recording.
+        One for each recording. Their primitives are measured; `kineme.cycles.as_repetitions` makes
+        primitives of labels that have none.
     channels : iterable of str, optional
         Channels to measure, see `kineme.cycles.channels_of`; by default the angles of a body, or
         all channels of signals.
     anchor : str or sequence of float, optional
-        Start of a cycle; a common phase by default. ``knee_r max`` (or ``min``), ``knee_r > 40``
-        (``<`` for falling below), an event of the file, ``left foot strike`` or another foot
-        contact, or times in seconds. Cycles without the event are kept but marked.
-    beside : sequence of Signals
-        Signals recorded at the same time as the recording, such as force plates.
+        Start of a cycle; a common phase by default. ``knee_r max`` (or ``min``), or ``knee_r > 40``
+        (``<`` for falling below): cycles without it are kept but marked. Or an event of the file,
+        ``left foot strike`` or another foot contact, or times in seconds: cycles run from each
+        event to the next one, and their group is the label, else the event. With ``foot strike``
+        or ``foot off``, channels of the right side are measured from its own foot's event.
+    beside : sequence of Signals, or a sequence of such sequences
+        Signals recorded at the same time as the recording, such as force plates; for several
+        recordings a list for each.
     common : bool
         Whether equal cluster numbers mean equal movements in all recordings, as in a library.
         Otherwise only equal labels do.
+    refine : bool
+        Whether borders move to a common phase and pauses are cut off. Otherwise they stay those of
+        the segments, as for repetitions that were cut by hand.
     align : {"linear", "landmarks", "warp"}
         How curves of a group are aligned (`kineme.cycles.align`): linearly in time; so that
         maximum and minimum of the first channel coincide; or warped to the mean. Statistics are
@@ -110,14 +122,18 @@ def cycles(
     >>> squats.columns["knee_l.max"][squats.columns["group"] == "squat"].round().tolist()
     [113.0, 102.0, 103.0, 111.0]
     """
-    items, tables = _check_inputs(recordings, segments, beside, points)
+    items, tables, signals = _check_inputs(recordings, segments, beside, points)
     check_flag(common, "common")
+    check_flag(refine, "refine")
     check_one_of(align, ALIGNMENTS, "align")
     names = _name_files(items)
     # Cluster numbers are not comparable between recordings, unless they are common.
     groups = [_group_movements(table, "" if common or len(items) == 1 else f"{name}: ")
               for table, name in zip(tables, names, strict=True)]  # fmt: skip
-    measured = [channels_of(recording, channels, beside=beside) for recording in items]
+    measured = [
+        channels_of(recording, channels, beside=others)
+        for recording, others in zip(items, signals, strict=True)
+    ]
     first = [channel.name for channel in measured[0]]
     for each, name in zip(measured, names, strict=True):
         if other := sorted({*first} ^ {channel.name for channel in each}):
@@ -125,19 +141,24 @@ def cycles(
                 f"{names[0]} and {name} do not have the same channels: "
                 f"{', '.join(other[:8])}; choose channels that both have with channels="
             )
-    repetitions = find_repetitions(items, tables, groups)
-    if anchor is not None:
+    if anchor is not None and is_event(anchor):
         if not isinstance(anchor, str) and len(items) > 1:
             raise ParameterError(
                 "seconds of events apply to one recording only: give the names of events instead"
             )
-        repetitions = anchor_repetitions(repetitions, items, groups, anchor, beside)
+        repetitions = cut_at_events(items, tables, anchor)
+    else:
+        repetitions = (
+            find_repetitions(items, tables, groups) if refine else list_repetitions(tables)
+        )
+        if isinstance(anchor, str):
+            repetitions = anchor_repetitions(repetitions, items, groups, anchor, signals)
     columns = _make_columns(repetitions, tables, names, groups)
     provenance = _make_provenance(items, tables, repetitions, columns)
     spans = [(each.recording, each.start, each.stop) for each in repetitions]
-    return mark_excluded(
-        _measure_cycles(spans, measured, columns, align, points, provenance), tables
-    )
+    # Channels of the right side may have cycles of their own.
+    right = [(each.recording, *(each.right or (each.start, each.stop))) for each in repetitions]
+    return _measure_cycles(spans, measured, columns, align, points, provenance, right)
 
 
 def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
@@ -170,10 +191,10 @@ def measure_other_channels(cycles: Cycles, channels: Sequence[Channel]) -> Cycle
 def _check_inputs(
     recordings: Recordings,
     segments: Segmentation | Sequence[Segmentation],
-    beside: Sequence[Signals],
+    beside: Sequence[Signals] | Sequence[Sequence[Signals]],
     points: int,
-) -> tuple[list[Motion | Signals], list[Segmentation]]:
-    """Return recordings and tables as lists; raise ParameterError if they do not match."""
+) -> tuple[list[Motion | Signals], list[Segmentation], list[Sequence[Signals]]]:
+    """Return recordings, tables and signals as lists; raise ParameterError if they do not match."""
     items = [recordings] if isinstance(recordings, Motion | Signals) else recordings
     check_type(items, Sequence, "cycles", "kineme.read(path) gives a recording")
     tables = [segments] if isinstance(segments, Segmentation) else segments
@@ -183,8 +204,12 @@ def _check_inputs(
         check_type(recording, (Motion, Signals), "cycles", "kineme.read(path) gives one")
     for table in tables:
         check_type(table, Segmentation, "cycles", "kineme.segment(recording) gives one")
-    for signals in beside:
-        check_type(signals, Signals, "cycles", "beside= takes a list of signals")
+    is_nested = bool(beside) and not isinstance(beside[0], Signals)
+    lists: list[Any] = [*beside] if is_nested else [beside] * (1 if beside else len(items))
+    for signals in lists:
+        check_type(signals, Sequence, "cycles", "beside= takes a list of signals")
+        for each in signals:
+            check_type(each, Signals, "cycles", "beside= takes a list of signals")
     if not items or len(items) != len(tables):
         raise ParameterError(
             f"cycles takes one segmentation per recording, not {len(tables)} of {len(items)}"
@@ -195,11 +220,13 @@ def _check_inputs(
                 f"the segments have {table.n_frames} frames at {table.fps:g} Hz, but the "
                 f"recording has {recording.n_frames} at {recording.fps:g} Hz"
             )
-    if beside and len(items) > 1:
-        raise ParameterError("beside= works with one recording only: measure several one by one")
+    if len(lists) != len(items):
+        raise ParameterError(
+            f"beside= takes a list of signals for each of {len(items)} recordings, not {len(lists)}"
+        )
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
-    return list(items), list(tables)
+    return list(items), list(tables), lists
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
@@ -245,6 +272,15 @@ def _make_columns(
     def column(kind: type, value: Callable[[Repetition], Any]) -> NDArray[Any]:
         return np.array([value(each) for each in repetitions], kind)
 
+    def name_group(each: Repetition) -> str:
+        key = get_movement_key(each.segment)
+        return groups[each.recording].get(key, str(key))
+
+    def name_reason(each: Repetition) -> str:
+        segment, annotation = each.segment, tables[each.recording].annotation
+        is_excluded = annotation.excludes(segment.start_frame, segment.stop_frame)
+        return BY_HAND if is_excluded else each.lacking
+
     # Number of repetitions of each activity so far.
     counts: Counter[tuple[int, int]] = Counter()
     numbers = []
@@ -260,7 +296,7 @@ def _make_columns(
         "number": np.array(numbers, int),
         "cluster": column(int, lambda each: each.segment.cluster),
         "label": column(str, lambda each: each.segment.label),
-        "group": column(str, lambda each: groups[each.recording][get_movement_key(each.segment)]),
+        "group": column(str, name_group),
         "place": column(str, lambda each: each.place),
         "start_frame": start * fps,
         "stop_frame": stop * fps,
@@ -276,7 +312,7 @@ def _make_columns(
             float,
             lambda each: tables[each.recording].activities.confidence[each.segment.activity],
         ),
-        "excluded": column(str, lambda each: each.lacking),
+        "excluded": column(str, name_reason),
     }
 
 
@@ -287,20 +323,22 @@ def _measure_cycles(
     align: str,
     points: int,
     provenance: Mapping[str, Any],
+    right: Sequence[tuple[int, float, float]] = (),
 ) -> Cycles:
     """Return the cycles with statistics and curves of each channel.
 
     ``spans`` holds recording, start and stop (seconds) of each cycle, ``measured`` the channels of
-    each recording.
+    each recording, ``right`` the spans for channels of the right side.
     """
     channels = measured[0]
     curves = np.empty((len(spans), len(channels), points))
     # Compute one channel at a time to save memory.
     for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
+        own_spans = right if right and is_right(channel.name) else spans
         for number, channels_of_one in enumerate(measured):
             values, fps = channels_of_one[place].values(), channels_of_one[place].fps
-            for row, (recording, start, stop) in enumerate(spans):
+            for row, (recording, start, stop) in enumerate(own_spans):
                 if recording == number:
                     curves[row, place], statistics[row] = _measure_cycle(
                         values, fps, start, stop, points
@@ -383,5 +421,7 @@ def _make_provenance(
             f"cycle {'later' if by > 0 else 'earlier'} than its segments, to match the "
             "other repetitions"
             for (name, activity, group), by in moved.items()
-        ],
+        ]
+        + ["channels of the right side begin at the contacts of the right foot"]
+        * any(each.right is not None for each in repetitions),
     }

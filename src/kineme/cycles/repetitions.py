@@ -1,9 +1,10 @@
 """Turn rows of the segment table into repetitions with precise borders.
 
 The segmentation defines the repetitions. Borders are aligned by the pose of a body, or by all
-channels of signals, and pauses are cut off. With an anchor, a repetition starts at the event
-nearest to the usual phase and stops at that of the next repetition. Repetitions without the event
-stay in the table and are marked.
+channels of signals, and pauses are cut off. With a channel as the anchor, a repetition starts where
+the channel has its extreme or crosses a level near the usual phase, and stops at that of the next
+repetition; those without stay in the table and are marked. With events as the anchor, such as foot
+contacts, the segments only name the cycles, which run from each event to the next one of its kind.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import groupby
 from math import ceil
+from typing import Any
 
 import numpy as np
 
@@ -21,12 +24,12 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
 from kineme.cycles.borders import Run, find_vertex, make_run, shift_to_common_phase
 from kineme.cycles.channels import channels_of
-from kineme.cycles.events import OFF, STRIKE, foot_events, normalize_event_name
-from kineme.cycles.table import CYCLE, INCOMPLETE, compute_mean_phase
+from kineme.cycles.events import LONGEST, OFF, STRIKE, foot_events, normalize_event_name
+from kineme.cycles.table import CYCLE, INCOMPLETE, INNER, compute_mean_phase
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import compute_distance_features, pose_features
-from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
+from kineme.recordings.joint_names import SIDES
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
@@ -43,6 +46,8 @@ STILL = 0.1
 OUTSIDE = 0.25
 """Largest part of a cycle, in cycles, that may lie outside of the activity or be missing at its
 ends; beyond that the repetition is incomplete."""
+LONG = "much longer than the others"
+"""Why a cycle longer than `LONGEST` medians is excluded: it contains a stop or lacks an event."""
 _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
 
@@ -71,6 +76,7 @@ class Repetition:
     pause: float = 0.0  # seconds of rest between the previous repetition and this one
     turned: float = 0.0  # shift of its phase relative to the segment, in cycles
     lacking: str = ""
+    right: tuple[float, float] | None = None  # the seconds of the right side, if it has its own
 
 
 def find_repetitions(
@@ -99,6 +105,59 @@ def find_repetitions(
             each = _cut_to_activity(run, segments, tables[run.recording])
             repetitions += _trim_pauses(each, fine[run.recording], still)
     return sorted(repetitions, key=lambda each: (each.recording, each.segment.start_frame))
+
+
+def list_repetitions(tables: Sequence[Segmentation]) -> list[Repetition]:
+    """Return the repetitions of all recordings with the borders of their tables."""
+    return [
+        Repetition(
+            number, row, place=_name_place(i, len(run)), start=row.start_s, stop=row.stop_s,
+            start_deviation=np.nan, stop_deviation=np.nan,
+        )
+        for number, table in enumerate(tables)
+        for run in _list_runs(table)
+        for i, row in enumerate(run)
+    ]  # fmt: skip
+
+
+def as_repetitions(segments: Segmentation) -> Segmentation:
+    """Return a table in which each activity is a repetition, if the table has no primitives.
+
+    Activities with the same label without a gap between them become one. Otherwise the table is
+    returned as it is.
+
+    Parameters
+    ----------
+    segments : Segmentation
+        Labels of repetitions, such as one row for each stride cut by hand.
+
+    Examples
+    --------
+    >>> import kineme
+    >>> from kineme.cycles import as_repetitions
+    >>> columns = {"level": ["activity"] * 2, "kind": ["activity"] * 2, "label": ["stride"] * 2,
+    ...            "start_frame": [0, 100], "stop_frame": [100, 190]}
+    >>> as_repetitions(kineme.Segmentation.from_columns(columns, n_frames=190, fps=100))
+    <Segmentation of 190 frames (1.9 s): 1 activity, 0 transitions, 2 primitives, 0 clusters>
+    """
+    if (segments.primitives.kind == "primitive").any():
+        return segments
+    rows = list(segments.activities)
+    runs = [[*run] for _, run in groupby(rows, lambda row: (row.kind, row.cluster, row.label))]
+    spans = [("activity", run[0], run[-1]) for run in runs]
+    spans += [("primitive", row, row) for row in rows]
+    columns: dict[str, list[Any]] = {
+        "level": [level for level, _, _ in spans],
+        "kind": [level if row.kind == "activity" else row.kind for level, row, _ in spans],
+        "start_frame": [row.start_frame for _, row, _ in spans],
+        "stop_frame": [row.stop_frame for _, _, row in spans],
+        "cluster": [row.cluster for _, row, _ in spans],
+        "label": [row.label for _, row, _ in spans],
+    }
+    return Segmentation.from_columns(
+        columns, n_frames=segments.n_frames, fps=segments.fps, provenance=segments.provenance,
+        annotation=segments.annotation,
+    )  # fmt: skip
 
 
 def get_movement_key(segment: Segment) -> int | str:
@@ -176,6 +235,11 @@ def _list_runs(table: Segmentation) -> list[list[Segment]]:
     return runs
 
 
+def _name_place(i: int, n: int) -> str:
+    """Return the place of the i-th of n repetitions in its run."""
+    return "only" if n == 1 else "first" if i == 0 else "last" if i == n - 1 else "inner"
+
+
 def _cut_to_activity(
     run: Run, segments: Sequence[Segment], table: Segmentation
 ) -> list[Repetition]:
@@ -199,7 +263,7 @@ def _cut_to_activity(
             Repetition(
                 recording=run.recording,
                 segment=segment,
-                place="only" if n == 1 else "first" if first else "last" if last else "inner",
+                place=_name_place(i, n),
                 start=start,
                 stop=max(start, stop),
                 start_deviation=float(run.uncertainty[i]),
@@ -261,11 +325,11 @@ def anchor_repetitions(
     repetitions: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
     groups: Groups,
-    anchor: str | Sequence[float],
-    beside: Sequence[Signals] = (),
+    anchor: str,
+    beside: Sequence[Sequence[Signals]],
 ) -> list[Repetition]:
-    """Return the repetitions between events; for ``anchor`` see `kineme.cycles.cycles`."""
-    extreme = _EXTREME.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
+    """Return the repetitions from extremes or crossings of the channel that ``anchor`` names."""
+    extreme = _EXTREME.fullmatch(anchor.strip())
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(repetitions):
         what = get_movement_key(each.segment)
@@ -273,13 +337,19 @@ def anchor_repetitions(
     starts = np.full(len(repetitions), np.nan)
     if extreme is not None:
         sign = 1.0 if extreme["which"] == "max" else -1.0
-        curves = [_sample_curve(each, extreme["channel"], beside) for each in recordings]
+        curves = [
+            _sample_curve(each, extreme["channel"], others)
+            for each, others in zip(recordings, beside, strict=True)
+        ]
         # Negative for a minimum, so that the largest value is searched in both cases.
         signed = [(sign * values, fps) for values, fps in curves]
         for rows in members.values():
             starts[rows] = _find_maxima([repetitions[i] for i in rows], signed)
     else:
-        times = [_find_event_times(each, anchor, beside) for each in recordings]
+        times = [
+            _find_crossings(each, anchor, others)
+            for each, others in zip(recordings, beside, strict=True)
+        ]
         for rows in members.values():
             starts[rows] = _find_nearest_events([repetitions[i] for i in rows], times)
     anchored = []
@@ -363,35 +433,120 @@ def _find_window(repetition: Repetition, phase: float) -> tuple[float, float]:
     return repetition.start + (phase - 0.5) * length, repetition.start + (phase + 0.5) * length
 
 
-def _find_event_times(
-    recording: Motion | Signals, anchor: str | Sequence[float], beside: Sequence[Signals]
-) -> Floats:
-    """Return the times in seconds of a recording's events that match an anchor."""
+def _find_crossings(recording: Motion | Signals, anchor: str, beside: Sequence[Signals]) -> Floats:
+    """Return the times in seconds at which a channel crosses a level."""
+    crossing = _CROSSING.fullmatch(anchor.strip())
+    if crossing is None:
+        raise ParameterError(f"{anchor!r} is not a level of a channel, such as 'knee_r > 40'")
+    values, fps = _sample_curve(recording, crossing["channel"], beside)
+    over = (values - float(crossing["level"])) * (1.0 if crossing["sign"] == ">" else -1.0)
+    # Comparisons with nan are False: no crossing is found next to a gap.
+    frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
+    # Linear interpolation of the crossing between both frames.
+    return np.asarray((frames + over[frames] / (over[frames] - over[frames + 1])) / fps)
+
+
+def is_event(anchor: str | Sequence[float]) -> bool:
+    """Return whether an anchor names events, or is their seconds, and not a channel."""
+    return not isinstance(anchor, str) or not any(
+        pattern.fullmatch(anchor.strip()) for pattern in (_EXTREME, _CROSSING)
+    )
+
+
+def cut_at_events(
+    recordings: Sequence[Motion | Signals],
+    tables: Sequence[Segmentation],
+    anchor: str | Sequence[float],
+) -> list[Repetition]:
+    """Return the cycles from each event to the next one, with the label of their segment.
+
+    Without a label they are named after the event. Transitions between labels hold no cycles.
+    """
+    name = normalize_event_name(anchor) if isinstance(anchor, str) else "event"
+    repetitions: list[Repetition] = []
+    for number, (recording, table) in enumerate(zip(recordings, tables, strict=True)):
+        spans, right = _find_event_spans(recording, anchor)
+        lengths = np.diff(spans, axis=1)[:, 0]
+        usual = float(np.median(lengths)) if len(lengths) else 0.0
+        activities = table.activities
+        rows = table.primitives if len(table.primitives) else activities
+        has_labels = bool((table.table.label != "").any())
+        for i, (start, stop) in enumerate(spans.tolist()):
+            # The middle of a usual cycle, since one with a stop may end in another movement.
+            middle = (start + min(usual, stop - start) / 2) * table.fps
+            row = rows[int(np.searchsorted(rows.start_frame, middle, side="right")) - 1]
+            activity = activities[row.activity]
+            if has_labels and activity.kind == "transition":
+                continue
+            # The confidences are those of the cluster and of the border of the segment.
+            segment = replace(
+                row, cluster=-1, label=row.label or activity.label or name,
+                confidence=np.nan, border_confidence=np.nan,
+            )  # fmt: skip
+            # The first and the last one are as complete as the others: all are inner ones.
+            each = Repetition(
+                number, segment, place=INNER, start=start, stop=stop, start_deviation=np.nan,
+                stop_deviation=np.nan, lacking=LONG if stop - start > LONGEST * usual else "",
+                right=None if right is None else (float(right[i, 0]), float(right[i, 1])),
+            )  # fmt: skip
+            repetitions.append(each)
+    return repetitions
+
+
+def _find_event_spans(
+    recording: Motion | Signals, anchor: str | Sequence[float]
+) -> tuple[Floats, Floats | None]:
+    """Return spans (spans, 2) between events in seconds; of both feet, also those of the right.
+
+    A contact without a side, such as ``foot strike``, is that of either foot.
+    """
+
+    def pair(times: Floats) -> Floats:
+        times = times[(times >= 0) & (times <= recording.n_frames / recording.fps)]
+        return np.column_stack([times[:-1], times[1:]])
+
     if not isinstance(anchor, str):
-        return np.sort(as_floats(anchor, "anchor").ravel())
-    if (crossing := _CROSSING.fullmatch(anchor.strip())) is not None:
-        values, fps = _sample_curve(recording, crossing["channel"], beside)
-        over = (values - float(crossing["level"])) * (1.0 if crossing["sign"] == ">" else -1.0)
-        # Comparisons with nan are False: no crossing is found next to a gap.
-        frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
-        # Linear interpolation of the crossing between both frames.
-        return (frames + over[frames] / (over[frames] - over[frames + 1])) / fps
-    name, events = normalize_event_name(anchor), recording.provenance.events
-    marked = np.array([at for at, text in events if normalize_event_name(text) == name], np.float64)
+        return pair(np.sort(as_floats(anchor, "anchor").ravel())), None
+    name = normalize_event_name(anchor)
+    if name not in (STRIKE, OFF) or len(_find_marks(recording, name)):
+        return pair(_find_event_times(recording, anchor)), None
+    left, right = (pair(_find_event_times(recording, f"{side} {name}")) for side in SIDES)
+    lengths = np.diff(right, axis=1)[:, 0]
+    if len(right):
+        right = right[lengths <= LONGEST * np.median(lengths)]
+    matches = []
+    # A right cycle belongs to the left one in which it starts or, if there are more, stops.
+    for edge in right.T:
+        matched = np.full(left.shape, np.nan)
+        for i, (start, stop) in enumerate(left):
+            inside = np.flatnonzero((edge > start) & (edge < stop))
+            if len(inside):
+                matched[i] = right[inside[0]]
+        matches.append(matched)
+    return left, max(matches, key=lambda each: np.isfinite(each).sum())
+
+
+def _find_marks(recording: Motion | Signals, name: str) -> Floats:
+    """Return the seconds of the events of the file with a name in its normal form."""
+    events = recording.provenance.events
+    return np.array([at for at, text in events if normalize_event_name(text) == name], np.float64)
+
+
+def _find_event_times(recording: Motion | Signals, anchor: str) -> Floats:
+    """Return the times in seconds of a recording's events with a name."""
+    name = normalize_event_name(anchor)
+    marked = _find_marks(recording, name)
     if name.endswith((STRIKE, OFF)):
+        # Marks, and contacts found from the movement where no mark is near: a laboratory often
+        # marks the contacts on its force plates only.
         try:
-            found = foot_events(recording).at(name)
+            return foot_events(recording).at(name)
         except ParameterError:
             if not len(marked):
                 raise
-            found = np.empty(0)
-        # A laboratory often marks the contacts on its force plates only. Contacts found from the
-        # movement are added where no mark is near.
-        distances = np.abs(found[:, None] - marked).min(axis=1, initial=np.inf)
-        return np.sort(np.concatenate([found[distances >= SAME_S], marked]))
     if len(marked):
         return np.sort(marked)
-    names = sorted({text for _, text in events})
+    names = sorted({text for _, text in recording.provenance.events})
     raise ParameterError(
         f"no event {anchor!r}; there are "
         f"{', '.join([*names, 'left foot strike, and so on'])}. For a channel, give its "

@@ -425,6 +425,12 @@ def compute_phase_differences(differences: Floats) -> Floats:
     return np.asarray((differences + CYCLE / 2) % CYCLE - CYCLE / 2)
 
 
+def unwrap_phases(phases: Floats) -> Floats:
+    """Return phases, or differences of phases, within half a cycle of their circular mean."""
+    middle = compute_mean_phase(phases)
+    return middle + compute_phase_differences(phases - middle)
+
+
 def compute_half_width(sd: Floats | float, n: int) -> Floats:
     """Return the half-width of the `CONFIDENCE` interval of a mean; nan for fewer than two."""
     from scipy.special import stdtrit
@@ -448,9 +454,8 @@ def _describe_values(values: Floats, measure: str) -> tuple[float, ...]:
     if n == 0:
         return 0, *[np.nan] * 6
     circular = is_phase(measure)
-    if circular:  # unwrap to within half a cycle of the mean
-        middle = compute_mean_phase(values)
-        values = middle + compute_phase_differences(values - middle)
+    if circular:
+        values = unwrap_phases(values)
     mean, sd = float(values.mean()), float(values.std(ddof=1)) if n > 1 else np.nan
     # A ratio to the mean is meaningless for angles, since their zero is arbitrary.
     cv = sd / mean if measure in ("duration_s", "cadence_per_min") else np.nan

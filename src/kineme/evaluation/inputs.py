@@ -64,7 +64,7 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
     label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
-            counted = content.fps or (found.fps if content.unit == "seconds" else fps or found.fps)
+            counted = found.fps if content.unit == "seconds" else content.fps or fps or found.fps
             length_s = found.n_frames / found.fps
             content = convert_clock_times(content, found.clock, length_s=length_s)
             # Without a length, labels extend to the end of the recording.

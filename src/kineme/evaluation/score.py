@@ -359,12 +359,6 @@ def format_score(value: float) -> str:
     return f"{value:.3f}" if math.isfinite(value) else ""
 
 
-def format_markdown(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Format a Markdown table whose first column is left-aligned, the others right."""
-    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
-
-
 def write_records(records: Sequence[Mapping[str, Any]], path: Path) -> None:
     """Write records as JSON (with the version) or CSV, by suffix."""
     suffix = path.suffix.lower()

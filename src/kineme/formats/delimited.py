@@ -10,11 +10,11 @@ from __future__ import annotations
 import csv
 import re
 from array import array
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
-from itertools import islice, pairwise
+from itertools import islice
 from math import nan
 
 import numpy as np
@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent, parse_numbers
+from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
 from kineme.recordings.times import (
     append_unit,
     find_date_columns,
@@ -37,20 +38,13 @@ EMPTY = frozenset(
 )
 """Contents of a cell without a number, in lower case; the last ones are errors of spreadsheets."""
 
-OWNERS = frozenset(
-    {"person", "person_id", "subject", "participant", "individual", "track", "track_id"}
-    | {"device", "device_id", "sensor", "sensor_id", "joint", "bodypart"}
-)
-"""Names of columns that identify the person or device of a row, in lower case."""
-
 NAMELESS = "(no name)"
 """Name given to columns without one."""
 
 COMMAS = "numbers have a decimal comma"
 """Note added if numbers have a decimal comma."""
 
-_ROWS_SNIFFED = 50  # rows searched for decimal commas and rows of several people
-_FRAME = frozenset({"frame", "frame_id", "frame_idx"})
+_ROWS_SNIFFED = 50  # rows searched for decimal commas
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*")
 _COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _FORMULA = re.compile(r"'*[=+\-@]")
@@ -200,24 +194,15 @@ class DelimitedText:
             raise content.error("no row of numbers found")
         return np.array(values).reshape(-1, len(chosen))
 
-    def refuse_interleaved(self) -> None:
-        """Raise ReadError if rows of one time or frame are of several people, devices or joints."""
-        names = self.names
-        times = [i for i, name in enumerate(names) if is_timing(name) or name.lower() in _FRAME]
-        owners = [i for i, name in enumerate(names) if name.lower() in OWNERS]
-        if not (times and owners):
-            return
-        rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
-        cells = [split_cells(row, self.separator) for row in rows]
-        for one, other in pairwise(row for row in cells if len(row) == len(names)):
-            # Two rows of one time with different owners are interleaved.
-            differing = [i for i in owners if one[i] != other[i]]
-            if differing and all(one[i] == other[i] for i in times):
-                k = differing[0]
-                raise self.content.error(
-                    f"several rows have the same time and differ in column {names[k]!r} "
-                    f"({one[k]:.20}, {other[k]:.20}): write each to its own file or columns"
-                )
+    def refuse_interleaved(self, columns: Collection[str] | None = None) -> None:
+        """Raise ReadError if rows of several people, devices or joints alternate.
+
+        ``columns`` are the channels; by default all columns of numbers.
+        """
+        texts = {name: self.texts(i) for i, name in enumerate(self.names) if is_owner(name)}
+        numeric = (name for name in self.find_numeric_columns() if name not in self.times)
+        if error := describe_alternation(texts, columns or [*filter(is_channel_name, numeric)]):
+            raise self.content.error(error)
 
 
 def make_unique_names(names: Iterable[str]) -> list[str]:

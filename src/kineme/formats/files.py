@@ -21,6 +21,9 @@ from kineme._util.files import atomic_write, read_head, refuse_pipe
 from kineme.errors import ReadError, WriteError
 from kineme.recordings import Motion, Note, Provenance
 
+RATE_ROUNDING = 0.005
+"""Fraction by which two frame rates may differ through rounding."""
+
 MAX_EXPANSION = 100
 """Maximum memory use of a file as a multiple of its size; intact files need 1 to 40 times."""
 
@@ -78,6 +81,12 @@ class FileContent:
         """Add a remark of severity "warning" on something unusual that could be read."""
         where = "" if line is None else f"line {line}: "
         self.remarks.append(Note(f"{where}{reason}", "warning"))
+
+    def choose_rate(self, requested: float | None, stated: float | None) -> float:
+        """Return the requested frame rate, else the stated one, else 0; warn if they differ."""
+        if requested and stated and abs(requested - stated) > RATE_ROUNDING * stated:
+            self.warn(f"the file states {stated:g} Hz; {requested:g} is used")
+        return requested or stated or 0.0
 
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
         """Return the provenance of a recording in this file, with all remarks and these notes."""

@@ -80,12 +80,16 @@ def choose_person(
 ) -> str:
     """Return the requested person, or the only one; raise SeveralPeopleError if neither exists.
 
-    ``shown`` are the people as listed in the message, ``what`` is the noun for them.
+    A name may differ in case. Where no name is a number, numbers count people from 0. ``shown`` are
+    the people as listed in the message, ``what`` is the noun for them.
     """
     if person is None and len(people) == 1:
         return next(iter(people))
-    if person is not None and person in people:
-        return person
+    keys = {name.casefold(): name for name in people} | {name: name for name in people}
+    if not any(map(str.isdecimal, people)):
+        keys |= {str(number): name for number, name in enumerate(people)}
+    if person is not None and (name := keys.get(person, keys.get(person.casefold()))) is not None:
+        return name
     question = (
         f"{len(people)} {what} are in it: choose one with person= (--person):"
         if person is None

@@ -121,12 +121,17 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     """
     path = provenance.path or "recording"
     full_names = [name.strip() or "point" for name in points.names]
-    names, subjects = split_subjects(full_names, points.person)
-    names = make_unique(names)
+    own_points, subject, subjects = select_subject(full_names, points.person, path)
+    names = make_unique([*own_points.values()])
     if len(subjects) > 1:
-        subject = _describe_subject(path, subjects, points.person)
-        provenance = provenance.noted(subject).of_person(points.person or subjects[0], subjects)
+        remark: Note | str = f"person {subject} of {len(subjects)}"
+        if points.person is None:
+            sentence = f"{len(subjects)} subjects: the body used is that of {subject!r}"
+            remark = Note(f"{sentence}; choose another with person= (--person)", "warning")
+        provenance = provenance.noted(remark).of_person(subject, subjects)
     positions = np.array(points.positions, np.float64)
+    if len(names) < len(full_names):
+        positions = positions[:, [*own_points]]
     # Implausible positions must become NaN before gaps are filled.
     doubts = drop_implausible(positions, names, points.fps)
     gaps = fill_gaps(positions, points.fps)
@@ -179,33 +184,36 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
     )
 
 
-def split_subjects(names: Sequence[str], person: str | None = None) -> tuple[list[str], list[str]]:
-    """Return the names without the subject's, and the subjects whose points form a pelvis.
+def select_subject(
+    names: Sequence[str], person: str | None = None, path: str = "recording"
+) -> tuple[dict[int, str], str, list[str]]:
+    """Return the names of the points to read by index, their subject, and all subjects.
 
-    ``Ann:LANK`` becomes ``LANK`` for the chosen subject, by default the first one, or if all names
-    have the same prefix. Points of other subjects keep their full names.
+    Subjects are those whose points form a pelvis; the first one is the default. ``Ann:LANK``
+    becomes ``LANK`` for the selected subject, or if all names have the same prefix. Points of other
+    bodies are left out, since their joints have the same names. Props keep their full names. Raise
+    SeveralPeopleError if there are several subjects, but not this person.
     """
     points: dict[str, list[int]] = {}
     for i, name in enumerate(names):
         points.setdefault(name.rpartition(":")[0], []).append(i)
     short = [name.rpartition(":")[2] for name in names]
-    subjects = [
-        subject for subject, members in points.items() if "pelvis" in find_body(short, members)
-    ]
+    bodies = {subject: find_body(short, members) for subject, members in points.items()}
+    subjects = [subject for subject, body in bodies.items() if "pelvis" in body]
     # Without a body, a prefix common to all names is still removed.
-    chosen = names[0].rpartition(":")[0] if len(points) == 1 else ""
-    if subjects:
-        chosen = person if person in subjects else subjects[0]
-    members = set(points.get(chosen, ()))
-    return [short[i] if i in members else name for i, name in enumerate(names)], subjects
-
-
-def _describe_subject(path: str, subjects: list[str], person: str | None) -> Note:
-    """Return a note on the chosen subject; raise SeveralPeopleError if it does not exist."""
-    if person is None:
-        sentence = f"{len(subjects)} subjects: the body used is that of {subjects[0]!r}"
-        return Note(f"{sentence}; choose another with person= (--person)", "warning")
-    return Note(f"person {choose_person(path, subjects, person)} of {len(subjects)}")
+    chosen = next(iter(subjects or points)) if subjects or len(points) == 1 else ""
+    if len(subjects) > 1 and person is not None:
+        chosen = choose_person(path, subjects, person)
+    # Markers without a prefix belong to anybody.
+    left_out = {each for each in points if subjects and each not in ("", chosen) and bodies[each]}
+    left_out |= {*subjects} - {chosen}
+    own_points = {
+        i: short[i] if subject == chosen else names[i]
+        for subject, members in points.items()
+        if subject not in left_out
+        for i in members
+    }
+    return dict(sorted(own_points.items())), chosen, subjects
 
 
 def _choose_body(names: list[str], gaps: Gaps, n_frames: int) -> Body:

@@ -17,9 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from kineme.formats.channels.parquet import (
+    find_parquet_times,
     open_parquet,
     read_parquet_channels,
     read_parquet_columns,
+    refuse_interleaved,
 )
 from kineme.formats.channels.reading import (
     choose_channels,
@@ -75,10 +77,13 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
     if options.channels or hold_channels(names):
         table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
-    used = read_parquet_columns(content, file, [name for name in stored_names if is_used(name)])
+    refuse_interleaved(content, file, names)
+    times = find_parquet_times(file)
+    stored = [name for name in stored_names if name in times or is_used(name)]
+    used = read_parquet_columns(content, file, stored)
     # Joints are found by name, so other columns are listed but not read.
     columns = dict.fromkeys(names, np.empty(0)) | {
-        name: np.asarray(column.to_numpy())
+        times.get(name, name): np.asarray(column.to_numpy())
         for name, column in zip(make_unique_names(used.column_names), used.columns, strict=True)
     }
     return columns_to_motion(content, PARQUET.name, columns, options)
@@ -110,6 +115,8 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
     if options.fps is None and not table.times and table.rate:
         options = replace(options, fps=table.rate)
         remarks.append(describe_header_rate(table.rate))
+    elif options.fps:
+        options = replace(options, fps=content.choose_rate(options.fps, table.rate))
     # With a given rate, columns of times are not read.
     times = {} if options.fps else table.times
     used = [

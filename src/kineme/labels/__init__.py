@@ -20,7 +20,7 @@ Formats of other programs store labels, see `kineme.labels.spans`:
 ``elan``     ``.eaf``      both levels, frame rate; milliseconds
 ``textgrid`` ``.TextGrid`` both levels
 ``bids``     ``.tsv``      both levels, frame rate, clusters, confidences
-``boris``    ``.csv``      both levels, frame rate
+``boris``    ``.csv``      both levels, frame rate; also ``.tsv``
 ``babel``    ``.json``     one level; labels may overlap
 ``ms-tcn``   ``.txt``      one level, as one label per frame
 ``clips``    ``.csv``      one level, frame rate

@@ -60,7 +60,12 @@ def read_events(path: str | PathLike[str], *, names: Collection[str] | None = No
 
 
 def write_events(
-    source: str | PathLike[str], path: str | PathLike[str], times: ArrayLike, names: Iterable[str]
+    source: str | PathLike[str],
+    path: str | PathLike[str],
+    times: ArrayLike,
+    names: Iterable[str],
+    *,
+    subject: str | None = None,
 ) -> int:
     """Write a copy of a C3D file with events added.
 
@@ -74,12 +79,14 @@ def write_events(
         Seconds from the first frame.
     names : iterable of str
         Name of each event. ``left foot strike`` becomes side and label: ``Left``, ``Foot Strike``.
+    subject : str, optional
+        Name of their subject, by default the first one in the file.
 
     Returns
     -------
     int
-        Number of events added. Events within 0.2 s of one with the same name (ignoring case) in
-        the file are skipped.
+        Number of events added. Events within 0.2 s of one with the same name (ignoring case) and
+        subject in the file are skipped.
 
     Raises
     ------
@@ -120,8 +127,13 @@ def write_events(
         raise WriteError(target, "must end in .c3d")
     with translate_read_errors(source):
         content = load(source)
-        present = [(at, " ".join(name.lower().split())) for at, name in parse_c3d(content).events]
-        events = [C3DEvent(at, *_split_side(name))
+        file = parse_c3d(content)
+        present = [
+            (at, " ".join(name.lower().split()))
+            for (at, name), whose in zip(file.events, file.event_subjects, strict=True)
+            if not (subject and whose) or subject == whose
+        ]
+        events = [C3DEvent(at, *_split_side(name), subject or "")
                   for at, name in zip(seconds, texts, strict=True)]  # fmt: skip
         added = [
             each

@@ -1,9 +1,9 @@
 """Read labels of many recordings from one table, or from a folder with a file for each.
 
-A table has the columns ``recording``, ``start_s``, ``stop_s`` and ``label`` (or
-``start_frame``, ``stop_frame``); recordings are named with or without suffix. In a folder,
-the labels of ``walk.bvh`` are in a file called ``walk`` in any label format (``walk.eaf``,
-``walk.labels.csv``). `read_labels` returns those of a single recording.
+A table has the columns of `kineme.labels.csv_table` and ``recording`` (or ``file``);
+recordings are named with or without suffix. In a folder, the labels of ``walk.bvh`` are in a file
+called ``walk`` in any label format (``walk.eaf``, ``walk.labels.csv``). `read_labels` returns those
+of a single recording.
 
 A frame has the label whose span ``[start, stop)`` contains its time. Labels of public datasets
 sometimes overlap, run backwards or exceed the recording. If two overlap, the later one in the file
@@ -16,7 +16,7 @@ from bisect import bisect_left, bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import ceil, isclose
+from math import ceil
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
@@ -25,13 +25,13 @@ from kineme._util.checks import format_count
 from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError
 from kineme.labels import csv_table
-from kineme.labels.delimited import SAME_RATE, read_columns
 from kineme.labels.registry import find_read_format, holds_labels, read_content, read_segments
 from kineme.labels.spans import (
     TOO_FAR,
     Labels,
     Span,
     as_segmentation,
+    check_extent,
     convert_clock_times,
     note_lost_labels,
 )
@@ -66,17 +66,10 @@ class LabelSource:
             label_format, content = read_content(self.path)
             name = label_format.name
         if isinstance(content, Labels):
-            rate = content.fps or fps
-            timed = convert_clock_times(content, clock, length_s=n_frames / rate)
-            labels = convert_to_frames(timed, rate, n_frames=n_frames)
-            return as_segmentation(labels, self.path, name, fps=rate, n_frames=n_frames)[0]
-        if content.n_frames != n_frames:
-            claim = f"has {content.n_frames} frames, but the recording has {n_frames}"
-            raise ReadError(self.path, claim)
-        if not isclose(content.fps, fps, rel_tol=SAME_RATE):
-            claim = f"is of {content.fps:g} frames per second, but the recording has {fps:g}"
-            raise ReadError(self.path, claim)
-        return content
+            timed = convert_clock_times(content, clock, length_s=n_frames / fps)
+            labels = convert_to_frames(timed, fps, n_frames=n_frames)
+            content, _ = as_segmentation(labels, self.path, name, fps=fps, n_frames=n_frames)
+        return check_extent(content, self.path, fps=fps, n_frames=n_frames)
 
 
 def find_labels(
@@ -96,17 +89,26 @@ def find_labels_and_unmatched(
     """Return the result of `find_labels`, and the names in a table that match no recording."""
     files, folder = list(recordings), Path(labels)
     sources = _find_in_folder(folder) if folder.is_dir() else _read_table(folder)
-    # Tables may name a recording with or without its suffix.
-    pairs = ((path, sources.get(path.name) or sources.get(path.stem)) for path in files)
-    found = {path: source for path, source in pairs if source is not None}
+    present = {name for path in files for name in (path.name, path.stem)}
+    by_case: defaultdict[str, list[LabelSource]] = defaultdict(list)
+    for name, source in sources.items():
+        if name not in present:
+            by_case[name.casefold()].append(source)
+    found: dict[Path, LabelSource] = {}
+    for path in files:
+        # Tables may name a recording with or without its suffix, or in another case.
+        exact = sources.get(path.name) or sources.get(path.stem)
+        alike = by_case[path.name.casefold()] + by_case[path.stem.casefold()]
+        if exact or len(alike) == 1:
+            found[path] = exact or alike[0]
     if not found:
         first = files[0].stem if files else "none"
         prefix = "" if len(files) == 1 else f"any of the {len(files)} recordings, such as "
         available = ", ".join(map(repr, sources)) or "none"
         raise ReadError(labels, f"has no labels of {prefix}{first!r}, but of {available:.60}")
-    present = {name for path in files for name in (path.name, path.stem)}
-    unmatched = [] if folder.is_dir() else [name for name in sources if name not in present]
-    return found, unmatched
+    used = set(map(id, found.values()))
+    unmatched = [name for name, source in sources.items() if id(source) not in used]
+    return found, [] if folder.is_dir() else unmatched
 
 
 def read_labels(
@@ -118,10 +120,8 @@ def read_labels(
     clock: Clock | None = None,
 ) -> Segmentation:
     """Read the labels of one recording, also from a table of several recordings."""
-    table = find_read_format(labels) is csv_table.FORMAT and "recording" in read_columns(
-        Path(labels)
-    )
-    if not table:
+    path = Path(labels)
+    if find_read_format(path) is not csv_table.FORMAT or not csv_table.lists_recordings(path):
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
     (source,) = find_labels([recording], labels).values()
     return source.of(n_frames=n_frames, fps=fps, clock=clock)
@@ -181,7 +181,7 @@ def convert_to_frames(labels: Labels, fps: float, *, n_frames: int) -> Labels:
     return Labels(
         result,
         "frames",
-        fps=fps,
+        fps=fps if labels.unit == "seconds" else labels.fps,
         length=n_frames,
         notes=(*labels.notes, *notes),
         remarks=labels.remarks,
@@ -219,7 +219,7 @@ def _read_table(path: Path) -> dict[str, LabelSource]:
         tables = csv_table.read_intervals(path)
     if "" in tables:
         raise ReadError(
-            path, "has an empty column 'recording': give the name of a recording in each row"
+            path, "has a label without a recording: name it in a column 'recording' of each row"
         )
     return {name: LabelSource(path, labels) for name, labels in tables.items()}
 

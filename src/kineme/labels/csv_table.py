@@ -8,9 +8,10 @@ formulas start with ``'``. Columns are found by name; unknown ones are ignored.
 
 Handwritten tables of intervals are read as well: ``label`` with ``start_s`` and ``stop_s``
 (seconds, or dates such as 2026-01-31T09:30:00.25), or with ``start_frame`` and ``stop_frame``,
-in any order, and optionally ``level``, ``kind``, ``cluster`` and ``count`` (repetitions). Uncovered
-frames are transitions. A column ``recording`` must name only one recording; tables of several are
-read by `kineme.labels.collections`.
+in any order, and optionally ``level``, ``kind``, ``cluster`` and ``count`` (repetitions). Columns
+may have other usual names (`ALIASES`), milliseconds, or durations. Uncovered frames are
+transitions. A column ``recording`` must name only one recording; tables of several are read by
+`kineme.labels.collections`.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import csv
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -47,11 +48,28 @@ from kineme.segments.editing.annotating import assign_comments, set_comments_by_
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking, sort_rows
 
-Unit = Literal["seconds", "frames"]
-SPANS: dict[Unit, tuple[str, str]] = {
-    "seconds": ("start_s", "stop_s"),
-    "frames": ("start_frame", "stop_frame"),
+SPANS = (
+    ("start_s", "stop_s"),
+    ("start_frame", "stop_frame"),
+    ("start_s", "duration_s"),
+    ("start_ms", "stop_ms"),
+    ("start_ms", "duration_ms"),
+)
+"""Pairs of columns that give the span of a label, preferred ones first."""
+ALIASES = {
+    "start": ("start", "begin", "onset", "start_time", "begin_time"),
+    "stop": ("stop", "end", "offset", "stop_time", "end_time"),
+    "duration": ("duration",),
+    "label": ("label", "name", "activity"),
+    "recording": ("recording", "file", "filename", "file_name"),  # a trial may be a number
 }
+"""Usual names of columns, see `rename_columns`."""
+OTHER_TABLES = (
+    {"level", "start_frame"},  # segment tables and manifests of clips
+    {"file", "start", "stop"},  # clip lists, which count frames
+    {"onset", "duration", "trial_type"},  # BIDS events
+)
+"""Columns of tables whose columns are not renamed."""
 
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -121,33 +139,69 @@ def choose_roundest_rate(n_frames: int, seconds: float) -> float:
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
 
 
+def rename_columns(names: Collection[str]) -> list[str]:
+    """Replace usual names of columns by those of kineme; exact names take precedence.
+
+    Examples
+    --------
+    >>> rename_columns(["File", "Start Time", "end (ms)", "label", "activity"])
+    ['recording', 'start_s', 'stop_ms', 'label', 'activity']
+    """
+    renamed = list(names)
+    if any(needed <= set(names) for needed in OTHER_TABLES):
+        return renamed
+    has_span = any(set(pair) <= set(names) for pair in SPANS)
+    for i, name in enumerate(names):
+        plain = re.sub(r"[\W_]+", "_", name.lower()).strip("_")
+        base, _, unit = plain.rpartition("_")
+        if unit not in ("s", "ms", "frame"):
+            base, unit = plain, "s"
+        column = next((known for known, aliases in ALIASES.items() if base in aliases), "")
+        if column in ("start", "stop", "duration"):
+            column = "" if has_span else f"{column}_{unit}"
+        if column and column not in renamed:
+            renamed[i] = column
+    return renamed
+
+
+def lists_recordings(path: Path) -> bool:
+    """Return whether a table of intervals has a column with the names of recordings."""
+    return "recording" in rename_columns(read_columns(path))
+
+
 def read_intervals(path: Path) -> dict[str, Labels]:
     """Read a table of intervals; return labels by recording, or by "" without that column."""
-    unit: Unit = "seconds"
+    first, second = SPANS[0]
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
         comma = find_separator(file.readline())
         file.seek(0)
-        headers = [(*names, "label") for names in SPANS.values()]
-        for line, row in read_rows(file, path, headers, delimiter=comma):
-            unit = next(u for u, names in SPANS.items() if set(names) <= set(row))
-            cells = {
-                name: row[name] if comma == "," else replace_decimal_comma(row[name])
-                for name in SPANS[unit]
-            }
-            # Times may be dates (seconds since 1970) or times of day (since midnight).
+        headers = [(*names, "label") for names in SPANS]
+        for line, row in read_rows(file, path, headers, rename_columns):
+            first, second = next(names for names in SPANS if set(names) <= set(row))
             start, stop = (
-                parse_date(cell.strip())
-                if unit == "seconds" and is_date(cell.strip())
-                else parse_number(cell, name, path, line)
-                for name, cell in cells.items()
+                _parse_time(row[name], name, path, line, commas=comma != ",")
+                for name in (first, second)
             )
+            stop += start if second.startswith("duration") else 0.0
             count = _parse_count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
             level = parse_level(row.get("level"))
             span = Span(start, stop, text, level, _parse_cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
+    unit: Literal["seconds", "frames"] = "frames" if first.endswith("frame") else "seconds"
     return {recording: Labels(some, unit) for recording, some in spans.items()}
+
+
+def _parse_time(cell: str, name: str, path: Path, line: int, *, commas: bool) -> float:
+    """Return a time in frames or seconds.
+
+    It may also be a date (seconds since 1970) or a time of day (since midnight).
+    """
+    if not name.endswith("frame") and is_date(cell.strip()):
+        return parse_date(cell.strip())
+    value = parse_number(replace_decimal_comma(cell) if commas else cell, name, path, line)
+    return value / 1000 if name.endswith("_ms") else value
 
 
 def _read_intervals(path: Path) -> Labels:
@@ -246,8 +300,8 @@ def _format_cells(row: Segment) -> list[Any]:
 
 def _recognises(path: Path) -> bool:
     """Return whether the first line has the columns of segments or intervals."""
-    found = read_columns(path)
-    return any({*names, "label"} <= found for names in SPANS.values())
+    found = set(rename_columns(read_columns(path)))
+    return any({*names, "label"} <= found for names in SPANS)
 
 
 FORMAT = LabelFormat(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import math
 from codecs import BOM_UTF8
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from hashlib import sha256
 from itertools import chain
@@ -31,14 +31,19 @@ SAME_RATE = 5e-4
 
 
 def read_rows(
-    file: TextIO, path: Path, header: Iterable[Sequence[str]], *, delimiter: str = ","
+    file: TextIO,
+    path: Path,
+    header: Sequence[Sequence[str]],
+    rename: Callable[[Sequence[str]], list[str]] = list,
 ) -> Iterator[tuple[int, dict[str, str]]]:
     """Yield line number and cells by column name of each row below the header.
 
     The header is the first row that contains all names of one of the sets in ``header``; lines
-    above it are skipped. Missing cells are empty.
+    above it are skipped. Names are compared after ``rename``. Missing cells are empty.
     """
-    rows = csv.reader(file, delimiter=delimiter, strict=True)
+    separator = find_separator(file.readline())
+    file.seek(0)
+    rows = csv.reader(file, delimiter=separator, strict=True)
     names: list[str] = []
     try:
         for cells in rows:
@@ -46,12 +51,13 @@ def read_rows(
                 # Rows may be shorter or longer than the header.
                 texts = dict(zip(names, map(from_text, cells), strict=False))
                 yield rows.line_num, dict.fromkeys(names, "") | texts
-            elif not names and any(set(needed) <= set(cells) for needed in header):
-                names = cells
+            elif not names:
+                renamed = rename(cells)
+                names = renamed if any(set(needed) <= set(renamed) for needed in header) else []
     except csv.Error as error:
         raise ReadError(path, f"is not a valid table: {error}", line=rows.line_num) from error
     if not names:
-        needed = " or ".join(", ".join(map(repr, names)) for names in header)
+        needed = " or ".join(", ".join(map(repr, names)) for names in header[:2])
         raise ReadError(path, f"has no header line with the columns {needed}")
 
 

@@ -8,7 +8,7 @@ Missing values are ``n/a``. Existing descriptions in a sidecar are kept.
 
 Reading requires only ``onset``, ``duration`` and ``trial_type``, and uses the seconds.
 
-*BORIS* (CSV): a START and a STOP row per segment, both levels. Written as "tabular events":
+*BORIS* (CSV or TSV): a START and a STOP row per segment, both levels. Written as "tabular events":
 ``Time`` in seconds and ``Image index`` (first frame for START, one past the last for STOP, from 0),
 frame rate and length of the recording in every row, the level as ``Behavioral category``. Scores
 are not stored.
@@ -114,7 +114,7 @@ def write_bids(rows: Sequence[Segment], segmentation: Segmentation, path: Path) 
 def read_bids(path: Path) -> Labels:
     """Read events with the facts in their sidecar, if there is one."""
     with path.open(encoding="utf-8-sig", newline="") as file:
-        rows = read_rows(file, path, [NEEDED], delimiter="\t")
+        rows = read_rows(file, path, [NEEDED])
         spans, cuts, rates = [], [], []
         for line, cells in rows:
             span = _parse_span(cells, path, line)
@@ -319,7 +319,7 @@ def _parse_fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | 
 BORIS = LabelFormat(
     name="boris",
     help="BORIS events",
-    suffixes=(".csv",),
+    suffixes=(".csv", ".tsv"),
     holds="levels",
     read=read_boris,
     write=write_boris,

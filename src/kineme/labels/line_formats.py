@@ -31,6 +31,7 @@ from pathlib import Path
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
+from kineme.formats.delimited import replace_decimal_comma
 from kineme.labels.csv_table import choose_roundest_rate
 from kineme.labels.delimited import (
     format_source,
@@ -70,8 +71,10 @@ def _read_audacity(path: Path) -> Labels:
                 raise ReadError(
                     path, "a label must be a start, a stop and a text separated by tabs", line=line
                 )
-            start = parse_number(cells[0], "the start", path, line)
-            stop = parse_number(cells[1], "the stop", path, line)
+            start, stop = (
+                parse_number(replace_decimal_comma(cell), what, path, line)
+                for cell, what in zip(cells, ("the start", "the stop"), strict=False)
+            )
             spans.append(Span(start, stop, cells[2] if len(cells) > 2 else ""))
     return Labels(spans)
 

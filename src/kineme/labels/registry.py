@@ -10,7 +10,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import isclose
 from os import PathLike
 from pathlib import Path
 from typing import Literal, get_args
@@ -26,7 +25,7 @@ from kineme._util.checks import (
 )
 from kineme._util.files import translate_read_errors
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
+from kineme.labels.spans import Labels, as_segmentation, check_extent, convert_clock_times
 from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -253,7 +252,8 @@ def read_segments(
     format : str, optional
         A name in `kineme.labels.label_formats`.
     fps : float, optional
-        Frame rate of the recording, for formats that do not store it.
+        Frame rate of the recording, for formats that do not store it. Labels in seconds are
+        converted to this rate, even if their file states another, such as that of a video.
     n_frames : int, optional
         Length of the recording, if the last label may end before it.
     clock : Clock, optional
@@ -293,7 +293,6 @@ def read_segments(
     if n_frames is not None and not (is_number(n_frames) and n_frames >= 1):
         raise ParameterError(f"n_frames is {n_frames!r:.60}: a recording has at least 1 frame")
     label_format, content = read_content(path, format)
-    rate = content.fps
     if isinstance(content, Labels):
         if clock is not None and fps is not None and n_frames is not None:
             content = convert_clock_times(content, clock, length_s=n_frames / fps)
@@ -303,10 +302,7 @@ def read_segments(
             )
         if warning_texts:
             warnings.warn(f"{path}: {'; '.join(warning_texts)}", KinemeWarning, stacklevel=2)
-    if fps is not None and rate is not None and not isclose(rate, fps, rel_tol=1e-6):
-        raise ReadError(path, f"has {rate:g} frames per second, but fps is {fps:g}")
-    if n_frames is not None and content.n_frames != n_frames:
-        raise ReadError(path, f"has {content.n_frames} frames, but n_frames is {n_frames}")
+    check_extent(content, path, fps=fps, n_frames=n_frames)
     if clock is None or "clock" in content.provenance:
         return content
     return replace(content, provenance={**content.provenance, "clock": clock.to_json()})

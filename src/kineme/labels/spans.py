@@ -25,6 +25,8 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import isclose
+from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -33,6 +35,7 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.errors import ParameterError, ReadError
+from kineme.labels.delimited import SAME_RATE
 from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, choose_kind
@@ -136,7 +139,9 @@ def as_segmentation(
     if not labels.spans:
         recording = f" of this recording ({'; '.join(labels.notes)})" if labels.notes else ""
         raise ReadError(path, f"has no labels{recording}")
-    rate = fps or labels.fps
+    # Seconds fit any frame rate; numbers of frames only fit the rate of the file.
+    first, second = (fps, labels.fps) if labels.unit == "seconds" else (labels.fps, fps)
+    rate = first or second
     if rate is None:
         raise ReadError(
             path, f"{name} does not state the frame rate of the recording: give fps (--fps)"
@@ -190,6 +195,17 @@ def as_segmentation(
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
     return segmentation, tuple(warnings)
+
+
+def check_extent(
+    found: Segmentation, path: str | PathLike[str], *, fps: float | None, n_frames: int | None
+) -> Segmentation:
+    """Return labels if they have the frame rate and length of the recording, if these are given."""
+    if fps is not None and not isclose(found.fps, fps, rel_tol=SAME_RATE):
+        raise ReadError(path, f"has {found.fps:g} frames per second, but the recording has {fps:g}")
+    if n_frames is not None and found.n_frames != n_frames:
+        raise ReadError(path, f"has {found.n_frames} frames, but the recording has {n_frames}")
+    return found
 
 
 def join_lines(text: str) -> str:

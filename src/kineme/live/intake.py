@@ -11,8 +11,9 @@ waits for the rows of the 0.2 s after it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import ceil, floor, log10
+from math import ceil, floor, log10, remainder
 
 import numpy as np
 
@@ -26,12 +27,19 @@ SUDDEN_S = 2.0
 """Seconds: a longer step of the clock must be confirmed by the next row."""
 COUNTED_S = 2.0
 """Seconds over which rows are counted to check the given rate."""
+ABSENT_S = 2.0
+"""Seconds after which a channel that never had a value is left out."""
 OTHER_RATE = 1.5
 """Ratio from which two rates count as different."""
+UNIT_ROWS, UNIT_STEPS = 20, 3
+"""Rows, and steps of their times, from which the unit of the times is guessed."""
 FULL_PACKET = 0.75, 1.5
 """Frames per row of a packet. Below the range rows are duplicates, above it some are lost."""
 SHIFTS_S = (-86400.0, -3600.0, 3600.0)
-"""Seconds: steps of local clocks (midnight, summer time) that are undone."""
+"""Seconds: steps of local clocks (midnight, summer time) that are undone.
+
+A step forward is a pause unless it leads to a full hour of a clock that counts from 1970.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +69,7 @@ class Intake:
     ----------
     fps : float
         Frames per second.
-    n_channels : int
+    channels : sequence of str
     n_rows : int
         Number of rows without a time so far.
     per_second : float
@@ -84,10 +92,12 @@ class Intake:
         Rows whose time can only be interpreted with the next row.
     filler : (channels,) array
         Values of the last frame.
+    seen : (channels,) array
+        Whether each channel has had a value.
     """
 
     fps: float
-    n_channels: int
+    channels: Sequence[str]
     n_rows: int = 0
     per_second: float = 0.0
     ahead_s: float = 0.0
@@ -104,11 +114,13 @@ class Intake:
     held_times: Floats = field(default_factory=lambda: np.empty(0))
     held_rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
     filler: Floats = field(default_factory=lambda: np.empty(0))
+    seen: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
 
     def __post_init__(self) -> None:
         if not self.filler.size:
-            self.filler = np.zeros(self.n_channels)
-            self.rows = self.held_rows = np.empty((0, self.n_channels))
+            self.filler = np.zeros(len(self.channels))
+            self.seen = np.zeros(len(self.channels), np.bool_)
+            self.rows = self.held_rows = np.empty((0, len(self.channels)))
 
     def add(self, rows: Floats, times: Floats | None = None) -> list[Piece]:
         """Add rows; return the frames that are now complete.
@@ -135,10 +147,10 @@ class Intake:
         """Return the frames of all remaining rows."""
         pieces: list[Piece] = []
         if len(self.held_times):
-            self.per_second = self.per_second or 1.0
+            self.per_second = self.per_second or guess_unit(self.held_times, self.fps)
             # An extra row confirms the time of a single held row.
             times = np.append(self.held_times, self.held_times[-1])
-            nothing = np.full((1, self.n_channels), np.nan)
+            nothing = np.full((1, len(self.channels)), np.nan)
             self._place(np.concatenate([self.held_rows, nothing]), times, pieces)
         if self.in_packets:
             self._spread_packet(float(self.at[-1]) + np.inf)
@@ -153,11 +165,12 @@ class Intake:
             self._say(pieces, "rows without a time are left out")
             rows, times = rows[known], times[known]
         if not self.per_second:
-            later = times[times != times[:1]]
-            if not len(later):
+            needed = count_rows_for_unit(times)
+            if not needed:
                 self.held_rows, self.held_times = rows, times
                 return
-            self.per_second = _guess_unit(float(times[0]), float(later[0]), self.fps)
+            # Exactly these rows, so that the unit does not depend on how many come at a time.
+            self.per_second = guess_unit(times[:needed], self.fps)
         start = 0
         while start < len(times):
             seconds = times[start:] / self.per_second - self.ahead_s
@@ -206,8 +219,10 @@ class Intake:
     def _correct_clock(self, step: float, pieces: list[Piece]) -> bool:
         """Undo a step of the clock if it was set; return whether it was."""
         near = max(LONGEST_S, 3 / self.fps)
+        now_s = self.last_s + self.ahead_s + step
+        is_on_the_hour = is_unix_time(now_s) and abs(remainder(now_s, 3600)) <= near
         for shift in SHIFTS_S:
-            if abs(step - shift) <= near and (shift < 0 or is_unix_time(self.ahead_s)):
+            if abs(step - shift) <= near and (shift < 0 or is_on_the_hour):
                 self._say(pieces, "the clock changes by an hour or a day: corrected")
                 self.ahead_s += shift
                 return True
@@ -275,9 +290,10 @@ class Intake:
         found = Timing(self.fps, np.arange(len(at)), at, end - base).resample(rows)
         made = slice(self.emitted - base, stop - base)
         values = found.values[made].copy()
+        self.seen = self.seen | np.isfinite(values).any(axis=0)
         missing: Masks = np.zeros(len(values), np.bool_)
         if found.missing is not None:
-            missing = np.asarray(found.missing[made].any(axis=1), np.bool_)
+            missing = np.asarray(found.missing[made][:, self._find_used(pieces)].any(axis=1))
             for i, row in enumerate(values):  # A channel without a value repeats its last one.
                 row[:] = np.where(np.isfinite(row), row, values[i - 1] if i else self.filler)
         self.filler = values[-1]
@@ -287,6 +303,15 @@ class Intake:
         kept = max(0, int(np.searchsorted(self.at, stop - before)) - 1)
         self.at, self.rows = self.at[kept:], self.rows[kept:]
         return Frames(values, missing)
+
+    def _find_used(self, pieces: list[Piece]) -> Masks:
+        """Return which channels make a gap where they are missing."""
+        if self.emitted < ABSENT_S * self.fps or not self.seen.any() or self.seen.all():
+            return np.ones_like(self.seen)
+        for name, seen in zip(self.channels, self.seen.tolist(), strict=True):
+            if not seen:
+                self._say(pieces, f"channel {name} has no value: left out until it has one")
+        return self.seen
 
     def _compare_rate(self, n_frames: int, n_rows: int, pieces: list[Piece]) -> None:
         """Report when rows begin to arrive at another rate than the given one."""
@@ -306,14 +331,30 @@ class Intake:
             pieces.append(text)
 
 
-def _guess_unit(first: float, second: float, fps: float) -> float:
-    """Return the units per second for which two rows at these times are about a frame apart.
+def count_rows_for_unit(times: Floats) -> int:
+    """Return how many of the first rows tell the unit of their times; 0 if there are too few."""
+    changes = np.flatnonzero(np.diff(times))
+    if len(times) < UNIT_ROWS or len(changes) < UNIT_STEPS:
+        return 0
+    return max(UNIT_ROWS, int(changes[UNIT_STEPS - 1]) + 2)
+
+
+def guess_unit(times: Floats, fps: float) -> float:
+    """Return the units per second for which rows at these times are usually a frame apart.
+
+    1 if the times are equal.
 
     Examples
     --------
-    >>> _guess_unit(81_000_000_000, 81_020_000_000, 50.0)
-    1000000000.0
+    >>> guess_unit(np.array([0, 700, 720, 740, 760]) + 81_000_000, 50.0)
+    1000.0
     """
-    frames = abs(second - first) * fps
+    steps = np.diff(times)
+    changes = np.flatnonzero(steps)
+    if not len(changes):
+        return 1.0
+    # Rows that share a time are a packet: its rows divide the step to the next time.
+    sizes = np.diff(changes, prepend=-1)
+    frames = fps * float(np.median(np.repeat(np.abs(steps[changes]) / sizes, sizes)))
     per_second = sorted(set(UNITS_OF_TIME.values()))
     return min(per_second, key=lambda unit: abs(log10(frames / unit)))

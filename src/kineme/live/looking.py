@@ -42,7 +42,13 @@ class Layout:
     @property
     def n_values(self) -> int:
         """Return the number of values in a frame."""
-        return len(self.channels) if self.skeleton is None else 3 * self.skeleton.n_joints
+        return len(self.value_names)
+
+    @property
+    def value_names(self) -> tuple[str, ...]:
+        """Return the names of the values in a frame."""
+        joints = self.skeleton.names if self.skeleton else ()
+        return self.channels or tuple(f"{joint}_{axis}" for joint in joints for axis in "xyz")
 
     def make_recording(self, values: Floats, missing: Masks) -> Motion | Signals:
         """Return frames as a recording with gaps."""

@@ -8,8 +8,10 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
+from itertools import chain
 from queue import Empty, Queue
 from threading import Thread
 from time import monotonic, sleep, time
@@ -20,9 +22,18 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import join_names, make_unique, require_extra
 from kineme.errors import ParameterError
+from kineme.live.intake import count_rows_for_unit, guess_unit
 from kineme.recordings import Motion, Signals, Skeleton
+from kineme.recordings.column_names import is_channel_name
 from kineme.recordings.regular import place_rows
-from kineme.recordings.times import UNITS_OF_TIME, as_seconds, find_time_unit, is_time, parse_date
+from kineme.recordings.times import (
+    UNITS_OF_TIME,
+    as_seconds,
+    find_time_unit,
+    is_time,
+    is_timing,
+    parse_date,
+)
 
 T = TypeVar("T")
 WAIT_S = 0.2
@@ -31,8 +42,8 @@ AHEAD = 1000
 """Largest number of lines that are read ahead."""
 PIECE_S = 0.1
 """Seconds of a recording that are replayed at once."""
-TIMED_ROWS = 50
-"""Number of rows from which the rate of a source is measured if it does not state it."""
+TIMED_ROWS, MOST_TIMED_ROWS = 50, 5000
+"""Number of rows from which rate and unit are found, and if these have fewer than four times."""
 FOUND_S = 10.0
 """Seconds to wait for an LSL stream."""
 BONE = "/VMC/Ext/Bone/Pos"
@@ -42,7 +53,7 @@ UNUSED = ("/OK", "/T", "/Apply")
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Rows (rows, channels), their times in seconds if known, and remarks for the user."""
+    """Rows (rows, channels), their times if known, and remarks for the user."""
 
     values: Floats
     seconds: Floats | None = None
@@ -61,12 +72,15 @@ class Source:
     rows : iterator of Rows
     skeleton : Skeleton, optional
         Skeleton, if the channels are x, y and z of its joints.
+    has_unit : bool
+        Whether times are in seconds; if not, `measure_rate` finds their unit.
     """
 
     fps: float
     channels: tuple[str, ...]
     rows: Iterator[Rows]
     skeleton: Skeleton | None = None
+    has_unit: bool = True
 
 
 def replay(recording: Motion | Signals, speed: float = 1.0) -> Source:
@@ -95,9 +109,11 @@ def replay(recording: Motion | Signals, speed: float = 1.0) -> Source:
 def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
     """Return lines of CSV or JSON as a source.
 
-    The first line of a CSV names the channels, or is a row of numbers. Each line of JSON is an
-    object of numbers by channel, or a list of numbers. ``columns`` are patterns of the channels to
-    use. Invalid lines are dropped with a remark.
+    The first line of a CSV names the channels, or is a row of numbers; cells are separated by
+    commas, tabs or semicolons, and may have decimal commas. Each line of JSON is an object of
+    numbers by channel, or a list of numbers; nested ones become ``acc_x`` or ``acc_1``. Channels
+    have a number in the first row. ``columns`` are their patterns; by default, names of counters
+    and labels are left out. Invalid lines are dropped with a remark.
     """
     queue: Queue[str | None] = Queue(AHEAD)
 
@@ -107,12 +123,7 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
         queue.put(None)
 
     Thread(target=fill, daemon=True).start()
-    first = queue.get()
-    while first is not None and not first.strip():
-        first = queue.get()
-    if first is None:
-        raise ParameterError("no lines received: the first line must name the channels")
-    parser = _Parser(first, columns)
+    parser = _Parser(iter(queue.get, None), columns)
 
     def rows() -> Iterator[Rows]:
         waiting: list[str | None] = [*parser.first_lines]
@@ -123,7 +134,8 @@ def read_lines(lines: Iterable[str], columns: Sequence[str] = ()) -> Source:
             yield parser.parse([line for line in waiting if line is not None])
             waiting = []
 
-    return Source(0.0, parser.channels, rows())
+    has_unit = parser.time is None or parser.unit is not None
+    return Source(0.0, parser.channels, rows(), has_unit=has_unit)
 
 
 def _drain(queue: Queue[T]) -> list[T]:
@@ -139,75 +151,144 @@ def _drain(queue: Queue[T]) -> list[T]:
 
 
 class _Parser:
-    """Parser of lines; their layout is that of the first line."""
+    """Parser of lines; their layout is that of the first lines.
 
-    def __init__(self, first: str, columns: Sequence[str]) -> None:
+    Attributes
+    ----------
+    first_lines : list of str
+        Rows that were read to find the layout.
+    names : list of str
+        All columns, or all numbers of a line of JSON.
+    time : int, optional
+        Column of the times.
+    unit : str, optional
+        Unit of the times; None if unknown.
+    at : list of int
+        Columns of the channels.
+    remarks : tuple of str
+        Remarks for the next rows.
+    """
+
+    def __init__(self, lines: Iterator[str], columns: Sequence[str]) -> None:
+        lines = filter(str.strip, lines)
+        first = next(lines, "")
+        if not first:
+            raise ParameterError("no lines received: the first line must name the channels")
         self.is_json = first.lstrip()[:1] in ("{", "[")
-        cells = self._cells(first)
-        if isinstance(cells, dict):
-            names = list(cells)
-        elif self.is_json or all(_is_number(cell) for cell in cells):
-            names = [str(number) for number in range(1, len(cells) + 1)]
-        else:
-            names = [str(cell).strip() for cell in cells]
-        keeps_first = self.is_json or names != [str(cell).strip() for cell in cells]
-        self.first_lines = [first] if keeps_first else []
+        self.separator = next((mark for mark in "\t;" if mark in first), ",")
+        try:
+            cells = self._cells(first)
+        except ValueError as error:
+            raise ParameterError(f"the first line is not complete JSON: {first:.60}") from error
+        is_row = self.is_json or all(_is_number(cell) for cell in cells.values())
+        names = list(cells) if is_row else [cell.strip() for cell in cells.values()]
         self.names = make_unique(names, allow_empty=True)
         self.time = next((i for i, name in enumerate(self.names) if is_time(name)), None)
-        self.at = [
+        self.unit = None if self.time is None else find_time_unit(self.names[self.time])
+        wanted = [
             i
             for i, name in enumerate(self.names)
-            if i != self.time and (not columns or any(fnmatchcase(name, each) for each in columns))
+            if i != self.time
+            and (
+                any(fnmatchcase(name, each) for each in columns)
+                if columns
+                else name and is_channel_name(name) and not is_timing(name)
+            )
         ]
-        if not self.at:
+        self.first_lines: list[str] = []
+        for line in chain([first] if is_row else [], lines):
+            self.first_lines.append(line)
+            with suppress(ValueError):
+                row = self._row(line)
+                self.at = [i for i in wanted if _is_number(row[i])]
+                if np.isfinite([_number(row[i]) for i in self.at]).any():
+                    break
+        else:
             raise ParameterError(f"none of the columns is a channel ({join_names(self.names)})")
+        if self.time is not None and not _is_number(row[self.time]):
+            self.unit = "s"  # dates
         self.channels = tuple(self.names[i] for i in self.at)
-        self.unit = None if self.time is None else find_time_unit(self.names[self.time])
+        others = wanted if columns else range(len(self.names))
+        left = [self.names[i] for i in others if i not in (*self.at, self.time)]
+        self.remarks = (f"columns that are not channels: {join_names(left)}",) if left else ()
 
     def parse(self, lines: Sequence[str]) -> Rows:
         """Parse lines into rows."""
-        rows, seconds, wrong = [], [], 0
-        for line in lines:
-            if not line.strip():
-                continue
+        rows, seconds, wrong, texts = [], [], 0, 0
+        for line in filter(str.strip, lines):
             try:
-                cells = self._cells(line)
-                if isinstance(cells, dict):
-                    cells = [cells.get(name) for name in self.names]
-                row = [_number(cells[i]) for i in self.at]
-                if len(cells) != len(self.names):
-                    wrong += 1
-                    continue
-                if self.time is not None:
-                    seconds.append(self._seconds(cells[self.time]))
-                rows.append(row)
-            except (ValueError, TypeError, IndexError):
+                cells = self._row(line)
+                second = 0.0 if self.time is None else self._seconds(cells[self.time])
+            except ValueError:
                 wrong += 1
-        values = np.array(rows, np.float64).reshape(-1, len(self.at))
-        remarks = (f"{wrong} lines without {len(self.names)} cells left out",) if wrong else ()
-        return Rows(values, None if self.time is None else np.array(seconds), remarks)
+                continue
+            row = [_number(cells[i]) if _is_number(cells[i]) else None for i in self.at]
+            n_texts = row.count(None)
+            if n_texts == len(row):  # such as names of columns
+                wrong += 1
+                continue
+            rows.append(row)
+            seconds.append(second)
+            texts += n_texts
+        values = np.array(rows, np.float64).reshape(-1, len(self.at))  # NaN for None
+        remarks, self.remarks = list(self.remarks), ()
+        if wrong:
+            remarks.append(f"{wrong} lines that are no rows of {len(self.names)} cells left out")
+        if texts:
+            remarks.append(f"{texts} cells of text left out")
+        return Rows(values, None if self.time is None else np.array(seconds), tuple(remarks))
 
-    def _cells(self, line: str) -> Any:
-        return json.loads(line) if self.is_json else next(csv.reader([line]))
+    def _cells(self, line: str) -> dict[str, Any]:
+        """Return the cells of a line by name; those of a CSV are numbered."""
+        return _flatten(
+            json.loads(line) if self.is_json else next(csv.reader([line], delimiter=self.separator))
+        )
+
+    def _row(self, line: str) -> list[Any]:
+        """Return the cells of a line in the order of `names`; raise ValueError if they differ."""
+        cells = self._cells(line)
+        if not self.is_json and len(cells) == len(self.names):
+            return [*cells.values()]
+        if not self.is_json or cells.keys().isdisjoint(self.names):
+            raise ValueError("other cells")
+        return [cells.get(name) for name in self.names]
 
     def _seconds(self, cell: Any) -> float:
         """Return a time in seconds; numbers without a unit are unchanged."""
-        try:
+        if _is_number(cell):
             return _number(cell) / UNITS_OF_TIME[self.unit or "s"]
-        except ValueError:
-            return parse_date(cell.strip())
+        return parse_date(cell.strip())
+
+
+def _flatten(values: Any, name: str = "") -> dict[str, Any]:
+    """Return nested values by name, items of lists by number.
+
+    Examples
+    --------
+    >>> _flatten({"time": 0, "acc": {"x": 1}, "gyro": [2, 3]})
+    {'time': 0, 'acc_x': 1, 'gyro_1': 2, 'gyro_2': 3}
+    """
+    if isinstance(values, list):
+        values = {str(number): value for number, value in enumerate(values, 1)}
+    if not isinstance(values, dict):
+        return {name: values}
+    found: dict[str, Any] = {}
+    for key, value in values.items():
+        found |= _flatten(value, f"{name}_{key}" if name else key)
+    return found
 
 
 def _number(cell: Any) -> float:
-    if cell is None or (isinstance(cell, str) and not cell.strip()):
-        return np.nan
-    return float(cell)
+    """Return a cell as a number, NaN if it is empty; raise ValueError if it is text."""
+    if not isinstance(cell, str):
+        return np.nan if cell is None else float(cell)
+    return float(cell.replace(",", ".")) if cell.strip() else np.nan
 
 
 def _is_number(cell: Any) -> bool:
     try:
         _number(cell)
-    except (ValueError, TypeError):
+    except ValueError:
         return False
     return True
 
@@ -303,25 +384,27 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
     return Source(0.0, channels, rows())
 
 
-def measure_rate(source: Source) -> Source:
-    """Return the source with the rate measured from the times of its first rows.
+def measure_rate(source: Source, fps: float = 0.0) -> Source:
+    """Return the source with times in seconds, and the rate measured from them unless given.
 
-    Raises ParameterError if there are no times, or too few rows.
+    Both follow from the first rows. Raises ParameterError if there are no times, or too few rows.
     """
     begun: list[Rows] = []
-    count = 0
+    times = np.empty(0)
     for piece in source.rows:
         begun.append(piece)
-        count += len(piece.values)
         if piece.seconds is None:
             raise ParameterError("rows have no time column: give --fps")
-        if count >= TIMED_ROWS:
+        times = np.append(times, piece.seconds)
+        # Rows of a packet share a time, so that many rows may have few times.
+        if len(times) >= (TIMED_ROWS if count_rows_for_unit(times) else MOST_TIMED_ROWS):
             break
-    seconds = np.concatenate([piece.seconds for piece in begun if piece.seconds is not None])
-    seconds = as_seconds(seconds)[0]
+    fps = fps or place_rows(as_seconds(times, "s" if source.has_unit else None)[0]).fps
+    per_second = 1.0 if source.has_unit else guess_unit(times[np.isfinite(times)], fps)
 
     def rows() -> Iterator[Rows]:
-        yield from begun
-        yield from source.rows
+        for piece in chain(begun, source.rows):
+            assert piece.seconds is not None  # noqa: S101 (for mypy)
+            yield replace(piece, seconds=piece.seconds / per_second)
 
-    return replace(source, fps=place_rows(seconds).fps, rows=rows())
+    return replace(source, fps=fps, rows=rows(), has_unit=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from os import PathLike
 from typing import Any, Self
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Floats, Masks
-from kineme._util.checks import as_floats, as_texts, check_type, is_number
+from kineme._util.checks import as_floats, as_texts, check_type, is_number, join_names
 from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError
@@ -31,7 +32,7 @@ from kineme.live.storage import Announced, StreamState, load_state, save_state
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import as_rate
-from kineme.recordings.times import as_seconds
+from kineme.recordings.times import UNITS_OF_TIME, as_seconds
 from kineme.segments.segmentation import Segmentation
 
 PIECE = 1000
@@ -115,7 +116,7 @@ class Stream:
         self.fps, self.delay, self.memory, self.interval = layout.fps, delay, memory, interval
         self.layout, self.options = layout, chosen
         self._state = StreamState(
-            Intake(self.fps, layout.n_values),
+            Intake(self.fps, layout.value_names),
             Finals(self.fps),
             RecentPast(layout, looked),
             next_look=self._frames(interval),
@@ -129,7 +130,9 @@ class Stream:
             what = f"{self.layout.skeleton.n_joints} joints"
         return f"<Stream of {what} at {self.fps:g} Hz, second {self._state.now / self.fps:.1f}>"
 
-    def push(self, values: ArrayLike, times: ArrayLike | None = None) -> list[Event]:
+    def push(
+        self, values: ArrayLike, times: ArrayLike | None = None, *, unit: str | None = None
+    ) -> list[Event]:
         """Add rows; return the new events.
 
         Parameters
@@ -139,6 +142,9 @@ class Stream:
         times : (rows,) array_like, optional
             Time of each row: numbers in any unit since any origin, dates, or texts.
             Without times, rows are frames at `fps`.
+        unit : str, optional
+            Unit of numbers: ``"s"``, ``"ms"``, ``"us"`` or ``"ns"``. By default it follows from
+            the steps of the first 20 rows, which are held back until then.
 
         Returns
         -------
@@ -148,14 +154,15 @@ class Stream:
         Raises
         ------
         ParameterError
-            Rows of the wrong shape, or invalid times. The stream continues without them.
+            Rows of the wrong shape, invalid times, or an unknown unit. The stream continues
+            without them.
         """
         if self._state.is_finished:
             raise ParameterError("the stream is finished: make a new one")
         rows = self._as_rows(values)
-        seconds = None
+        seconds, is_in_seconds = None, False
         if times is not None:
-            seconds = _as_numbers(times)
+            seconds, is_in_seconds = _as_numbers(times, unit)
             if len(seconds) != len(rows):
                 raise ParameterError(f"there are {len(rows)} rows and {len(seconds)} times")
         if not len(rows):
@@ -163,6 +170,8 @@ class Stream:
         if self._state.is_timed not in (None, seconds is not None):
             raise ParameterError("either all rows of a stream have times or none")
         self._state.is_timed = seconds is not None
+        if is_in_seconds:
+            self._state.intake.per_second = 1.0
         events: list[Event] = []
         for first in range(0, len(rows), PIECE):
             piece = slice(first, first + PIECE)
@@ -450,13 +459,18 @@ def as_keywords(options: SegmentOptions) -> dict[str, Any]:
     return {**own, **options.constants}
 
 
-def _as_numbers(times: ArrayLike) -> Floats:
-    """Return times as numbers: dates and texts in seconds, numbers unchanged."""
+def _as_numbers(times: ArrayLike, unit: str | None) -> tuple[Floats, bool]:
+    """Return times as numbers, and whether they are seconds: dates, texts, or of a given unit."""
+    if unit not in (None, *UNITS_OF_TIME):
+        raise ParameterError(f"unit is one of {join_names([*UNITS_OF_TIME])}, not {unit!r:.60}")
     given = np.atleast_1d(np.asarray(times))
+    if given.dtype.kind == "O":  # such as numbers with None
+        with suppress(ValueError, TypeError):
+            given = given.astype(np.float64)
     try:
-        if given.dtype.kind in "iuf":
-            return given.astype(np.float64)
-        return np.asarray(as_seconds(given)[0], np.float64)
+        if unit is None and given.dtype.kind in "iuf":
+            return given.astype(np.float64), False
+        return np.asarray(as_seconds(given, unit)[0], np.float64), True
     except (ValueError, TypeError) as error:
         raise ParameterError(f"invalid times: {error}") from None
 

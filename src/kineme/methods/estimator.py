@@ -20,7 +20,9 @@ from kineme.methods.base import Preset
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals
+from kineme.recordings.column_names import name_column
 from kineme.recordings.samples import ASSUMED_FPS, read_samples
+from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -44,6 +46,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
     n_segments, n_states : int, optional
         Wanted number of segments or of different states. The level of detail with this number
         is chosen, or else the nearest, with a warning. By default the method decides.
+    detail : float
+        Level of detail without `n_segments` or `n_states`, as in `kineme.segment`.
     standardize : bool
         Divide each column by its standard deviation; not for an embedding.
     unit : float, optional
@@ -95,6 +99,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         level: Level = "activity",
         n_segments: int | None = None,
         n_states: int | None = None,
+        detail: float = DEFAULT_DETAIL,
         standardize: bool = True,
         unit: float | None = None,
         emg: bool = False,
@@ -105,6 +110,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         self.level = level
         self.n_segments = n_segments
         self.n_states = n_states
+        self.detail = detail
         self.standardize = standardize
         self.unit = unit
         self.emg = emg
@@ -165,7 +171,8 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         options = {"reset": reset, "dtype": np.float64, "ensure_all_finite": "allow-nan"}
         if hasattr(X, "dims") or hasattr(X, "columns") or hasattr(X, "to_frame"):
             signals, timing = read_samples(X, fps=self.fps, assumed_fps=assumed)
-            channels = [each for each in getattr(X, "columns", ()) if str(each) in signals.names]
+            labels = getattr(X, "columns", ())
+            channels = [each for each in labels if name_column(each) in signals.names]
             # Columns that are no channels, such as times, are no features for scikit-learn.
             named = X[channels] if channels else signals.values
             validate_data(self, named, **options)
@@ -183,6 +190,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         options = SegmentOptions(
             preset=self.preset,
             constants=self._constants,
+            detail=self.detail,
             emg=self.emg,
             standardize=self.standardize,
             unit=self.unit,

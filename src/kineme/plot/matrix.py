@@ -36,6 +36,7 @@ from kineme.segments.display import (
     get_segment_color,
 )
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import SegmentTable
 
 MAX_PIXELS = 1600  # largest side of the matrix
 INK = "#1B1F2A"
@@ -211,7 +212,7 @@ def _draw_borders(axes: Axes, segmentation: Segmentation) -> None:
 def _draw_bars(axes: Axes, segmentation: Segmentation, width: float) -> None:
     """Draw bars in the colours of the clusters below and left of the matrix."""
     seconds = segmentation.n_frames / segmentation.fps
-    rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
+    rows = _choose_bars(segmentation)
     labels = choose_label_colors(segmentation)
     colors = [get_segment_color(row, labels) for row in rows]
     below = _make_boxes(rows.start_s, rows.stop_s, seconds + 0.4 * width, seconds + 1.4 * width)
@@ -231,18 +232,31 @@ def _make_boxes(left: Any, right: Any, top: Any, bottom: Any) -> list[NDArray[np
     return list(np.stack(corners, axis=-1).reshape(-1, 4, 2))
 
 
+def _choose_bars(segmentation: Segmentation) -> SegmentTable:
+    """Return the primitives; those of an activity without repetitions are in its cluster."""
+    activities, primitives = segmentation.activities, segmentation.primitives
+    if not len(primitives):
+        return activities
+    is_counted = np.isin(primitives.activity, primitives.activity[primitives.cluster >= 0])
+    clusters = np.where(is_counted, primitives.cluster, activities.cluster[primitives.activity])
+    return primitives.with_columns(cluster=clusters)
+
+
 def _make_legend(segmentation: Segmentation) -> list[Patch]:
-    """Return entries for the clusters with most primitives, in the order of their numbers."""
-    counts = segmentation.repetitions()
-    largest = sorted(sorted(counts, key=lambda cluster: -counts[cluster])[:MAX_LEGEND])
+    """Return entries for the clusters with most bars, in the order of their numbers."""
+    labels = {cluster: f"{cluster}  ({n}×)" for cluster, n in segmentation.repetitions().items()}
+    clusters, counts = np.unique(_choose_bars(segmentation).cluster, return_counts=True)
+    bars = dict(zip(clusters.tolist(), counts.tolist(), strict=True))
+    has_other = bars.pop(-1, 0) > 0
+    largest = sorted(sorted(bars, key=lambda cluster: -bars[cluster])[:MAX_LEGEND])
     handles = [
-        Patch(color=get_cluster_color(cluster), label=f"{cluster}  ({counts[cluster]}×)")
+        Patch(color=get_cluster_color(cluster), label=labels.get(cluster, str(cluster)))
         for cluster in largest
     ]
-    if (segmentation.primitives.cluster < 0).any():
+    if has_other:
         handles.append(Patch(color=NO_CLUSTER, label="none"))
-    if len(counts) > len(largest):
-        handles.append(Patch(color="none", label=f"and {len(counts) - len(largest)} more"))
+    if len(bars) > len(largest):
+        handles.append(Patch(color="none", label=f"and {len(bars) - len(largest)} more"))
     return handles
 
 

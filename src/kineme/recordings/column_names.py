@@ -2,31 +2,44 @@
 
 The coordinates of a point are ``hip_x hip_y hip_z``. A unit of length may follow: ``hip x [mm]``,
 ``hip_x_mm``, ``hip_x_px``. Sensors have coordinates, too: ``acc_x``, ``gyro.y`` or ``ForceZ``.
-Counters, labels, and measurements of a device's surroundings are not channels.
+Counters, labels, and measurements of surroundings, places or the heart are not channels.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from itertools import islice
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from itertools import groupby, islice
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from kineme.recordings.joint_names import SENSOR
 
 _COUNTS = frozenset(
-    {"frame", "frames", "frame#", "index", "idx", "sample", "row", "id", "unnamed: 0"}
-    | {"__index_level_0__", "counter", "packet_counter", "packetcounter", "level_0"}
+    {"frame", "frames", "index", "idx", "sample", "row", "id", "unnamed 0", "index level 0"}
+    | {"counter", "packet counter", "packetcounter", "level 0", "step", "seq", "sequence", "crc"}
 )
 _LABELS = frozenset(
-    {"label", "labels", "class", "annotation", "ground_truth", "class_id", "label_id", "target"}
-    | {"set", "sets", "rep", "reps", "repetition", "repetitions", "count", "weight", "weight_kg"}
+    {"label", "labels", "class", "annotation", "ground truth", "class id", "label id", "target"}
+    | {"set", "sets", "rep", "reps", "repetition", "repetitions", "count", "weight", "weight kg"}
     | {"activity", "exercise", "subject", "participant", "person", "user", "trial", "session"}
 )
-_NUMBERED = re.compile(r"(.+?)[\s_]*(?:id|idx|index|no|num|number|nr|count)")
+_NUMBERED = re.compile(r"(.+?) ?(?:id|idx|index|no|num|number|nr|count)")
 _SURROUNDINGS = re.compile(
-    r"(?:.*[\W_])?(?:temp(?:erature)?|battery|humidity|lux|latitude|longitude)(?:[\W_].*)?"
+    r"(?:.* )?(?:temp|temperature|battery|humidity|lux|latitude|longitude|altitude|accuracy|gps"
+    r"|heart ?rate|bpm|steps|pedometer|barometer|sound)(?: .*)?|location [a-z]{2}.*"
+    # Insoles have pressures, and machines speeds, too: these are left out only without a place.
+    r"|(?:lat|lon|lng|hr|pressure|speed|bearing|course)(?: (?:h?pa|m s|km h|deg|degrees))?"
 )
-
+_OWNER = re.compile(
+    r"(?:person|subject|participant|individual|user|track|device|sensor|joint|body ?part|side"
+    r"|placement|source|type|kind)(?: ?(?:id|name|type|kind|no|number|label))?"
+)
+_EMPTY = frozenset({"", "nan", "none", "null", "<na>"})
+_MOST_OWNERS = 50  # more are measurements, or names of rows
+_ROWS_IN_TURN = 5  # mean of successive rows of one owner, above which they are no turns
 
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
@@ -86,10 +99,69 @@ def is_channel_name(name: str) -> bool:
 
     Examples
     --------
-    >>> [is_channel_name(name) for name in ("acc_x", "reps", "Set number", "Battery level")]
+    >>> [is_channel_name(name) for name in ("acc_x", "Set number", "batteryLevel", "HR [bpm]")]
     [True, False, False, False]
     """
-    plain = name.strip().lower()
-    numbered = _NUMBERED.fullmatch(plain)
-    names = {plain, numbered[1] if numbered else plain}
-    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(plain) is None
+    words = _split_words(name)
+    numbered = _NUMBERED.fullmatch(words)
+    names = {words, numbered[1] if numbered else words}
+    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(words) is None
+
+
+def name_column(label: object) -> str:
+    """Return the name of a column of a data frame; several levels are joined by ``_``.
+
+    Examples
+    --------
+    >>> name_column(("acc", "x")), name_column(("time", "")), name_column(3)
+    ('acc_x', 'time', '3')
+    """
+    return "_".join(filter(None, map(str, label))) if isinstance(label, tuple) else str(label)
+
+
+def is_owner(name: str) -> bool:
+    """Return whether a column of this name may tell the person or device of each row.
+
+    Examples
+    --------
+    >>> is_owner("sensorName"), is_owner("Device ID"), is_owner("sensor_x")
+    (True, True, False)
+    """
+    return _OWNER.fullmatch(_split_words(name)) is not None
+
+
+def describe_alternation(
+    columns: Mapping[str, ArrayLike], channels: Collection[str] = ()
+) -> str | None:
+    """Return an error if rows of several people or devices alternate in a column of owners.
+
+    Neither a device that is exchanged in the middle alternates, nor the side of each step. The only
+    channel is no owner.
+
+    Examples
+    --------
+    >>> describe_alternation({"device": ["left", "right"] * 3})
+    "rows of several alternate (column 'device': left, right): separate them, one table for each"
+    >>> describe_alternation({"device": ["left"] * 3 + ["right"] * 3})
+    """
+    for name, column in columns.items():
+        if not is_owner(name) or [*channels] == [name]:
+            continue
+        texts = (str(cell).strip() for cell in np.asarray(column).tolist())
+        cells = [text for text in texts if text.lower() not in _EMPTY]
+        rows, turns = Counter(cells), Counter(owner for owner, _ in groupby(cells))
+        owners = [*rows]
+        if len(owners) > _MOST_OWNERS or turns.total() <= len(owners) + 1:
+            continue
+        # The slowest of several sensors has about one row at a time.
+        if any(rows[owner] <= _ROWS_IN_TURN * turns[owner] for owner in owners):
+            return (
+                f"rows of several alternate (column {name!r}: {owners[0]:.20}, {owners[1]:.20}): "
+                "separate them, one table for each"
+            )
+    return None
+
+
+def _split_words(name: str) -> str:
+    """Return the words of a name in lower case, separated by blanks."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])|[\W_]+", " ", name).strip().lower()

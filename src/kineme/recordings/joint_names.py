@@ -52,13 +52,13 @@ NAMES: dict[str, tuple[str, ...]] = {
                "*KNEEOUT", "*KNEELAT", "*LEK", "*FLE"),
     "*_shank": ("*LEG", "*LOWERLEG", "*SHIN", "*CALF"),
     "*_ankle": ("*ANKLE", "*AJC", "*ANKLELAT *ANKLEMED", "*ANKLEOUT *ANKLEIN", "*LMAL *MMAL",
-                "*FAL *TAM", "*ANK", "*ANKLEOUT", "*ANKLELAT", "*FAL"),
+                "*FAL *TAM", "*LM *MM", "*ANK", "*ANKLEOUT", "*ANKLELAT", "*FAL", "*LM"),
     "*_outer_ankle": ("*ANK", "*ANKLEOUT", "*ANKLELAT", "*LMAL", "*FAL", "*LM"),
     "*_foot": ("*FOOT",),
     "*_rear_foot": ("*HEEL *MIDFOOTSUP", "*HEEL", "*HEE"),  # OpenSim's gait models
-    "*_heel": ("*HEEL", "*HEE", "*CALCANEUS", "*FCC"),
+    "*_heel": ("*HEEL", "*HEE", "*CALCANEUS", "*FCC", "*CAL", "*CALC", "*CA", "*FERSE"),
     "*_toe": ("*TOE", "*TOEBASE", "*TOES", "*BIGTOE", "*TOETIP", "*FOOTINDEX", "*MT", "*MTP",
-              "*FM"),
+              "*FM", "*TT", "*MTH", "*HALLUX", "*HLX", "*ZEHE"),
     "head": ("HEAD", "LFHD RFHD LBHD RBHD", "LFHD RFHD", "LBHD RBHD",
              "HEADTOP HEADFRONT HEADSIDE", "HEADTOP LHEAD RHEAD HEADFRONT",
              "LTEMPLE RTEMPLE TOPHEAD", "HEAD1 HEAD2 HEAD3", "HEADTOP"),
@@ -74,7 +74,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "*_hand": ("*HAND", "*FIN"),
     # Where sensors are worn: lf_gyr_x, footl_gyr_x.
     "*_foot_sensor": ("*FOOT", "FOOT*", "*F"),
-    "*_shank_sensor": ("*SHANK", "SHANK*", "*S"),
+    "*_shank_sensor": ("*SHANK", "SHANK*", "*S", "*ANKLE", "ANKLE*"),  # strapped above the ankle
 }
 """Names of the points that make each part, the preferred line first."""
 # fmt: on

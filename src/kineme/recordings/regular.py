@@ -220,9 +220,10 @@ def _correct_clock(
         return np.asarray(np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S))
 
     notes: list[Note | str] = []
-    hours = near(-_HOUR) & back if usual < _HOUR / 10 else np.zeros_like(back)
-    if usual < _HOUR / 10 and is_unix_time(shown[0]):
-        hours = hours | near(_HOUR)
+    # Summer time begins and ends at a full hour of the local clock; pauses end at any time.
+    at_full_hour = (shown[1:] % _HOUR <= max(2 * usual, LONGEST_S)) & (usual < _HOUR / 10)
+    forward = near(_HOUR) if is_unix_time(shown[0]) else np.zeros_like(back)
+    hours = at_full_hour & ((near(-_HOUR) & back) | forward)
     days = near(-_DAY) & back
     if hours.any():
         notes.append(Note("local times jump by an hour, as for summer time: corrected", "warning"))
@@ -292,12 +293,13 @@ def _spread_packets(at: Floats, values: Floats | None) -> tuple[Floats, list[Not
 
 def _find_fastest_rate(moments: Floats, values: Floats | None) -> float:
     """Return the rate of the rows, or of the fastest sensor if each fills only some rows."""
-    rates: list[float] = []
-    if values is not None:
-        rows = [seen for _, seen in _group_by_missing_rows(np.isfinite(values)) if seen.any()]
-        if all(seen.mean() <= _MOST for seen in rows):
-            rates = [_measure_rate(moments[seen]) for seen in rows if seen.sum() > 1]
-    return max(rates, default=_measure_rate(moments))
+    every = _measure_rate(moments)
+    if values is None:
+        return every
+    groups = (seen for _, seen in _group_by_missing_rows(np.isfinite(values)))
+    rates = [_measure_rate(moments[seen]) for seen in groups if seen.sum() > 1]
+    # A few values in quick succession may give more than the rate of all rows.
+    return min(every, max(rates, default=every))
 
 
 def _measure_rate(moments: Floats) -> float:

@@ -14,7 +14,12 @@ from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
-from kineme.recordings.column_names import is_channel_name
+from kineme.recordings.column_names import (
+    describe_alternation,
+    is_channel_name,
+    is_owner,
+    name_column,
+)
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
@@ -192,15 +197,20 @@ def _convert_frame(frame: Any) -> _Samples:
     by_place = getattr(frame, "iloc", None)
     columns = [frame[n] if by_place is None else by_place[:, i] for i, n in enumerate(names)]
     kinds = [getattr(column.dtype, "kind", "O") for column in columns]
-    called = [name if isinstance(name, str) else str(name) for name in names]
+    called = [*map(name_column, names)]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
-    timing = [i for i, name in enumerate(called) if is_time(name)]
+    dates = [i for i, kind in enumerate(kinds) if kind in "mM"]
+    # If no name is that of times, the only column of dates is the clock.
+    timing = [i for i, name in enumerate(called) if is_time(name)] or dates * (len(dates) == 1)
     rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
     chosen = [i for i in numbers if i not in (*timing, *rates)]
     # If all names look like counters or labels, keep all numeric columns.
     chosen = [i for i in chosen if is_channel_name(called[i])] or chosen
     if not chosen:
         raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
+    owners = {name: columns[i] for i, name in enumerate(called) if is_owner(name)}
+    if error := describe_alternation(owners, [called[i] for i in chosen]):
+        raise ParameterError(error)
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
     notes: list[Note | str] = []
     if left:
@@ -241,8 +251,8 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
     *signals : Signals
         Recorded at the same time, each with its own rate and clock.
     offsets : sequence of float, optional
-        Start of each in seconds on a common clock. By default their clocks are used if these are
-        dates or overlap; else all start at once, with a warning.
+        Start of each in seconds on a common clock. By default their clocks are used if they
+        overlap; else all start at once, with a warning.
 
     Returns
     -------
@@ -286,7 +296,10 @@ def join_signals(*signals: Signals, offsets: Sequence[float] | None = None) -> S
         )
     lost = max(ends) - min(begins) - (n_frames - 1) / fps
     if lost > LONGEST_S:
-        notes.append(f"{lost:.4g} s left out in which not all sensors recorded")
+        remark = f"{lost:.4g} s left out in which not all sensors recorded"
+        notes.append(Note(remark, "warning" if lost > n_frames / fps else "info"))
+    if doubts := [note for note in notes if isinstance(note, Note) and note.severity == "warning"]:
+        warn("; ".join(doubts))
     times = start + np.arange(n_frames) / fps
     columns, missing = [], np.zeros(n_frames, np.bool_)
     for clock, sensor in zip(clocks, signals, strict=True):
@@ -318,14 +331,16 @@ def _compare_clocks(
             Clock(clock.seconds, [time + offset for time in clock.make_relative().times])
             for clock, offset in zip(clocks, offsets, strict=True)
         ], []
-    if all(clock.shows_dates for clock in clocks):
-        return clocks, []
     stops = [float(c.time(each.duration)) for c, each in zip(clocks, signals, strict=True)]
     overlap = min(stops) - max(clock.times[0] for clock in clocks)
-    if overlap > 0.5 * min(each.duration for each in signals):
+    # Dates have one origin; times that count from any other must overlap for long.
+    dates = all(clock.shows_dates for clock in clocks)
+    if overlap > (0.0 if dates else 0.5 * min(each.duration for each in signals)):
         return clocks, []
-    remark = "the sensors have no common clock: assumed to begin together; give offsets"
-    warn(remark)
+    remark = (
+        "the sensors have no common clock: assumed to begin together (kineme.join_signals takes "
+        "their offsets)"
+    )
     return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 
 

@@ -11,6 +11,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats, as_texts, format_count
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, assign, freeze
+from kineme.recordings.column_names import name_column
 from kineme.recordings.notebook import draw_channels
 from kineme.recordings.provenance import Provenance
 from kineme.recordings.recording import Recording, Spans, as_gaps
@@ -70,7 +71,7 @@ class Signals(Recording):
             raise ParameterError(
                 f"signals reach {largest:.3g}, too large for a sensor: correct the values"
             )
-        names = as_texts(self.names, "names of channels") or tuple(map(str, columns))
+        names = as_texts(self.names, "names of channels") or tuple(map(name_column, columns))
         if len(names) != values.shape[1] or len(set(names)) < len(names):
             raise ParameterError(
                 f"names ({', '.join(names)}) for {values.shape[1]} channels: give a different one "

@@ -30,7 +30,6 @@ from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 from kineme.studio.choices import CLIPS, REPORT
 from kineme.studio.http.bodies import make_safe_name
-from kineme.studio.loading import drop_other_people
 from kineme.studio.open_recording import OpenRecording
 from kineme.studio.storage.sidecars import read_video_offset
 from kineme.web.display import display_motion
@@ -60,7 +59,7 @@ def export_download(opened: OpenRecording, kind: str, level: Level | None) -> tu
     if kind == REPORT:
         write_page = partial(
             write_report,
-            drop_other_people(loaded.recording),
+            loaded.recording,
             table,
             name=opened.listed.name,
             effectors=loaded.effectors,

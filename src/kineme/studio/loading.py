@@ -22,7 +22,7 @@ from kineme.formats import ReadOptions, list_people, read_analog, read_quietly, 
 from kineme.labels.collections import Extent
 from kineme.methods.presets import DEFAULT
 from kineme.methods.segmenter import SegmentOptions
-from kineme.recordings import Motion, Skeleton
+from kineme.recordings import Motion
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
@@ -179,7 +179,7 @@ class LoadedRecording:
 
         return self._keep(
             "page data",
-            lambda: make_page_data(drop_other_people(self.recording), effectors=self.effectors),
+            lambda: make_page_data(self.recording, effectors=self.effectors),
         )
 
     def picture(self) -> DrawnPicture | None:
@@ -294,28 +294,6 @@ class LoadedRecording:
         source, read = _get_input(segmentation), self.provenance
         expected = {"take": read.take, "person": read.person}
         return any(source.get(option, name) != name for option, name in expected.items())
-
-
-def drop_other_people(recording: Motion | Signals) -> Motion | Signals:
-    """Return the recording without the markers of other people in its file."""
-    provenance = recording.provenance
-    others = {*provenance.people} - {provenance.person}
-    if not others or not isinstance(recording, Motion) or recording.rotations is not None:
-        return recording
-    skeleton = recording.skeleton
-    own_joints = [
-        i for i, name in enumerate(skeleton.names) if name.rpartition(":")[0] not in others
-    ]
-    # New indices of the joints that stay.
-    indices = {joint: index for index, joint in enumerate(own_joints)}
-    parents = [skeleton.parents[joint] for joint in own_joints]
-    # A joint whose parent belongs to another person cannot be separated.
-    if len(own_joints) == skeleton.n_joints or not {*parents} <= {-1, *own_joints}:
-        return recording
-    names = tuple(skeleton.names[joint] for joint in own_joints)
-    own_parents = tuple(indices.get(parent, -1) for parent in parents)
-    own_skeleton = Skeleton(names, own_parents, skeleton.offsets[own_joints])
-    return replace(recording, skeleton=own_skeleton, positions=recording.positions[:, own_joints])
 
 
 def get_digest(segmentation: Segmentation) -> str:

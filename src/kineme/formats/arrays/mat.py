@@ -208,14 +208,15 @@ def _read_qtm(
         raise content.error(f"{len(names)} Labels for Data of shape {data.shape}")
     rate = head.get("FrameRate")
     fps = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
-    if not options.fps and not (np.isfinite(fps) and fps > 0):
+    fps = content.choose_rate(options.fps, fps if np.isfinite(fps) and fps > 0 else None)
+    if not fps:
         raise content.error("it has no FrameRate: give fps= (--fps)")
     # Markers, axes, frames become frames, markers, axes; the fourth number is a residual.
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     points = Points(
         names,
         positions,
-        options.fps or fps,
+        fps,
         options.unit,
         options.up,
         stated_unit="mm",

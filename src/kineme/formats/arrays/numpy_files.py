@@ -211,7 +211,7 @@ def positions_to_motion(
     positions = _read_numbers(content, arrays, "positions")
     if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
         raise content.error(f"positions have shape {positions.shape}, not (frames, joints, 3)")
-    fps = options.fps or find_rate(content, arrays, _RATES)
+    fps = find_rate(content, arrays, _RATES, options.fps)
     is_from_kineme = "parents" in arrays and "names" in arrays  # in metres, y up
     if is_from_kineme and options.unit in (None, "m", 1) and options.up in (None, "y"):
         return _restore_motion(content, name, arrays, positions, fps)
@@ -292,7 +292,7 @@ def poses_to_motion(content: FileContent, arrays: Arrays, options: ReadOptions) 
     return Motion.from_rotations(
         make_smpl_skeleton(),
         rotations,
-        options.fps or find_rate(content, arrays, _AMASS_RATES),
+        find_rate(content, arrays, _AMASS_RATES, options.fps),
         path,
         provenance=content.provenance("AMASS", notes),
     )
@@ -318,13 +318,17 @@ def _check_arrays(content: FileContent, arrays: Arrays, name: str) -> Floats:
     return values
 
 
-def find_rate(content: FileContent, arrays: Arrays, names: Sequence[str]) -> float:
-    """Return the frame rate stored under the first of the names that holds one."""
+def find_rate(
+    content: FileContent, arrays: Arrays, names: Sequence[str], requested: float | None
+) -> float:
+    """Return the requested frame rate, else that under the first of the names that holds one."""
     for name in names:
         if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
             rate = float(arrays[name].item())
             if np.isfinite(rate) and rate > 0:
-                return rate
+                return content.choose_rate(requested, rate)
+    if requested:
+        return requested
     raise content.error(f"no {names[0]!r} in it: give fps= (--fps)")
 
 

@@ -18,6 +18,7 @@ from kineme.formats.channels.reading import (
 )
 from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
+from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
 from kineme.recordings.times import is_timing
 
 
@@ -73,27 +74,54 @@ def read_parquet_channels(
 
     names = make_unique_names(file.schema_arrow.names)
     types = dict(zip(names, file.schema_arrow.types, strict=True))
+    times = find_parquet_times(file)
     numbers = (pa.types.is_integer, pa.types.is_floating, pa.types.is_boolean)
-    dates = (*numbers, pa.types.is_timestamp, pa.types.is_string)  # types that may hold dates
     numeric = [
-        name
-        for name in names
-        if any(is_kind(types[name]) for is_kind in (dates if is_timing(name) else numbers))
+        name for name in names if name in times or any(is_kind(types[name]) for is_kind in numbers)
     ]
-    times = {name: name for name in numeric if is_timing(name)}
     columns = select_columns(content, names, columns, numeric, times)
+    measured = [name for name in numeric if name not in times and is_channel_name(name)]
+    refuse_interleaved(content, file, columns or measured)
     chosen = list_needed_columns(columns, numeric, times)
     try:
         stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
         table = read_parquet_columns(content, file, stored)
         values = {
-            name: np.asarray(column.to_numpy(), None if is_timing(name) else np.float64)
+            name: np.asarray(column.to_numpy(), None if name in times else np.float64)
             for name, column in zip(chosen, table.columns, strict=True)
         }
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         reason = f"its columns cannot be read as numbers: {shorten_error(error)}"
         raise content.error(reason) from error
     return make_channel_table(content, names, values, columns, times)
+
+
+def find_parquet_times(file: Any) -> dict[str, str]:
+    """Return columns of times or rates, and the names that `find_table_timing` knows.
+
+    If no name is that of times, the only column of dates is the clock, as an index of pandas.
+    """
+    from pyarrow import types
+
+    dates = (types.is_timestamp, types.is_duration)
+    named = (*dates, types.is_integer, types.is_floating, types.is_boolean, types.is_string)
+    fields = list(zip(make_unique_names(file.schema_arrow.names), file.schema_arrow, strict=True))
+    times = {
+        name: name
+        for name, field in fields
+        if is_timing(name) and any(is_kind(field.type) for is_kind in named)
+    }
+    clocks = [name for name, field in fields if any(is_kind(field.type) for is_kind in dates)]
+    return times or ({clocks[0]: "time"} if len(clocks) == 1 else {})
+
+
+def refuse_interleaved(content: FileContent, file: Any, channels: Sequence[str]) -> None:
+    """Raise ReadError if rows of several people or devices alternate."""
+    owners = [name for name in file.schema_arrow.names if is_owner(name)]
+    table = read_parquet_columns(content, file, owners)
+    cells = zip(owners, (column.to_pylist() for column in table.columns), strict=True)
+    if error := describe_alternation(dict(cells), channels):
+        raise content.error(error)
 
 
 def _is_text(kind: Any) -> bool:

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats
 from kineme.errors import ParameterError
 from kineme.formats.delimited import NAMELESS, DelimitedText
-from kineme.formats.files import FileContent
+from kineme.formats.files import RATE_ROUNDING, FileContent
 from kineme.formats.sniffing import find_table_timing
 from kineme.recordings import Signals
 from kineme.recordings.column_names import is_channel_name
@@ -55,13 +55,13 @@ class ChannelTable:
     def find_timing(self, content: FileContent, fps: float | None) -> Timing:
         """Return frames per second and the frame of each row."""
         if fps or self.rate:
-            return Timing(fps or self.rate or 0.0)
+            return Timing(content.choose_rate(fps, self.rate or self.nominal))
         if not self.timing:
             raise content.error(f"it does not state its frame rate: give fps (--fps){self.hint}")
         timing = find_table_timing(content, self.timing, values=self.values)
         # Times rounded to milliseconds deviate slightly from the nominal rate.
         nominal = self.nominal or 0.0
-        is_near = abs(timing.fps - nominal) <= 0.005 * nominal
+        is_near = abs(timing.fps - nominal) <= RATE_ROUNDING * nominal
         return replace(timing, fps=nominal) if is_near and timing.order is None else timing
 
 
@@ -80,7 +80,7 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
     """Return the named channels of a text table in this order, or all columns of numbers."""
     text = text.number_columns()
-    text.refuse_interleaved()
+    text.refuse_interleaved(columns)
     names, numeric, times = list(text.names), text.find_numeric_columns(), text.times
     columns = select_columns(text.content, names, columns, numeric, times)
     chosen = list_needed_columns(columns, numeric, times or list(filter(name_clock, numeric)))
@@ -173,7 +173,9 @@ def make_channel_table(
     if columns is not None:
         chosen, notes = list(columns), []
     else:
-        chosen = [name for name in values if name not in times and is_channel_name(name)]
+        chosen = [name for name in values if name not in times]
+        # If no name is that of a channel, as in a file of heart rates, keep all columns.
+        chosen = [*filter(is_channel_name, chosen)] or chosen
         chosen = [name for name in chosen if not name.startswith(NAMELESS)]
         chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
         rising = {name: None for name in chosen if _is_clock(values[name])}

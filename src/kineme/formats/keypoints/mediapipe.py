@@ -11,7 +11,8 @@ MediaPipe has no file format of its own. These forms are read:
 
 World landmarks are metres from the middle of the hips, with y down. They are used if present, or if
 the middle of the hips stays at 0; the position in the room is then unknown. Image landmarks are
-fractions of the image's width and height; if these are unknown, the image is assumed to be square.
+fractions of the image's width and height; if these are unknown, the image is assumed to be square,
+with a warning.
 All landmarks are used: visibility states whether a landmark is occluded, not whether its position
 is correct. ``confidence`` leaves out those below it.
 
@@ -36,6 +37,7 @@ from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
+    SMALLEST_PIXEL,
     Person,
     order_by_number,
     to_frame_numbers,
@@ -144,27 +146,20 @@ def landmarks_to_motion(
         )
         notes = [*notes, remark]
     else:
-        people = _scale_to_image(content, people, size)
+        people = _scale_to_image(people, size)
     return video_to_motion(
         content, options, "MediaPipe", NAMES, people, limit=LIMIT,
         fps=fps, frames=frames, unit=unit, up=up, notes=notes,
     )  # fmt: skip
 
 
-def _scale_to_image(
-    content: FileContent, people: Sequence[Person], size: Sequence[float | None]
-) -> Sequence[Person]:
+def _scale_to_image(people: Sequence[Person], size: Sequence[float | None]) -> Sequence[Person]:
     """Return landmarks that are fractions of an image of this width and height in pixels."""
     hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
-    if np.nanmax(np.abs(hips), initial=0.0) >= 4:  # pixels already
-        return people
     width, height = size
-    if not (width and height):
-        width = height = 1.0
-        content.warn(
-            "landmarks are relative to an image of unknown size, assumed square: "
-            "otherwise multiply x and z by width / height"
-        )
+    is_pixels = np.nanmax(np.abs(hips), initial=0.0) >= SMALLEST_PIXEL
+    if is_pixels or not (width and height):
+        return people
     # z is a fraction of the width, like x.
     sides = np.array([width, height, width])
     return [replace(person, points=np.asarray(person.points) * sides) for person in people]

@@ -1,8 +1,9 @@
 """Select one of the people in a file.
 
-If the file tracks people by name or number, these are used. Otherwise detections of successive
-frames are joined by the smallest distance between their keypoints, after moving each person on as
-before, so that people who cross are not swapped. They are numbered from 0 in order of appearance.
+If the file tracks people by name or number, these are used, unless one occurs twice in a frame.
+Otherwise detections of successive frames are joined by the smallest distance between their
+keypoints, after moving each person on as before, so that people who cross are not swapped. Those
+seen last come first. They are numbered from 0 in order of appearance.
 People seen in less than a tenth of the frames of the most frequent one are ignored.
 """
 
@@ -65,21 +66,18 @@ def _group_by_person(
     frames: Rows, points: Floats, detected: Sequence[str | None]
 ) -> dict[str, Rows]:
     """Return the rows of each person, in order of appearance."""
-    if all(name is not None for name in detected):
-        numbers = list(map(str, detected))
-    elif len(np.unique(frames)) == len(frames):
-        # One detection per frame: there is only one person.
-        numbers = ["0"] * len(frames)
-    else:
-        numbers = list(map(str, track_people(frames, points)))
+    names = list(map(str, detected))
+    # A name that occurs twice in a frame identifies nobody: untracked people share a number.
+    is_unique = len({*zip(frames.tolist(), names, strict=True)}) == len(names)
+    if None in detected or not is_unique:
+        # With one detection per frame there is only one person.
+        is_alone = len(np.unique(frames)) == len(frames)
+        numbers = [0] * len(frames) if is_alone else track_people(frames, points)
+        names = list(map(str, numbers))
     rows: dict[str, list[int]] = {}
-    for row, number in enumerate(numbers):
-        rows.setdefault(number, []).append(row)
-    return {
-        # Use the first of several rows of a person in one frame.
-        name: np.array(person_rows)[np.unique(frames[person_rows], return_index=True)[1]]
-        for name, person_rows in rows.items()
-    }
+    for row, name in enumerate(names):
+        rows.setdefault(name, []).append(row)
+    return {name: np.array(person_rows) for name, person_rows in rows.items()}
 
 
 def track_people(frames: Rows, points: Floats) -> list[int]:
@@ -99,14 +97,12 @@ def track_people(frames: Rows, points: Floats) -> list[int]:
         tracks = list(last)
         before = np.array([last[person] for person in tracks], np.intp)
         drift = np.array([drifts[person] for person in tracks]).reshape(len(tracks), 3)
-        cost = np.full((len(tracks), stop - start), np.inf)
+        cost = np.zeros((len(tracks), stop - start))
         for column, row in enumerate(range(start, stop)):
             if tracks:
-                cost[:, column] = _measure_strides(frames, points, before, drift, row)
-        # The assignment needs finite costs; pairs too far apart are dropped below.
-        possible = np.where(np.isfinite(cost), cost, 1e6)
-        pairs = zip(*linear_sum_assignment(possible), strict=True)
-        matched = {column: tracks[k] for k, column in pairs if cost[k, column] <= 1}
+                cost[:, column] = _rate_pairs(frames, points, before, drift, row)
+        pairs = zip(*linear_sum_assignment(cost), strict=True)
+        matched = {column: tracks[k] for k, column in pairs if cost[k, column] < 0}
         for column, row in enumerate(range(start, stop)):
             if column not in matched:
                 matched[column] = count
@@ -131,18 +127,22 @@ def _measure_step(frames: Rows, points: Floats, former: int, row: int) -> Floats
     return steps[seen].mean(axis=0) / elapsed if seen.any() else np.zeros(3)
 
 
-def _measure_strides(frames: Rows, points: Floats, before: Rows, drift: Floats, row: int) -> Floats:
-    """Return distances of a row to expected people, as multiples of the allowed one, or inf."""
+def _rate_pairs(frames: Rows, points: Floats, before: Rows, drift: Floats, row: int) -> Floats:
+    """Return costs of matching a row to people: negative where allowed, lowest for the nearest."""
     now = points[row]
     elapsed = frames[row] - frames[before]
+    # Sum of the geometric series: an absent person slows down, instead of leaving the picture.
+    steps = (1 - _MOMENTUM**elapsed) / (1 - _MOMENTUM)
     with np.errstate(all="ignore"):
-        expected = points[before] + (drift * elapsed[:, None])[:, None]
+        expected = points[before] + (drift * steps[:, None])[:, None]
         # Distance of each keypoint (people, keypoints), NaN where not seen.
         distances = np.linalg.norm(expected - now, axis=2)
         visible = np.isfinite(distances)
         mean = np.where(visible, distances, 0).sum(axis=1) / visible.sum(axis=1)
         seen_now = now[np.isfinite(now).all(axis=1)]
         size = np.ptp(seen_now, axis=0).max() if len(seen_now) > 1 else 0.0
-        # A person not seen for longer may be farther away.
-        strides = mean / (size * (_STRIDE + _STRAY * (elapsed - 1)))
-    return np.asarray(np.where(np.isfinite(strides), strides, np.inf))
+        # A person not seen for longer may be farther away, but a match with them is worth less:
+        # the divisor keeps those who left from taking over one who stayed.
+        allowed = _STRIDE + _STRAY * (elapsed - 1)
+        cost = (mean / size / allowed - 1) / allowed
+    return np.asarray(np.where(cost < 0, cost, 0))

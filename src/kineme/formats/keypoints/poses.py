@@ -202,7 +202,6 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     Raise ReadError if there is no person. Frames without the person are gaps.
     """
     head, rows = poses.head, poses.rows
-    fps = float(options.fps or head["fps"])
     numbers = np.rint(rows["time"] * float(head["fps"])).astype(np.int64)
     field = "metres" if head["depth"] else "image"
     steady_points = np.array(rows[field], np.float64)
@@ -220,7 +219,7 @@ def poses_to_motion(content: FileContent, poses: Poses, options: ReadOptions) ->
     notes = ["metres from the middle of the hips, without the position in the room"]
     motion = video_to_motion(
         content, options, f"video poses ({head['estimator']})", head["keypoints"], people,
-        limit=float(head["limit"]), fps=fps, frames=frames, unit=unit, up=up,
+        limit=float(head["limit"]), fps=float(head["fps"]), frames=frames, unit=unit, up=up,
         notes=notes if head["depth"] else (),
     )  # fmt: skip
     cuts = find_cuts(rows[rows["person"] == int(motion.provenance.person or 0)], head)

@@ -2,7 +2,8 @@
 
 A keypoint with a confidence below its format's limit counts as not seen, as do all keypoints of a
 person not found in a frame. Keypoints in an image are measured in pixels with y down; the larger
-side of the body is scaled to a person's height. Most of these files have no frame rate: ``fps`` is
+side of the body is scaled to a person's height; if they are fractions of the image's sides, the
+image is assumed to be square, with a warning. Most of these files have no frame rate: ``fps`` is
 required.
 """
 
@@ -27,6 +28,9 @@ from kineme.recordings import Motion
 
 MAX_FRAMES_RATIO = 20
 """Maximum number of frames per frame with a person; above it the numbers are wrong."""
+
+SMALLEST_PIXEL = 4
+"""Coordinates in an image below this are no pixels, but fractions of its width and height."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,7 @@ def video_to_motion(
     without people. Unit and axis are those of `Points`. Raise ReadError if the person or the frame
     rate is unknown.
     """
-    fps = options.fps or fps
+    fps = content.choose_rate(options.fps, fps)
     if not fps:
         raise content.error(
             "keypoints have no frame rate: give that of the video with fps= (--fps)"
@@ -87,6 +91,14 @@ def video_to_motion(
     if n_unsure := int(is_unsure[rows].sum()):
         remarks.append(f"{format_count(n_unsure, 'position')} below confidence {limit:g} not used")
     remarks += notes
+    image = points[..., :2]
+    # Most of them: single keypoints may be at the corner, or far outside of the image.
+    is_small = (np.abs(image) < SMALLEST_PIXEL).sum() > np.isfinite(image).sum() / 2
+    if unit == "pixel" and not options.unit and is_small:
+        content.warn(
+            "keypoints are relative to an image of unknown size, assumed square: "
+            "otherwise multiply x and z by width / height"
+        )
     if unit == "pixel" and np.nanmax(np.abs(points[..., 2]), initial=0.0) == 0:
         remarks.append("two-dimensional: z is 0, and image rows count downwards")
     provenance = content.provenance(program, remarks).of_person(name, all_people)
@@ -97,7 +109,15 @@ def video_to_motion(
 def name_people(entries: Sequence[Mapping[str, Any]], *keys: str) -> list[str | None]:
     """Return the person of each entry by the first of the keys that all entries have, or None."""
     key = next((key for key in keys if all(each.get(key) is not None for each in entries)), None)
-    return [str(each[key])[:40] if key else None for each in entries]
+    return [_to_name(each[key]) if key else None for each in entries]
+
+
+def _to_name(number: Any) -> str:
+    """Return the name of a person; AlphaPose writes [1.0] for 1."""
+    if isinstance(number, list) and len(number) == 1:
+        number = number[0]
+    is_whole = isinstance(number, float) and number.is_integer()
+    return str(int(number) if is_whole else number)[:40]
 
 
 def parse_json(content: FileContent) -> Any:

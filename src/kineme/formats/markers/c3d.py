@@ -18,6 +18,7 @@ another quantity: the accelerometer of an electrode also carries the muscle's na
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from kineme._util.checks import make_unique
 from kineme.formats.channels.reading import (
@@ -67,7 +68,7 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
     file = parse_c3d(content)
     if options.channels or (file.analog.size and not file.labels):
         return _read_channels(content, file, options)
-    fps = options.fps or file.rate
+    fps = content.choose_rate(options.fps, file.rate)
     if not fps:
         raise content.error("the file has no frame rate: give fps= (--fps)")
     notes = []
@@ -81,8 +82,6 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         notes.append(f"the first frame is frame {file.first_frame} of the capture")
     if file.analog.shape[1]:
         notes.append(f"{file.analog.shape[1]} analog channels at {file.analog_rate:g} Hz left out")
-    if file.events:
-        notes.append("events: " + ", ".join(f"{name} at {at:.2f} s" for at, name in file.events))
     stated_up = "".join(file.parameters.strings("POINT", "Y_SCREEN")).lower().lstrip("+")
     points = Points(
         [file.labels[i] for i in markers],
@@ -95,7 +94,15 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
         is_up_stated=stated_up in AXES,
         person=options.person,
     )
-    return to_motion(points, content.provenance("C3D", notes).marked(file.events))
+    motion = to_motion(points, content.provenance("C3D", notes))
+    read = motion.provenance
+    # Events without a subject belong to everybody.
+    others = {*read.people} - {read.person}
+    pairs = zip(file.events, file.event_subjects, strict=True)
+    events = [event for event, subject in pairs if subject not in others]
+    if events:
+        read = read.noted("events: " + ", ".join(f"{name} at {at:.2f} s" for at, name in events))
+    return replace(motion, provenance=read.marked(events))
 
 
 def _find_markers(file: C3D) -> list[int]:

@@ -56,6 +56,7 @@ class C3D:
     analog_units: list[str]
     analog_rate: float  # samples per second
     events: tuple[tuple[float, str], ...]  # seconds from the first frame, and label
+    event_subjects: tuple[str, ...]  # of each event, empty if unknown
     parameters: Parameters
 
 
@@ -67,6 +68,7 @@ def parse_c3d(content: FileContent) -> C3D:
     raw = file.frames()
     n = file.n_points
     analog = _scale_analog(file, raw[:, 4 * n :])
+    events = _read_events(file)
     return C3D(
         labels=_read_labels(parameters, "POINT", n, "point"),
         points=_scale_points(raw[:, : 4 * n].reshape(len(raw), n, 4), file.scale),
@@ -76,7 +78,8 @@ def parse_c3d(content: FileContent) -> C3D:
         analog_labels=_read_labels(parameters, "ANALOG", analog.shape[1], "channel"),
         analog_units=_pad(parameters.strings("ANALOG", "UNITS"), analog.shape[1]),
         analog_rate=file.rate * len(analog) / len(raw),
-        events=_read_events(file),
+        events=tuple((at, label) for at, label, _ in events),
+        event_subjects=tuple(subject for *_, subject in events),
         parameters=parameters,
     )
 
@@ -108,20 +111,24 @@ def _repeat_per_channel(
     return np.array(values + [default] * (channels - len(values)))
 
 
-def _read_events(file: Layout) -> tuple[tuple[float, str], ...]:
-    """Return events of the EVENT group, else of the header, as seconds from the first frame."""
+def _read_events(file: Layout) -> list[tuple[float, str, str]]:
+    """Return seconds from the first frame, label and subject of each event in time order.
+
+    Events are those of the EVENT group, else of the header.
+    """
     if file.rate == 0:
-        return ()
+        return []
     # Stored times count from frame 1 of the capture, which may precede the file's first frame.
     start = (file.first_frame - 1) / file.rate
     used = int(file.parameters.number("EVENT", "USED", 0))
     times = file.parameters.numbers("EVENT", "TIMES")  # minutes and seconds in turn
     labels = file.parameters.strings("EVENT", "LABELS")
     sides = _pad(file.parameters.strings("EVENT", "CONTEXTS"), len(labels))
-    rows = zip(times[::2], times[1::2], sides, labels, strict=False)
-    events = [(60 * m + s, f"{side} {label}".strip()) for m, s, side, label in rows][:used]
-    events = events or read_header_events(file)
-    return tuple(sorted((round(t - start, 6), label) for t, label in events if np.isfinite(t)))
+    subjects = _pad(file.parameters.strings("EVENT", "SUBJECTS"), len(labels))
+    rows = zip(times[::2], times[1::2], sides, labels, subjects, strict=False)
+    events = [(60 * m + s, f"{side} {label}".strip(), who) for m, s, side, label, who in rows]
+    events = events[:used] or [(at, label, "") for at, label in read_header_events(file)]
+    return sorted((round(t - start, 6), label, who) for t, label, who in events if np.isfinite(t))
 
 
 def read_header_events(file: Layout) -> list[tuple[float, str]]:

@@ -63,12 +63,14 @@ _LABELS_AND_RANGES = 12345
 class C3DEvent:
     """An event: seconds from the first frame of the file, and a label such as ``Foot Strike``.
 
-    The side is ``Left``, ``Right``, ``General``, or empty if unknown.
+    The side is ``Left``, ``Right``, ``General``, or empty if unknown. Without a subject, it is the
+    first one of the file.
     """
 
     seconds: float
     side: str
     label: str
+    subject: str = ""
 
 
 def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
@@ -122,7 +124,7 @@ def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, lis
     for name, values in stored.items():
         missing = [b"" if name in TEXTS else 0] * (len(pairs) - len(values))
         table[name] = values[: len(pairs)] + missing
-    subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
+    first_subject = (parameters.texts("SUBJECTS", "NAMES") or [b""])[0]
     in_header = [] if pairs else read_header_events(layout)
     for event in (*(C3DEvent(at - first, "", name) for at, name in in_header), *events):
         icon, description = ICONS.get(event.label, (0, ""))
@@ -130,7 +132,7 @@ def _collect_events(layout: Layout, events: Sequence[C3DEvent]) -> dict[str, lis
         table["CONTEXTS"].append(event.side.encode())
         table["LABELS"].append(event.label.encode())
         table["DESCRIPTIONS"].append(description.encode())
-        table["SUBJECTS"].append(subject)
+        table["SUBJECTS"].append(event.subject.encode() or first_subject)
         table["ICON_IDS"].append(icon)
         table["GENERIC_FLAGS"].append(1)  # detected, not marked manually
     return table

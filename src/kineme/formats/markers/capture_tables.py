@@ -105,7 +105,7 @@ def read_capture(
     points = Points(
         names,
         values,
-        options.fps or _parse_rate(content, capture),
+        _parse_rate(content, capture, options.fps),
         options.unit,
         options.up,
         stated_unit=parse_unit(capture.unit),
@@ -246,14 +246,15 @@ def _find_columns(
     return columns
 
 
-def _parse_rate(content: FileContent, table: Capture) -> float:
+def _parse_rate(content: FileContent, table: Capture, requested: float | None) -> float:
     try:
         rate = float(table.rate)
     except ValueError:
         rate = 0.0
-    if not 0 < rate < float("inf"):
+    fps = content.choose_rate(requested, rate if 0 < rate < float("inf") else None)
+    if not fps:
         raise content.error(f"{table.rate[:40]!r} is not a frame rate: give fps= (--fps)")
-    return rate
+    return fps
 
 
 NEXUS = Dialect(

@@ -16,7 +16,14 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme.formats.delimited import DelimitedText, find_separator, replace_decimal_comma
-from kineme.formats.files import FileContent, clean_names, format_point_name, parse_numbers, save
+from kineme.formats.files import (
+    RATE_ROUNDING,
+    FileContent,
+    clean_names,
+    format_point_name,
+    parse_numbers,
+    save,
+)
 from kineme.formats.options import ReadOptions
 from kineme.formats.plausibility import mark_gaps, split_at
 from kineme.formats.points import Points, to_motion
@@ -127,18 +134,18 @@ def _find_timing(
     content: FileContent, options: ReadOptions, head: dict[str, str], times: Floats
 ) -> Timing:
     """Return the rate and frames of rows: of the options, the header or the times."""
-    if options.fps:
-        return Timing(options.fps)
     try:
         (declared,) = parse_numbers([replace_decimal_comma(head.get("DataRate", ""))])
     except ValueError:
         declared = 0.0
+    if options.fps:
+        return Timing(content.choose_rate(options.fps, declared))
     if declared > 0 and (len(times) < 2 or np.isnan(times).any()):
         return Timing(declared)
     timing = find_timing(content, times)
     fps = timing.fps
     # Prefer the declared rate if the times agree up to rounding.
-    if abs(fps - declared) <= 0.005 * fps:
+    if abs(fps - declared) <= RATE_ROUNDING * fps:
         return replace(timing, fps=declared) if timing.order is None else timing
     if declared > 0:
         content.warn(f"DataRate is {declared:g}, but the times give {fps:g} Hz, which is used")

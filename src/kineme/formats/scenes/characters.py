@@ -68,11 +68,8 @@ def find_character(
     moving = [joints for joints in bodies if any(nodes[j].animated for j in joints)]
     bodies = moving or bodies  # if nothing moves, all skeletons are candidates
     people = dict(zip(_name_bodies(nodes, bodies), bodies, strict=True))
-    # A person may also be selected by number.
-    numbers = {str(number): name for number, name in enumerate(people)}
-    name = person if person in people else numbers.get(person or "", person)
     shown = [f"{name} ({len(joints)} joints)" for name, joints in people.items()]
-    name = choose_person(content.path, people, name, "characters", shown)
+    name = choose_person(content.path, people, person, "characters", shown)
     notes = [f"person {name} of {len(people)}"] if len(people) > 1 else []
     props = _find_props(nodes, list(people.values()))
     if props:

@@ -77,8 +77,8 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
         content, len(head), figure
     )
     notes = [f"skeleton from {asf.path}"]
-    fps = options.fps or _parse_rate_comment(head)
-    if fps is None:
+    fps = content.choose_rate(options.fps, _parse_rate_comment(head))
+    if not fps:
         fps = FPS
         notes.append(f"frame rate {FPS:g} Hz assumed: AMC files do not store one")
     require_frame_memory(content, figure.skeleton.n_joints, len(values[ROOT]))

@@ -151,11 +151,15 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     header = _HEADER.match(content.data, split.end())
     if header is None:
         raise content.error("'Frames:' is not followed by a number and 'Frame Time:'", line)
-    notes = list(character.notes)
-    fps = options.fps
-    if fps is None:
+    note = None
+    try:
         fps, note = _parse_rate(content, header.group(2), content.line_at(header.start(2)))
-        notes += [note] if note else []
+        fps = content.choose_rate(options.fps, fps)
+    except ReadError:
+        if options.fps is None:
+            raise
+        fps = options.fps
+    notes = [*character.notes, *([note] if note and options.fps is None else [])]
     return _Head(
         chosen,
         character,
