@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from kineme._util.rotations import to_euler_zyx
+from kineme._util.rotations import to_euler
 from kineme.recordings import Motion
 from kineme.recordings.kinematics import compute_local_translations
 
@@ -290,7 +290,7 @@ def make_scene(motion: Motion) -> Scene:
     skeleton, times = motion.skeleton, np.arange(motion.n_frames) / motion.fps
     layer = scene.layer(scene.take("motion", 0.0, float(times[-1])))
     shifts = 100 * compute_local_translations(skeleton, motion.positions, motion.rotations)
-    angles = np.degrees(to_euler_zyx(motion.rotations))[..., ::-1]  # about x, first applied
+    angles = np.degrees(to_euler(motion.rotations, "zyx"))[..., ::-1]  # about x, first applied
     models: list[int] = []
     for j, parent in enumerate(skeleton.parents):
         rest = [float(x) for x in 100 * skeleton.offsets[j]]

@@ -42,6 +42,12 @@ def test_the_best_loops_in_place_straight_and_mirrored(kineme, tmp_path: Path) -
     assert "best needs loops: add loops (--loop)" in done.stderr
 
 
+def test_a_file_that_holds_one_clip_is_no_output(kineme, tmp_path: Path) -> None:
+    done = kineme("split", bundled_recording(), "-o", "clips.usda", code=2)
+    assert "--format usda" in done.stderr
+    assert not (tmp_path / "clips.usda").exists()
+
+
 def test_split_by_labels_that_a_person_corrected(kineme, tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("1.0\t2.0\twalk\n2.0\t5.5\tÄpfel pflücken\n")
     done = kineme(

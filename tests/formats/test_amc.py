@@ -9,9 +9,9 @@ from format_samples import AMC, ASF
 
 import naive
 from kineme.errors import KinemeWarning, ReadError
-from kineme.formats import read
+from kineme.formats import read, write
 from kineme.formats.skeletons.amc import _parse_rows_compiled
-from kineme.recordings import Motion
+from kineme.recordings import Motion, Skeleton
 
 CMU_UNIT = 0.0254 / 0.45
 
@@ -152,6 +152,49 @@ def test_length_unit(tmp_path: Path) -> None:
     np.testing.assert_allclose(inches.positions, 0.45 * plain.positions, atol=1e-12)
     given = read(write_pair(tmp_path), unit="m")
     np.testing.assert_allclose(given.positions * CMU_UNIT, plain.positions, atol=1e-12)
+
+
+@pytest.mark.parametrize("up", ["y", "z"])
+def test_a_motion_is_written_for_the_asf_it_came_from(tmp_path: Path, up: str) -> None:
+    asf = ASF.replace("axis 0 0 20 XYZ\n    dof rx ry rz", "axis 30 40 50 YZX\n    dof rz rx ry")
+    asf = asf.replace(
+        "position 0 0 0\n  orientation 0 0 0", "position 1 2 3\n  orientation 10 20 30"
+    )
+    path = write_pair(tmp_path, asf=asf)
+    write(read(path, up=up, unit="inch"), tmp_path / "again.amc")
+    assert (tmp_path / "again.asf").read_text() == asf
+
+    def parse(path: Path) -> list[tuple[str, list[float]]]:
+        lines = [line.split() for line in path.read_text().splitlines() if line[0] not in "#:"]
+        return sorted((name, list(map(float, values))) for name, *values in lines)
+
+    for (name, found), (same, expected) in zip(
+        parse(tmp_path / "again.amc"), parse(path), strict=True
+    ):
+        assert name == same
+        assert found == pytest.approx(expected, abs=1e-8)
+
+
+def test_a_motion_that_its_asf_cannot_hold_gets_a_new_one(tmp_path: Path) -> None:
+    motion = read(write_pair(tmp_path))
+    assert motion.rotations is not None
+    rotations = motion.rotations.copy()
+    rotations[:, motion.joint("foot")] = [0.8, 0.6, 0, 0]  # turns its two axes and the third
+    changed = Motion.from_rotations(motion.skeleton, rotations, motion.fps, motion.positions[:, 0])
+    with pytest.warns(KinemeWarning, match="new ASF"):
+        write(changed, tmp_path / "again.amc")
+    again = read(tmp_path / "again.amc")
+    here, there = (
+        [each.joint(name) for name in ("leg", "foot", "foot_end")] for each in (motion, again)
+    )
+    np.testing.assert_allclose(again.positions[:, there], changed.positions[:, here], atol=1e-9)
+
+
+def test_bones_without_length_have_a_direction(tmp_path: Path) -> None:
+    """Other programs normalise it."""
+    skeleton = Skeleton(("a", "b"), (-1, 0), np.array([[0.0, 0, 0], [0, 0, 0]]))
+    write(Motion.from_rotations(skeleton, [[[1, 0, 0, 0]] * 2], 30), tmp_path / "a.amc")
+    assert "direction 0.000000000000 1.0" in (tmp_path / "a.asf").read_text()
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,11 @@ from format_samples import BVH
 from scipy.spatial.transform import Rotation
 
 import naive
-from kineme.errors import KinemeWarning
+from kineme.errors import KinemeWarning, SeveralPeopleError
 from kineme.formats import read, write
 from kineme.formats.units import UNITS, infer_rate
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.kinematics import compute_local_translations
 
 REAL = [
     ("formats/PyMO_AV_8Walk", "inch", 120.0),
@@ -97,6 +98,70 @@ def test_channels_in_any_order(tmp_path: Path) -> None:
     for x, y in (("0", "90"), ("1", "91"), ("2", "92")):
         text = text.replace(f"\n{x} {y} ", f"\n{y} {x} ")
     np.testing.assert_array_equal(load(tmp_path, text).positions, load(tmp_path).positions)
+
+
+def test_channels_stay_and_angles_are_continuous(tmp_path: Path) -> None:
+    turns = np.linspace(0, 800, 50)
+    frames = "".join(f"0 90 0 {a} 20 30 1 {a / 5} 3 0 -80 0 4 5 6 7 8 9\n" for a in turns)
+    head = BVH[: BVH.index("Frames:")]
+    text = f"{head}Frames: 50\nFrame Time: 0.01\n{frames}"
+    write(load(tmp_path, text, up="y"), tmp_path / "again.bvh")
+    again = (tmp_path / "again.bvh").read_text()
+    kept = [line for line in text.splitlines() if "CHANNELS" in line]
+    assert [line for line in again.splitlines() if "CHANNELS" in line] == kept
+    values = [[float(word) for word in line.split()] for line in again.splitlines()[-50:]]
+    expected = [[float(word) for word in line.split()] for line in frames.splitlines()]
+    np.testing.assert_allclose(values, expected, atol=1e-6)
+
+
+def test_channels_are_added_where_the_motion_needs_them(tmp_path: Path) -> None:
+    text = BVH.replace("3 Zrotation Yrotation Xrotation", "1 Xrotation").replace(" 7 8 9", " 9")
+    motion = load(tmp_path, text)
+    write(motion, tmp_path / "again.bvh")
+    assert "CHANNELS 1 Xrotation" in (tmp_path / "again.bvh").read_text()
+    assert motion.rotations is not None
+    rotations, positions = motion.rotations.copy(), motion.positions.copy()
+    rotations[:, 4] = Rotation.from_euler("zx", [0.3, 0.2]).as_quat(scalar_first=True)
+    positions[1, 1] += 0.1
+    changed = Motion.from_rotations(
+        motion.skeleton,
+        rotations,
+        motion.fps,
+        translations=compute_local_translations(motion.skeleton, positions, rotations),
+        provenance=motion.provenance,
+    )
+    write(changed, tmp_path / "changed.bvh")
+    again = read(tmp_path / "changed.bvh")
+    np.testing.assert_allclose(again.positions, changed.positions, atol=1e-9)
+
+
+@pytest.mark.parametrize("prefix", ["B:", ""])
+def test_one_of_several_characters_is_read(tmp_path: Path, prefix: str) -> None:
+    """Also if both have the same names of joints; a small one is a prop."""
+    head, _, frames = BVH.partition("MOTION\n")
+    body = head.removeprefix("HIERARCHY\n")
+    prop = "ROOT Box\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n}\n"
+    other = body.replace("ROOT ", f"ROOT {prefix}").replace("JOINT ", f"JOINT {prefix}")
+    rows = frames.splitlines()
+    text = f"HIERARCHY\n{body}{prop}{other}MOTION\n{rows[0]}\n{rows[1]}\n" + "".join(
+        f"{row} 1 2 3 {' '.join(['5', *row.split()[1:]])}\n" for row in rows[2:]
+    )
+    with pytest.raises(SeveralPeopleError, match="2 characters are in it") as error:
+        load(tmp_path, text)
+    first, second = error.value.people
+    one, alone = load(tmp_path, text, person=first), load(tmp_path)
+    np.testing.assert_array_equal(one.positions, alone.positions)
+    assert one.skeleton.names == alone.skeleton.names
+    found = load(tmp_path, text, person=second)
+    assert found.skeleton.names[0] == f"{prefix}Hips"
+    assert found.provenance.people == (first, second)
+    assert found.positions[:, 0, 0] == pytest.approx(0.05)
+    np.testing.assert_allclose(found.positions[..., 1], alone.positions[..., 1])
+
+
+def test_names_in_latin_1(tmp_path: Path) -> None:
+    motion = load(tmp_path, BVH.replace("Head", "R\u00fccken").encode("latin-1"))
+    assert motion.skeleton.names[4:] == ("R\u00fccken", "R\u00fccken_end")
 
 
 @pytest.mark.parametrize("declared", [1, 2, 4, 10_000_000])

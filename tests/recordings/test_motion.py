@@ -142,13 +142,25 @@ def test_euler_angles_agree_with_scipy(seed: int, axes: str) -> None:
     assert (expected.inv() * found).magnitude() < 1e-12
 
 
-@given(seeds, st.sampled_from([0.0, 1e-9, 1e-7, 1e-4, 1.0]))
-def test_euler_angles_there_and_back(seed: int, off_the_pole: float) -> None:
-    """Also at y = 90 degrees, where x and z are not unique."""
+@given(
+    seeds,
+    st.sampled_from([0.0, 1e-9, 1e-7, 1e-4, 1.0]),
+    st.sampled_from(["zyx", "zxy", "yzx", "yxz", "xyz", "xzy"]),
+)
+def test_euler_angles_there_and_back(seed: int, off_the_pole: float, axes: str) -> None:
+    """Also at 90 degrees about the second axis, where the others are not unique."""
     angles = np.random.default_rng(seed).uniform(-3, 3, size=(5, 3))
     angles[:, 1] = np.pi / 2 - off_the_pole
-    q = rot.from_euler(angles, "zyx")
-    again = rot.from_euler(rot.to_euler_zyx(q), "zyx")
+    q = rot.from_euler(angles, axes)
+    again = rot.from_euler(rot.unwrap_euler(rot.to_euler(q, axes)), axes)
     np.testing.assert_allclose(np.abs((q * again).sum(axis=1)), 1, atol=1e-14)
     v = np.eye(3)[[0, 1, 2, 0, 1]]
     np.testing.assert_allclose(rot.rotate(q, v), rot.rotate(again, v), atol=1e-7)
+
+
+@pytest.mark.parametrize("axes", ["zyx", "xzy", "zx", "y"])
+def test_euler_angles_are_continuous(axes: str) -> None:
+    """Also past 90 degrees about the second of three axes, where the others would jump."""
+    angles = np.linspace(np.zeros(len(axes)), [7.0, 2.5, -8.0][: len(axes)], 100)
+    found = rot.unwrap_euler(rot.to_euler(rot.from_euler(angles, axes), axes))
+    np.testing.assert_allclose(found, angles, atol=1e-12)

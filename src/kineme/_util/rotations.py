@@ -78,13 +78,20 @@ def from_euler(angles: Floats, axes: str) -> Floats:
     return product.T
 
 
-def to_euler_zyx(q: Floats) -> Floats:
-    """Return angles (z, y, x) in radians with Rz Ry Rx equal to the rotation, (..., 3).
+def to_euler(q: Floats, axes: str) -> Floats:
+    """Return angles in radians (..., len(axes)), the inverse of `from_euler` for distinct axes.
 
     Each angle is computed from the rotation that the previous ones leave. So the product is exact
-    even at y = 90 degrees, where z and x are not unique.
+    even at 90 degrees about the second of three axes, where the others are not unique. With fewer
+    axes, rotations about the missing ones are lost.
     """
-    w, x, y, z = split_components(q)
+    # A missing axis is put second, since the angle about the second one is at most 90 degrees.
+    order = axes[:1] + "".join(axis for axis in "xyz" if axis not in axes) + axes[1:]
+    last, middle, first = ("xyz".index(axis) for axis in order[::-1])
+    # Rename the axes, so that the product is Rz Ry Rx. A left-handed order reverses all rotations.
+    sign = 1.0 if (middle - last) % 3 == 1 else -1.0
+    w, *vector = split_components(q)
+    x, y, z = (sign * vector[axis] for axis in (last, middle, first))
     cz_cy, sz_cy = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
     about_z = np.arctan2(sz_cy, cz_cy)
     # After removing the rotation about z, these entries contain only cos y and sin y.
@@ -94,7 +101,28 @@ def to_euler_zyx(q: Floats) -> Floats:
         sin * 2 * (x * z + w * y) - cos * 2 * (y * z - w * x),
         cos * (1 - 2 * (x * x + z * z)) - sin * 2 * (x * y - w * z),
     )
-    return join_components(about_z, about_y, about_x)
+    angles = sign * join_components(about_z, about_y, about_x)
+    return angles[..., [order.index(axis) for axis in axes]]
+
+
+def unwrap_euler(angles: Floats) -> Floats:
+    """Return angles (frames, ..., n) of the same rotations, each nearest to the frame before.
+
+    Angles are in radians, about distinct axes, in the order of their product.
+    """
+    if angles.shape[-1] == 3:
+        # (a, b, c) and (a + pi, pi - b, c + pi) are the same rotation. The step between two frames
+        # is as long if both are exchanged, so only changes from one to the other are decided.
+        other = np.array([1.0, -1.0, 1.0]) * angles + np.pi
+        stay, change = (
+            (((each[1:] - angles[:-1] + np.pi) % (2 * np.pi) - np.pi) ** 2).sum(axis=-1)
+            for each in (angles, other)
+        )
+        is_other = np.zeros(angles.shape[:-1], np.bool_)
+        is_other[1:] = np.logical_xor.accumulate(change < stay, axis=0)
+        angles = np.where(is_other[..., None], other, angles)
+    unwrapped: Floats = np.unwrap(angles, axis=0)
+    return unwrapped
 
 
 def rotate_about_y(angle: ArrayLike) -> Floats:

@@ -101,8 +101,8 @@ def convert(
 ) -> None:
     """Convert labels or recordings to another format.
 
-    The suffixes select the formats: .bvh, .amc, .glb, .trc, .csv and .npz hold recordings; .fbx can
-    only be read. Signals keep the columns of their file, or those in --columns. For labels with
+    The suffixes select the formats: .bvh, .amc, .fbx, .glb, .usda, .trc, .csv and .npz hold
+    recordings. Signals keep the columns of their file, or those in --columns. For labels with
     times in seconds only, --fps is the frame rate of their recording.
     """
     if len(files) < 2:

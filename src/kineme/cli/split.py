@@ -68,6 +68,7 @@ def split(
 
     The clips keep the skeleton of the recording. A table lists them.
     """
+    _check_output(output)
     batch = Batch(files, recursive=recursive, quiet=quiet)
     folders = batch.folders("--output", output)
     batch.tables("--segments", segments)  # fail early if there are none
@@ -121,3 +122,16 @@ def split(
             continue
         batch.run_each_person(path, read_options, work, folder, tables=("--segments", segments))
     batch.exit()
+
+
+def _check_output(output: Path) -> None:
+    """Raise BadParameter for a new file of a format that holds one motion only."""
+    from kineme.formats.registry import find_writer
+
+    suffix = output.suffix.lower()
+    writer = find_writer(suffix) if suffix and not output.is_dir() else None
+    if writer is not None and writer.write_animations is None:
+        raise typer.BadParameter(
+            f"a {suffix} holds one clip: name a folder, and give --format {suffix[1:]}",
+            param_hint="--output",
+        )

@@ -385,7 +385,4 @@ def cardan(rotations: Floats) -> Floats:
     >>> cardan(turned).round(6)
     array([[40., 10., -5.]])
     """
-    # Rx Rz Ry is Rz Ry Rx with renamed axes: x for z, z for y, y for x.
-    w, x, y, z = rot.split_components(rotations)
-    renamed = rot.join_components(w, y, z, x)
-    return np.degrees(rot.to_euler_zyx(renamed))
+    return np.degrees(rot.to_euler(rotations, "xzy"))

@@ -15,7 +15,7 @@ So the poses of the nodes can be computed from any motion of the skeleton.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -26,6 +26,8 @@ from kineme._util.arrays import Floats
 from kineme.errors import MotionError
 from kineme.recordings.arrays import assign, freeze
 
+Channel = tuple[str, str]
+"""Axis and kind of a column of a file, such as ``("z", "rotation")``."""
 UNIFORM = 1e-4
 """Largest relative difference of a node's three scales that count as one."""
 
@@ -36,7 +38,8 @@ class Rig:
 
     Raise MotionError if lengths differ, or a scale is not one positive number. ``binds`` is the
     bind pose of a skin, relative to the node above all joints, if it differs from the rest pose;
-    Blender uses it as the rest pose of a glTF.
+    Blender uses it as the rest pose of a glTF. ``channels`` are those of a BVH by joint;
+    ``asf`` is the text of an ASF.
     """
 
     names: tuple[str, ...]  # one per node, as in the file
@@ -49,6 +52,8 @@ class Rig:
     turn: Floats = field(default_factory=rot.IDENTITY.copy)  # from the file's axes to y up
     numbers: tuple[int, ...] = ()  # index of each node in the file; -1 if it is not in it
     binds: Floats | None = None  # (joints, 4, 4)
+    channels: Mapping[str, Sequence[Channel]] = field(default_factory=dict)
+    asf: str = ""
 
     def __post_init__(self) -> None:
         for name in ("translations", "rotations", "scales", "axes", "turn"):
@@ -163,6 +168,8 @@ def make_rig(
     *,
     unit: float = 1.0,
     turn: Floats = rot.IDENTITY,
+    channels: Mapping[str, Sequence[Channel]] | None = None,
+    asf: str = "",
 ) -> Rig:
     """Return the rig of joints with a rest pose without rotations.
 
@@ -183,4 +190,6 @@ def make_rig(
         axes=rot.multiply(rot.conjugate(frames), rot.conjugate(turn)),
         unit=unit,
         turn=turn,
+        channels=channels or {},
+        asf=asf,
     )

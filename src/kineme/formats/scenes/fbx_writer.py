@@ -457,7 +457,7 @@ def _make_properties(*entries: Sequence[Any]) -> FBXNode:
 
 def _to_angles(rotations: Floats) -> Floats:
     """Return the angles about x, y and z in degrees, applied in this order."""
-    angles: Floats = np.degrees(rot.to_euler_zyx(rotations))[..., ::-1]
+    angles: Floats = np.degrees(rot.to_euler(rotations, "zyx"))[..., ::-1]
     return angles
 
 

@@ -10,12 +10,13 @@ Bones may be in any order, and without values if the ASF gives them no degree of
 states neither its skeleton nor its frame rate: see `find_skeleton`; 120 Hz, the rate of the CMU
 database, is assumed.
 
-Motion and skeleton are written as a pair of files with the same name, lengths in CMU's unit (1/0.45
-inch), angles in degrees. The frame of each bone is that of its rig at rest. The root is always
-called ``root``. A bone can carry children only at its tip. If the children of a joint have
-different positions, or those of the root are not at its origin, each gets a rigid parent bone
-called ``PARENT-CHILD``. A joint with varying offset also gets translations. A comment stores the
-frame rate for `read`.
+Motion and skeleton are written as a pair of files with the same name. A motion of an AMC gets a
+copy of its ASF, unless it needs degrees of freedom that this lacks. A new ASF has lengths in CMU's
+unit (1/0.45 inch), angles in degrees, and the frame of each bone is that of its rig at rest. The
+root is always called ``root``. A bone can carry children only at its tip. If the children of a
+joint have different positions, or those of the root are not at its origin, each gets a rigid parent
+bone called ``PARENT-CHILD``. A joint with varying offset also gets translations. A comment stores
+the frame rate for `read`.
 
 Source: Acclaim Advanced Technologies, ASF/AMC definition.
 """
@@ -35,6 +36,7 @@ from numpy.typing import NDArray
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
+from kineme._util.checks import warn
 from kineme.errors import ReadError, WriteError
 from kineme.formats.files import FileContent, clean_names, format_table, load, parse_numbers, save
 from kineme.formats.options import ReadOptions
@@ -42,7 +44,7 @@ from kineme.formats.registry import Format
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
 from kineme.formats.skeletons.bvh import RIGID, compute_local_pose
 from kineme.formats.skeletons.placing import build_motion, require_frame_memory
-from kineme.formats.units import UNITS, iterate_blocks, to_metres
+from kineme.formats.units import UNITS, iterate_blocks
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.posing import get_rig
 
@@ -53,6 +55,8 @@ FPS = 120.0
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 UNIT = UNITS["cmu"]
+FIT = 1e-7
+"""Largest 1 - cos of half the angle by which a bone may be turned on its own ASF: 0.05 degrees."""
 
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
 _KEYWORD = re.compile(rb"^[ \t]*:(FULLY-SPECIFIED|DEGREES|RADIANS)\b", re.MULTILINE | re.IGNORECASE)
@@ -62,8 +66,8 @@ _FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
 def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of an AMC file on the skeleton of its ASF."""
-    asf = options.skeleton or find_skeleton(content.path)
-    figure = read_asf(load(asf), None if options.unit is None else to_metres(options.unit))
+    asf = load(options.skeleton or find_skeleton(content.path))
+    figure = read_asf(asf)
     head = _find_head(content)
     keywords = [word.lower() for word in _KEYWORD.findall(head)]
     angle_unit = radians(1) if b"degrees" in keywords else figure.angle_unit
@@ -72,7 +76,7 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     values = _read_uniform_frames(content, len(head), figure) or _read_line_by_line(
         content, len(head), figure
     )
-    notes = [f"skeleton from {asf}"]
+    notes = [f"skeleton from {asf.path}"]
     fps = content.choose_rate(options.fps, _parse_rate_comment(head))
     if not fps:
         fps = FPS
@@ -87,10 +91,11 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
         rotations,
         slides,
         fps,
-        unit="m",
+        unit=options.unit or figure.scale,
         up=options.up or "y",
         provenance=provenance,
         frames=_collect_bone_frames(figure),
+        asf=asf.text,
     )
 
 
@@ -156,7 +161,7 @@ def _collect_bone_frames(figure: Figure) -> Floats:
 def _compute_local(
     values: dict[str, Floats], figure: Figure, angle_unit: float
 ) -> tuple[Floats, dict[int, Floats]]:
-    """Return rotations (frames, joints, 4), and translations (frames, 3) in metres if they vary."""
+    """Return rotations (frames, joints, 4), and translations (frames, 3) if they vary."""
     skeleton = figure.skeleton
     n = len(values[ROOT])
     rotations = np.empty((n, skeleton.n_joints, 4))
@@ -182,10 +187,10 @@ def _compute_local(
                 shift[:, "xyz".index(dof[1])] = values[name][:, i]
         j = skeleton.joint(name)
         if name == ROOT:
-            slides[j] = figure.scale * (bone.position + shift)
+            slides[j] = bone.position + shift
         elif shift.any():
             # Translations are relative to the axes of the bone's frame.
-            slides[j] = skeleton.offsets[j] + figure.scale * rot.rotate(bone.frame, shift)
+            slides[j] = skeleton.offsets[j] + rot.rotate(bone.frame, shift)
     return rotations, slides
 
 
@@ -391,6 +396,68 @@ def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: A
 
 def write_amc(motion: Motion, path: Path) -> None:
     """Write a motion to an AMC file and its skeleton to an ASF of the same name."""
+    values, angle_unit, asf = _fit_asf(motion, path) or _make_asf(motion, path)
+    save(path.with_suffix(".asf"), asf)
+    angle = "RADIANS" if angle_unit == 1.0 else "DEGREES"
+    head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:{angle}\n"
+    blocks = [
+        [f"{name} {row}" for row in format_table(rows)]
+        for name, rows in values.items()
+        if rows.size
+    ]
+    lines = (f"{i}\n{''.join(each)}" for i, each in enumerate(zip(*blocks, strict=True), 1))
+    save(path, [head, *lines])
+
+
+def _fit_asf(motion: Motion, path: Path) -> tuple[dict[str, Floats], float, list[str]] | None:
+    """Return the values of each bone, the unit of angles and the text of the motion's own ASF.
+
+    None if there is none, or if it lacks a degree of freedom that the motion needs.
+    """
+    rig = motion.skeleton.rig
+    if rig is None or not rig.asf:
+        return None
+    figure = read_asf(FileContent(path, rig.asf.encode()))
+    turns, translations, *_ = compute_local_pose(motion, path, "an AMC")
+    back = rot.conjugate(rig.turn)
+    turns = rot.multiply(rot.multiply(back, turns), rig.turn)
+    translations = rot.rotate(back, translations) / rig.unit
+    expected = np.repeat(figure.skeleton.offsets[None], motion.n_frames, axis=0)
+    if motion.skeleton.names == figure.skeleton.names:
+        values = _compute_values(figure, turns, translations)
+        rotations, slides = _compute_local(values, figure, figure.angle_unit)
+        for joint, moved in slides.items():
+            expected[:, joint] = moved
+        same = np.abs((rotations * turns).sum(axis=2)).min() > 1 - FIT
+        if same and rig.unit * np.abs(expected - translations).max() < RIGID:
+            return values, figure.angle_unit, [rig.asf]
+    warn(f"{path.name}: new ASF, since its own lacks bones or degrees of freedom for this motion")
+    return None
+
+
+def _compute_values(figure: Figure, turns: Floats, translations: Floats) -> dict[str, Floats]:
+    """Return the values (frames, dofs) of each bone; inverse of `_compute_local`."""
+    values = {}
+    for name, bone in figure.bones.items():
+        joint, back = figure.skeleton.joint(name), rot.conjugate(bone.frame)
+        if name == ROOT:
+            local = rot.multiply(turns[:, joint], back)
+            shift = translations[:, joint] - bone.position
+        else:
+            local = rot.multiply(rot.multiply(back, turns[:, joint]), bone.frame)
+            shift = rot.rotate(back, translations[:, joint] - figure.skeleton.offsets[joint])
+        axes = "".join(dof[1] for dof in bone.dof if dof[0] == "r")[::-1]
+        angles = rot.unwrap_euler(rot.to_euler(local, axes)) / figure.angle_unit
+        columns = [
+            angles[:, axes.index(dof[1])] if dof[0] == "r" else shift[:, "xyz".index(dof[1])]
+            for dof in bone.dof
+        ]
+        values[name] = np.stack(columns, axis=1) if columns else np.empty((len(turns), 0))
+    return values
+
+
+def _make_asf(motion: Motion, path: Path) -> tuple[dict[str, Floats], float, Iterator[str]]:
+    """Return the values of each bone, the unit of angles and the text of a new ASF."""
     turns, translations, offsets, slides = compute_local_pose(motion, path, "an AMC")
     skeleton = motion.skeleton
     if sum(parent < 0 for parent in skeleton.parents) != 1:
@@ -403,22 +470,19 @@ def write_amc(motion: Motion, path: Path) -> None:
     frames = rot.multiply(rig.turn, rig.world[1][rig.above :])
     frames[0] = rot.IDENTITY
     inverse = rot.conjugate(frames)
-    angles = np.degrees(rot.to_euler_zyx(rot.multiply(rot.multiply(inverse, turns), frames)))
+    angles = rot.to_euler(rot.multiply(rot.multiply(inverse, turns), frames), "zyx")
+    angles = np.degrees(rot.unwrap_euler(angles))
     bones = _list_bones(skeleton, offsets, frames, slides, path)
     # Translations are added to the offsets; the root has no offset.
     shift = rot.rotate(inverse, translations - offsets) / UNIT
     shift[:, 0] = translations[:, 0] / UNIT
-    blocks = []
+    values = {}
     for bone in bones:
         if bone.joint is not None:
             # Reverse the columns z, y, x to `rx ry rz`.
             parts = [shift[:, bone.joint]] * bone.slides + [angles[:, bone.joint, ::-1]]
-            rows = format_table(np.concatenate(parts, axis=1))
-            blocks.append([f"{bone.name} {row}" for row in rows])
-    save(path.with_suffix(".asf"), _format_asf(bones))
-    head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:DEGREES\n"
-    lines = (f"{i}\n{''.join(each)}" for i, each in enumerate(zip(*blocks, strict=True), 1))
-    save(path, [head, *lines])
+            values[bone.name] = np.concatenate(parts, axis=1)
+    return values, radians(1), _format_asf(bones)
 
 
 @dataclass
@@ -473,10 +537,11 @@ def _format_asf(bones: list[Bone]) -> Iterator[str]:
     yield ":bonedata\n"
     for number, bone in enumerate(bones[1:], 1):
         length = float(np.linalg.norm(bone.tip))
-        direction = bone.tip / length if length > 0 else np.zeros(3)
+        # Other programs normalise the direction, so it must not be 0.
+        direction = bone.tip / length if length > 0 else np.array([0.0, 1.0, 0.0])
         yield f"  begin\n    id {number}\n    name {bone.name}\n"
         yield "    direction " + " ".join(f"{x:.12f}" for x in direction) + "\n"
-        turns = np.degrees(rot.to_euler_zyx(bone.frame))[::-1] + 0.0  # no minus before a zero
+        turns = np.degrees(rot.to_euler(bone.frame, "zyx"))[::-1] + 0.0  # no minus before a zero
         axis = " ".join(f"{angle:.12g}" for angle in turns)
         yield f"    length {length / UNIT:.12f}\n    axis {axis} XYZ\n"
         if bone.joint is not None:

@@ -38,8 +38,8 @@ _BLANKS = str.maketrans("(),", "   ")
 class Figure:
     """Content of an ASF file.
 
-    ``bones`` start with the root, parents first; ``skeleton`` is in metres; ``scale`` is metres per
-    file unit; ``angle_unit`` radians per unit of angle.
+    ``bones`` start with the root, parents first; lengths are in the file's unit of ``scale``
+    metres; ``angle_unit`` is radians per unit of angle.
     """
 
     bones: dict[str, Bone]
@@ -65,8 +65,8 @@ class Bone:
         return self.direction * self.length
 
 
-def read_asf(content: FileContent, scale: float | None = None) -> Figure:
-    """Return the figure in an ASF file; ``scale`` overrides its metres per unit."""
+def read_asf(content: FileContent) -> Figure:
+    """Return the figure in an ASF file."""
     sections = _split_sections(content)
     for needed in ("root", "bonedata", "hierarchy"):
         if needed not in sections:
@@ -74,11 +74,10 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     units = {words[0].lower(): (n, words[1:]) for n, words in sections.get("units", [])}
     angle = "".join(units.get("angle", (0, ["deg"]))[1][:1]).lower()
     angle_unit = 1.0 if angle.startswith("rad") else radians(1)
-    if scale is None:
-        scale = INCH  # `length` divides it
-        if "length" in units:
-            line, words = units["length"]
-            scale /= read_values(content, line, words, 1, positive=True)[0]
+    scale = INCH  # `length` divides it
+    if "length" in units:
+        line, words = units["length"]
+        scale /= read_values(content, line, words, 1, positive=True)[0]
     bones = {ROOT: read_root(content, sections["root"], angle_unit)}
     for block in _split_blocks(content, sections["bonedata"]):
         bone = read_bone(content, block, angle_unit)
@@ -89,7 +88,7 @@ def read_asf(content: FileContent, scale: float | None = None) -> Figure:
     order = _order_bones(content, parents, bones)
     return Figure(
         {name: bones[name] for name in order},
-        _build_skeleton(order, parents, bones, scale),
+        _build_skeleton(order, parents, bones),
         scale,
         angle_unit,
     )
@@ -241,9 +240,7 @@ def _order_bones(
     return order
 
 
-def _build_skeleton(
-    order: list[str], parents: dict[str, str], bones: dict[str, Bone], scale: float
-) -> Skeleton:
+def _build_skeleton(order: list[str], parents: dict[str, str], bones: dict[str, Bone]) -> Skeleton:
     """Return a joint at the start of each bone, and an end site at the tip of each leaf."""
     names: list[str] = []
     indices: dict[str, int] = {}
@@ -263,4 +260,4 @@ def _build_skeleton(
             offsets.append(bones[name].tip)
             ends.append(len(names))
             names.append(f"{name}_end")
-    return Skeleton(tuple(names), tuple(joint_parents), scale * np.array(offsets), frozenset(ends))
+    return Skeleton(tuple(names), tuple(joint_parents), np.array(offsets), frozenset(ends))

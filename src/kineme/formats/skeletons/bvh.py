@@ -9,12 +9,14 @@ Position channels replace the joint's offset. In PyMO's ``AV_8Walk.bvh``, one of
 both, the hips have an offset 35.4 high and a first position 35.6 high (inches): replacing puts the
 feet on the floor, adding would put them at the height of the hips.
 
-A BVH has no unit and no up axis; `kineme.formats.units` infers them. Rotations are written as Z Y
-X, in the units and axes of the original BVH; recordings of other formats in centimetres with y up.
-A BVH has no rotations at rest, so those of a rig become part of the rotations of each frame.
+A BVH has no unit and no up axis; `kineme.formats.units` infers them. A recording from a BVH is
+written with its channels, in its units and axes; others in centimetres with y up and rotations Z Y
+X. Angles are continuous over the frames. A BVH has no rotations at rest, so those of a rig become
+part of the rotations of each frame.
 
-Joints whose offset varies get six channels, others three; roots always get six. An end site that
-moves or has children becomes a joint. A BVH has no names for end sites: reading names them
+Joints that did not come from a BVH get six channels if their offset varies or they are roots, else
+three. Channels are added to a joint that cannot move as needed. An end site that moves or has
+children becomes a joint. A BVH has no names for end sites: reading names them
 ``PARENT_end``.
 
 Source: M. Meredith, S. Maddock, "Motion capture file formats explained", University of Sheffield
@@ -25,9 +27,9 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import islice
+from itertools import accumulate, islice
 from math import ceil
 from pathlib import Path
 from typing import NamedTuple
@@ -49,11 +51,13 @@ from kineme.formats.files import (
 )
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
+from kineme.formats.scenes.characters import Character, SceneNode, find_character
 from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.posing import align_to_rest
+from kineme.recordings.rig import Channel
 
 CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
@@ -66,6 +70,10 @@ Single-precision animations differ this much from the rest pose of their file. A
 adds up to 0.01 mm.
 """
 
+POSITIONS: list[Channel] = [(axis, "position") for axis in "xyz"]
+ROTATIONS: list[Channel] = [(axis, "rotation") for axis in "zyx"]
+"""Channels of joints that did not come from a BVH."""
+
 _HIERARCHY = re.compile(rb"^(\xef\xbb\xbf)?\s*HIERARCHY\s", re.IGNORECASE | re.MULTILINE)
 _MOTION = re.compile(rb"\bMOTION\s+Frames\s*:", re.IGNORECASE)
 _HEADER = re.compile(rb"[ \t]*(\d{1,18})\s+Frame\s*Time\s*:[ \t]*(\S*)[^\r\n]*", re.IGNORECASE)
@@ -76,11 +84,13 @@ _JOINED = re.compile(rb"(?<=[0-9.])-")
 def read_bvh(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of a BVH file."""
     head = _parse_head(content, options)
-    values = read_frames(content, head.start, head.width, head.declared)
+    values = read_frames(content, head.start, head.width, head.declared)[:, head.columns]
     if len(values) != head.declared:
         content.warn(f"{head.declared} frames declared, {len(values)} found and kept", head.line)
     require_frame_memory(content, len(head.joints), len(values))
     provenance = content.provenance("BVH", head.notes)
+    if len(head.character.people) > 1:
+        provenance = provenance.of_person(head.character.name, head.character.people)
     content.release()
     local = _compute_local(head.joints, values)
     del values  # release them before positions are computed
@@ -97,24 +107,24 @@ def sketch_bvh(content: FileContent, options: ReadOptions, most: int) -> Sketch 
     values = sample_frames(content.data, head.start, head.width, every) if every > 1 else None
     if values is None or len(values) != ceil(head.declared / every):
         return None
-    local, provenance = _compute_local(head.joints, values), Provenance(str(content.path), "BVH")
+    local = _compute_local(head.joints, values[:, head.columns])
+    provenance = Provenance(str(content.path), "BVH")
     motion = _place_joints(head.joints, local, head.fps / every, options, provenance)
     return Sketch(motion, head.declared, head.fps)
 
 
 class _Head(NamedTuple):
-    """Everything before the frames."""
+    """Everything before the frames: the chosen character's joints and the columns of a frame."""
 
     joints: list[Joint]
+    character: Character
+    columns: slice
+    width: int
     declared: int
     fps: float
     notes: list[str]
     line: int
     start: int
-
-    @property
-    def width(self) -> int:
-        return sum(len(joint.channels) for joint in self.joints)
 
 
 def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
@@ -123,6 +133,20 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a complete BVH file")
     joints = _HierarchyParser(content, split.start()).joints
+    nodes = [
+        SceneNode(
+            joint.name, joint.parent, bone=True, geometry=False, animated=bool(joint.channels)
+        )
+        for joint in joints
+    ]
+    character = find_character(content, nodes, options.person)
+    first, stop = character.joints[0], character.joints[-1] + 1
+    # Column of the first channel of each joint.
+    columns = [0, *accumulate(len(joint.channels) for joint in joints)]
+    chosen = joints[first:stop]
+    for joint in chosen:
+        joint.parent = max(joint.parent - first, -1)
+    _name_end_sites(content, chosen)
     line = content.line_at(split.end() - 1)
     header = _HEADER.match(content.data, split.end())
     if header is None:
@@ -135,8 +159,18 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
         if options.fps is None:
             raise
         fps = options.fps
-    notes = [note] if note and options.fps is None else []
-    return _Head(joints, int(header.group(1)), fps=fps, notes=notes, line=line, start=header.end())
+    notes = [*character.notes, *([note] if note and options.fps is None else [])]
+    return _Head(
+        chosen,
+        character,
+        columns=slice(columns[first], columns[stop]),
+        width=columns[-1],
+        declared=int(header.group(1)),
+        fps=fps,
+        notes=notes,
+        line=line,
+        start=header.end(),
+    )
 
 
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
@@ -151,14 +185,14 @@ def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, st
 
 @dataclass
 class Joint:
-    """A joint in the file; ``channels`` are ("x", "rotation") and so on."""
+    """A joint in the file."""
 
     name: str
     parent: int
     line: int
     end: bool
     offset: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
-    channels: list[tuple[str, str]] = field(default_factory=list)
+    channels: list[Channel] = field(default_factory=list)
 
 
 class _HierarchyParser:
@@ -166,7 +200,7 @@ class _HierarchyParser:
 
     def __init__(self, content: FileContent, stop: int):
         self.content = content
-        text = content.data[:stop].decode("utf-8", "replace").removeprefix("\ufeff")
+        text = FileContent(content.path, content.data[:stop]).text
         lines = enumerate(text.replace("{", " { ").replace("}", " } ").splitlines(), 1)
         self.words = [(word, number) for number, line in lines for word in line.split()]
         self.joints: list[Joint] = []
@@ -200,7 +234,6 @@ class _HierarchyParser:
         if open_joints:
             reason = f"the '}}' of joint {self.joints[open_joints[-1]].name!r} is missing"
             raise content.error(f"{reason} before MOTION", self.words[-1][1])
-        self._name_end_sites()
 
     def _take_word(self) -> tuple[str, int]:
         if self.position >= len(self.words):
@@ -226,7 +259,7 @@ class _HierarchyParser:
         except ValueError as error:
             raise self.content.error(f"OFFSET: {error}", line) from None
 
-    def _parse_channels(self, line: int) -> list[tuple[str, str]]:
+    def _parse_channels(self, line: int) -> list[Channel]:
         """Return axis and kind (position or rotation) of each channel of a joint, in order."""
         declared = self._take_word()[0]
         if not declared.isdecimal() or len(declared) > 18:
@@ -243,23 +276,24 @@ class _HierarchyParser:
             raise self.content.error("a position channel is listed twice", line)
         return channels
 
-    def _name_end_sites(self) -> None:
-        """Name end sites after their parent, and make all names unique."""
-        names: set[str] = set()
-        for joint in self.joints:
-            joint.end = joint.end and not joint.channels
-            if not joint.end:
-                if joint.name in names:
-                    raise self.content.error(f"a second joint is called {joint.name!r}", joint.line)
-                names.add(joint.name)
-        tried: dict[str, int] = {}  # last number appended to each name
-        for joint in self.joints:
-            if joint.end:
-                stem = joint.name = f"{self.joints[joint.parent].name}_end"
-                while joint.name in names:
-                    tried[stem] = tried.get(stem, 1) + 1
-                    joint.name = f"{stem}{tried[stem]}"
-                names.add(joint.name)
+
+def _name_end_sites(content: FileContent, joints: list[Joint]) -> None:
+    """Name end sites after their parent, and make all names unique."""
+    names: set[str] = set()
+    for joint in joints:
+        joint.end = joint.end and not joint.channels
+        if not joint.end:
+            if joint.name in names:
+                raise content.error(f"a second joint is called {joint.name!r}", joint.line)
+            names.add(joint.name)
+    tried: dict[str, int] = {}  # last number appended to each name
+    for joint in joints:
+        if joint.end:
+            stem = joint.name = f"{joints[joint.parent].name}_end"
+            while joint.name in names:
+                tried[stem] = tried.get(stem, 1) + 1
+                joint.name = f"{stem}{tried[stem]}"
+            names.add(joint.name)
 
 
 def read_frames(content: FileContent, start: int, width: int, declared: int) -> Floats:
@@ -390,7 +424,13 @@ def _place_joints(
         frozenset(i for i, joint in enumerate(joints) if joint.end and i not in with_children),
     )
     return build_motion(
-        skeleton, *local, fps, unit=options.unit, up=options.up, provenance=provenance
+        skeleton,
+        *local,
+        fps,
+        unit=options.unit,
+        up=options.up,
+        provenance=provenance,
+        channels={joint.name: joint.channels for joint in joints if joint.channels},
     )
 
 
@@ -398,27 +438,54 @@ def write_bvh(motion: Motion, path: Path) -> None:
     """Write a motion to a BVH file."""
     skeleton = motion.skeleton
     turns, translations, offsets, slides = compute_local_pose(motion, path, "a BVH")
-    # Joints with a translation in each frame: those whose offset varies, and the roots.
-    slides |= np.array(skeleton.parents) < 0
     unit, inverse = UNIT, rot.IDENTITY
-    is_from_bvh = motion.provenance.format == "BVH"
-    if is_from_bvh and skeleton.rig is not None and skeleton.rig.is_plain:
+    known: Mapping[str, Sequence[Channel]] = {}
+    if skeleton.rig is not None and skeleton.rig.channels and skeleton.rig.is_plain:
+        unit, inverse, known = (
+            skeleton.rig.unit,
+            rot.conjugate(skeleton.rig.turn),
+            skeleton.rig.channels,
+        )
         # Convert the axes of both the world and the joints back to the file's.
-        unit, inverse = skeleton.rig.unit, rot.conjugate(skeleton.rig.turn)
         turns = rot.multiply(rot.multiply(inverse, turns), skeleton.rig.turn)
     translations, offsets = (rot.rotate(inverse, each) / unit for each in (translations, offsets))
-    angles = np.degrees(rot.to_euler_zyx(turns))
     fixed_ends = {j for j in skeleton.end_sites if not slides[j]}
     roots = (j for j, parent in enumerate(skeleton.parents) if parent < 0)
     order = [j for j, _ in order_depth_first(roots, skeleton.children.__getitem__)]
+    channels: dict[int, list[Channel]] = {}
     columns: list[Floats] = []
     for j in order:
         if j not in fixed_ends:
-            columns += [translations[:, j], angles[:, j]] if slides[j] else [angles[:, j]]
+            default = POSITIONS * (skeleton.parents[j] < 0) + ROTATIONS
+            given = known.get(skeleton.names[j], default)
+            channels[j] = _complete_channels(given, turns[:, j], slides=slides[j])
+            axes = "".join(axis for axis, kind in channels[j] if kind == "rotation")
+            angles = np.degrees(rot.unwrap_euler(rot.to_euler(turns[:, j], axes)))
+            columns += [
+                translations[:, j, "xyz".index(axis)]
+                if kind == "position"
+                else angles[:, axes.index(axis)]
+                for axis, kind in channels[j]
+            ]
     names = _name_joints(motion, fixed_ends, path)
-    head = "\n".join(_format_hierarchy(skeleton, offsets, order, slides, names))
+    head = "\n".join(_format_hierarchy(skeleton, offsets, order, channels, names))
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
-    save(path, [head, "\n", timing, *format_table(np.concatenate(columns, axis=1))])
+    save(path, [head, "\n", timing, *format_table(np.stack(columns, axis=1))])
+
+
+def _complete_channels(given: Sequence[Channel], turns: Floats, *, slides: bool) -> list[Channel]:
+    """Return the channels of a joint, with those added that its motion needs."""
+    positions = [channel for channel in given if channel[1] == "position"]
+    axes = "".join(axis for axis, kind in given if kind == "rotation")
+    is_complete = len({*axes}) == len(axes)
+    if is_complete and len(axes) < len(ROTATIONS):
+        again = rot.from_euler(rot.to_euler(turns, axes), axes)
+        is_complete = bool(np.abs((again * turns).sum(axis=1)).min() > 1 - 1e-12)
+    if not is_complete:
+        given = [*positions, *ROTATIONS]
+    if slides and len(positions) < len(POSITIONS):
+        given = [*POSITIONS, *(channel for channel in given if channel[1] == "rotation")]
+    return list(given)
 
 
 def compute_local_pose(
@@ -454,7 +521,7 @@ def _format_hierarchy(
     skeleton: Skeleton,
     offsets: Floats,
     order: list[int],
-    slides: NDArray[np.bool_],
+    channels: dict[int, list[Channel]],
     names: dict[int, str],
 ) -> Iterator[str]:
     """Yield the lines of the hierarchy; joints without an entry in ``names`` are end sites."""
@@ -473,8 +540,8 @@ def _format_hierarchy(
         yield tab + "{"
         yield f"{tab}\tOFFSET " + " ".join(f"{x:.9f}" for x in offsets[j])
         if j in names:
-            places = "6 Xposition Yposition Zposition" if slides[j] else "3"
-            yield f"{tab}\tCHANNELS {places} Zrotation Yrotation Xrotation"
+            words = (f"{axis.upper()}{kind}" for axis, kind in channels[j])
+            yield f"{tab}\tCHANNELS {len(channels[j])} {' '.join(words)}"
     while open_joints:
         yield "\t" * depths[open_joints.pop()] + "}"
 

@@ -26,7 +26,7 @@ from kineme.formats.units import (
 )
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.kinematics import forward_kinematics
-from kineme.recordings.rig import make_rig
+from kineme.recordings.rig import Channel, make_rig
 
 Node = TypeVar("Node", bound=Hashable)
 
@@ -71,13 +71,15 @@ def build_motion(
     up: str | None,
     provenance: Provenance,
     frames: Floats | None = None,
+    channels: Mapping[str, Sequence[Channel]] | None = None,
+    asf: str = "",
 ) -> Motion:
     """Return the motion in metres with y up, from rotations in a file's own units and axes.
 
     Rotations (frames, joints, 4) are changed in place and used in the motion. ``slides`` are
     translations (frames, 3) of joints relative to their parents that replace the offsets. A unit
-    or up axis of None is inferred. ``frames`` are those of the nodes, as for `make_rig`; they are
-    used if the skeleton has no rig.
+    or up axis of None is inferred. ``frames``, ``channels`` and ``asf`` are those of
+    `make_rig`; they are used if the skeleton has no rig.
     """
     means = skeleton.offsets.copy()
     for joint, translations in slides.items():
@@ -109,7 +111,14 @@ def build_motion(
             positions[span] = rot.rotate(turn, positions[span])
     if skeleton.rig is None:
         rig = make_rig(
-            skeleton.names, skeleton.parents, offsets, frames, unit=scale, turn=make_up_rotation(up)
+            skeleton.names,
+            skeleton.parents,
+            offsets,
+            frames,
+            unit=scale,
+            turn=make_up_rotation(up),
+            channels=channels,
+            asf=asf,
         )
         skeleton = replace(skeleton, rig=rig)
     return Motion(skeleton, positions, fps, rotations, provenance)
