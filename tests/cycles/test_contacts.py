@@ -198,12 +198,12 @@ def pick_markers(walk: Motion, **joints: str) -> Motion:
 def test_both_feet_are_found_from_the_same_markers_and_a_missing_one_is_warned_of() -> None:
     walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
     ankles = {"LANK": "LeftFoot", "RANK": "RightFoot"}
-    heels, toes = {"LCAL": "LeftFoot", "RCAL": "RightFoot"}, {"LTT2": "LeftToeBase"}
-    both = toes | {"RTT2": "RightToeBase"}
+    heels, toes = {"LCAL": "LeftFoot", "RCAL": "RightFoot"}, {"LHLX": "LeftToeBase"}
+    both = toes | {"RHLX": "RightToeBase"}
     with warnings.catch_warnings():
         warnings.simplefilter("error", KinemeWarning)
         events = foot_events(pick_markers(walk, **ankles, **heels, **both))
-    assert events.sources == {"left": "LCAL and LTT2", "right": "RCAL and RTT2"}
+    assert events.sources == {"left": "LCAL and LHLX", "right": "RCAL and RHLX"}
     with pytest.warns(KinemeWarning, match="no toe was found on both sides: .* RHEE, RTOE"):
         events = foot_events(pick_markers(walk, **ankles, **heels, **toes))
     assert events.sources == {"left": "LCAL", "right": "RCAL"}
@@ -307,3 +307,14 @@ def test_contacts_checked_by_people_are_found(data_dir: Path) -> None:
         near = [np.abs(found - at).min() < 0.05 for at in times]
         assert np.mean(near) > 0.85
         assert abs(len(found) - len(times)) <= 1
+
+
+def test_marks_outside_a_cropped_recording_are_left_out() -> None:
+    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+    plain = foot_events(walk)
+    mark = float(plain.at("left foot strike")[0])
+    events = [(at, "Left Foot Strike") for at in (-0.5, mark, mark, 1000.0)]
+    marked = replace(walk, provenance=walk.provenance.marked(events))
+    assert foot_events(marked).at("left foot strike").tolist() == (
+        plain.at("left foot strike").tolist()
+    )

@@ -127,6 +127,7 @@ def cycles(
     from kineme.cli.terminal import Console
     from kineme.cycles import channels_of
     from kineme.cycles.measure import cycles as measure_cycles
+    from kineme.cycles.repetitions import is_event
 
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
@@ -154,7 +155,8 @@ def cycles(
     parts = _keep_common_channels(parts, batch)
     recordings, tables = [part.recording for part in parts], [part.segments for part in parts]
     refine |= not any(part.are_labels for part in parts)
-    ends |= anchor is None and any(part.are_cycles for part in parts)
+    # Cycles between events and those cut by hand are complete: the ends count as well.
+    ends |= is_event(anchor) if anchor else any(part.are_cycles for part in parts)
     if recordings:
         with batch.catch_result_errors():
             analog = [part.analog for part in parts]

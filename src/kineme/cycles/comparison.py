@@ -103,7 +103,7 @@ def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
 
 def is_right(channel: str) -> bool:
     """Return whether a channel is of the right side, judging by its name."""
-    return re.search("(?i:right)|_r$", channel) is not None
+    return re.search("(?<![a-z])(?i:right)|Right|_r$", channel) is not None
 
 
 def _compare_values(

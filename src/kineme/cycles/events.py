@@ -182,7 +182,7 @@ def foot_events(
     names: list[str] = []
     sources: dict[str, str] = {}
     n_marks = dict.fromkeys(SIDES, 0)
-    marked, is_body = recording.provenance.events, isinstance(recording, Motion)
+    is_body = isinstance(recording, Motion)
     for side, pattern in zip(SIDES, (left, right), strict=True):
         if is_body and pattern is not None:
             raise ParameterError(
@@ -203,7 +203,7 @@ def foot_events(
         for seconds, event in zip((starts, stops), (STRIKE, OFF) if are_stands else (OFF, STRIKE),
                                   strict=True):  # fmt: skip
             name = f"{side} {event}"
-            marks = [at for at, text in marked if normalize_event_name(text) == name]
+            marks = find_marks(recording, name).tolist()
             apart = [at for at in seconds if all(abs(at - mark) >= SAME_S for mark in marks)]
             times += marks + apart
             names += [name] * len(marks + apart)
@@ -234,6 +234,17 @@ def foot_events(
         recording.fps,
         sources,
     )
+
+
+def find_marks(recording: Motion | Signals, name: str) -> Floats:
+    """Return the times in seconds of the events of the file with a name in its normal form.
+
+    Events outside the recording, as in a file that was cropped, are left out.
+    """
+    end = recording.n_frames / recording.fps
+    events = recording.provenance.events
+    marks = {at for at, text in events if normalize_event_name(text) == name and 0 <= at <= end}
+    return np.array(sorted(marks), np.float64)
 
 
 def _warn_missing_points(motion: Motion, sources: Mapping[str, str]) -> None:

@@ -31,7 +31,7 @@ from kineme.labels.delimited import open_new_text, write_rows
 
 NAME_OF_MATLAB = 63
 """Longest name in MATLAB, in characters."""
-DIGITS = 12
+DIGITS = 15
 """Significant digits in CSV and Excel."""
 SHEET_ROWS = 1_048_575
 """Largest number of rows in an Excel sheet below the header."""

@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
@@ -24,7 +25,14 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
 from kineme.cycles.borders import Run, find_vertex, make_run, shift_to_common_phase
 from kineme.cycles.channels import channels_of
-from kineme.cycles.events import LONGEST, OFF, STRIKE, foot_events, normalize_event_name
+from kineme.cycles.events import (
+    LONGEST,
+    OFF,
+    STRIKE,
+    find_marks,
+    foot_events,
+    normalize_event_name,
+)
 from kineme.cycles.table import CYCLE, INCOMPLETE, INNER, compute_mean_phase
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import compute_distance_features, pose_features
@@ -47,7 +55,8 @@ OUTSIDE = 0.25
 """Largest part of a cycle, in cycles, that may lie outside of the activity or be missing at its
 ends; beyond that the repetition is incomplete."""
 LONG = "much longer than the others"
-"""Why a cycle longer than `LONGEST` medians is excluded: it contains a stop or lacks an event."""
+"""Reason for excluding a cycle longer than `LONGEST` medians: it contains a stop or lacks an event.
+"""
 _EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
 _CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
 
@@ -501,16 +510,16 @@ def _find_event_spans(
     A contact without a side, such as ``foot strike``, is that of either foot.
     """
 
-    def pair(times: Floats) -> Floats:
+    def pair_events(times: Floats) -> Floats:
         times = times[(times >= 0) & (times <= recording.n_frames / recording.fps)]
         return np.column_stack([times[:-1], times[1:]])
 
     if not isinstance(anchor, str):
-        return pair(np.sort(as_floats(anchor, "anchor").ravel())), None
+        return pair_events(np.sort(as_floats(anchor, "anchor").ravel())), None
     name = normalize_event_name(anchor)
-    if name not in (STRIKE, OFF) or len(_find_marks(recording, name)):
-        return pair(_find_event_times(recording, anchor)), None
-    left, right = (pair(_find_event_times(recording, f"{side} {name}")) for side in SIDES)
+    if name not in (STRIKE, OFF) or len(find_marks(recording, name)):
+        return pair_events(_find_event_times(recording, anchor)), None
+    left, right = (pair_events(_find_event_times(recording, f"{side} {name}")) for side in SIDES)
     lengths = np.diff(right, axis=1)[:, 0]
     if len(right):
         right = right[lengths <= LONGEST * np.median(lengths)]
@@ -526,26 +535,18 @@ def _find_event_spans(
     return left, max(matches, key=lambda each: np.isfinite(each).sum())
 
 
-def _find_marks(recording: Motion | Signals, name: str) -> Floats:
-    """Return the seconds of the events of the file with a name in its normal form."""
-    events = recording.provenance.events
-    return np.array([at for at, text in events if normalize_event_name(text) == name], np.float64)
-
-
 def _find_event_times(recording: Motion | Signals, anchor: str) -> Floats:
     """Return the times in seconds of a recording's events with a name."""
     name = normalize_event_name(anchor)
-    marked = _find_marks(recording, name)
+    marked = find_marks(recording, name)
     if name.endswith((STRIKE, OFF)):
         # Marks, and contacts found from the movement where no mark is near: a laboratory often
         # marks the contacts on its force plates only.
-        try:
-            return foot_events(recording).at(name)
-        except ParameterError:
-            if not len(marked):
-                raise
+        with suppress(ParameterError) if len(marked) else nullcontext():
+            if len(found := foot_events(recording).at(name)):
+                return found
     if len(marked):
-        return np.sort(marked)
+        return marked
     names = sorted({text for _, text in recording.provenance.events})
     raise ParameterError(
         f"no event {anchor!r}; there are "

@@ -130,7 +130,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
             remark = Note(f"{sentence}; choose another with person= (--person)", "warning")
         provenance = provenance.noted(remark).of_person(subject, subjects)
     positions = np.array(points.positions, np.float64)
-    if len(names) < len(full_names):
+    if left_out := len(full_names) - len(names):
+        provenance = provenance.noted(f"{format_count(left_out, 'point')} of other bodies left out")
         positions = positions[:, [*own_points]]
     # Implausible positions must become NaN before gaps are filled.
     doubts = drop_implausible(positions, names, points.fps)
@@ -204,9 +205,9 @@ def select_subject(
     chosen = next(iter(subjects or points)) if subjects or len(points) == 1 else ""
     if len(subjects) > 1 and person is not None:
         chosen = choose_person(path, subjects, person)
-    # Markers without a prefix belong to anybody.
-    left_out = {each for each in points if subjects and each not in ("", chosen) and bodies[each]}
-    left_out |= {*subjects} - {chosen}
+    # Keep markers without a prefix, and props, of which one point may be named like a joint.
+    left_out = {each for each, body in bodies.items() if each not in ("", chosen) and len(body) > 1}
+    left_out = left_out | {*subjects} - {chosen} if subjects else set()
     own_points = {
         i: short[i] if subject == chosen else names[i]
         for subject, members in points.items()

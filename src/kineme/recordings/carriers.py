@@ -18,7 +18,7 @@ from kineme.recordings.motion import Motion
 from kineme.recordings.skeleton import Skeleton
 
 STILL = 1e-3
-"""Largest change of a joint that stands still: metres, and components of a quaternion."""
+"""Largest change of a joint that stands still, in metres, and about that in radians."""
 
 
 def find_still_joints(*motions: Motion) -> Masks:
@@ -27,9 +27,10 @@ def find_still_joints(*motions: Motion) -> Masks:
     still = np.zeros(skeleton.n_joints, bool)
     for joint in sorted({*range(skeleton.n_joints)} - {*skeleton.body}):
         parent = skeleton.parents[joint]
-        curves = [m.positions[:, joint] for m in motions]
-        curves += [m.rotations[:, joint] for m in motions if m.rotations is not None]
-        moves = any(np.ptp(curve, axis=0).max() > STILL for curve in curves)
+        moves = any(np.ptp(m.positions[:, joint], axis=0).max() > STILL for m in motions)
+        # Rotations are compared by the product, since q and -q are one rotation.
+        curves = [m.rotations[:, joint] for m in motions if m.rotations is not None]
+        moves |= any(np.abs(curve @ curves[0][0]).min() < 1 - STILL**2 for curve in curves)
         still[joint] = not moves and (parent < 0 or still[parent])
     return still
 

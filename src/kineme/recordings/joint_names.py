@@ -58,7 +58,7 @@ NAMES: dict[str, tuple[str, ...]] = {
     "*_rear_foot": ("*HEEL *MIDFOOTSUP", "*HEEL", "*HEE"),  # OpenSim's gait models
     "*_heel": ("*HEEL", "*HEE", "*CALCANEUS", "*FCC", "*CAL", "*CALC", "*CA", "*FERSE"),
     "*_toe": ("*TOE", "*TOEBASE", "*TOES", "*BIGTOE", "*TOETIP", "*FOOTINDEX", "*MT", "*MTP",
-              "*FM", "*TT", "*MTH", "*HALLUX", "*HLX", "*ZEHE"),
+              "*FM", "*MTH", "*HALLUX", "*HLX", "*ZEHE"),
     "head": ("HEAD", "LFHD RFHD LBHD RBHD", "LFHD RFHD", "LBHD RBHD",
              "HEADTOP HEADFRONT HEADSIDE", "HEADTOP LHEAD RHEAD HEADFRONT",
              "LTEMPLE RTEMPLE TOPHEAD", "HEAD1 HEAD2 HEAD3", "HEADTOP"),

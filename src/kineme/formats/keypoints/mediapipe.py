@@ -37,8 +37,8 @@ from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
-    SMALLEST_PIXEL,
     Person,
+    is_relative,
     order_by_number,
     to_frame_numbers,
     video_to_motion,
@@ -155,10 +155,9 @@ def landmarks_to_motion(
 
 def _scale_to_image(people: Sequence[Person], size: Sequence[float | None]) -> Sequence[Person]:
     """Return landmarks that are fractions of an image of this width and height in pixels."""
-    hips = np.array([p.points[hip][0] for p in people for hip in _HIPS])
     width, height = size
-    is_pixels = np.nanmax(np.abs(hips), initial=0.0) >= SMALLEST_PIXEL
-    if is_pixels or not (width and height):
+    points = np.array([person.points for person in people], np.float64)
+    if not (width and height and is_relative(points)):
         return people
     # z is a fraction of the width, like x.
     sides = np.array([width, height, width])

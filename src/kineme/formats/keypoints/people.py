@@ -1,7 +1,7 @@
 """Select one of the people in a file.
 
-If the file tracks people by name or number, these are used, unless one occurs twice in a frame.
-Otherwise detections of successive frames are joined by the smallest distance between their
+If the file tracks people by name or number, these are used, unless they often occur twice in a
+frame. Otherwise detections of successive frames are joined by the smallest distance between their
 keypoints, after moving each person on as before, so that people who cross are not swapped. Those
 seen last come first. They are numbered from 0 in order of appearance.
 People seen in less than a tenth of the frames of the most frequent one are ignored.
@@ -23,6 +23,9 @@ Rows = NDArray[np.intp]
 
 PASSING = 0.1
 """Fraction of the frames of the most frequent person below which others are ignored."""
+
+MOST_REPEATED = 0.1
+"""Largest fraction of rows that repeat a person of their frame, where names identify people."""
 
 _STRIDE = 0.5  # body sizes that a person may move from one frame to the next,
 _STRAY = 0.1  # plus this for each frame without a detection
@@ -67,9 +70,9 @@ def _group_by_person(
 ) -> dict[str, Rows]:
     """Return the rows of each person, in order of appearance."""
     names = list(map(str, detected))
-    # A name that occurs twice in a frame identifies nobody: untracked people share a number.
-    is_unique = len({*zip(frames.tolist(), names, strict=True)}) == len(names)
-    if None in detected or not is_unique:
+    # Untracked people share a number, which so occurs several times in most frames of several.
+    n_unique = len({*zip(frames.tolist(), names, strict=True)})
+    if None in detected or len(names) - n_unique > MOST_REPEATED * n_unique:
         # With one detection per frame there is only one person.
         is_alone = len(np.unique(frames)) == len(frames)
         numbers = [0] * len(frames) if is_alone else track_people(frames, points)
@@ -77,7 +80,11 @@ def _group_by_person(
     rows: dict[str, list[int]] = {}
     for row, name in enumerate(names):
         rows.setdefault(name, []).append(row)
-    return {name: np.array(person_rows) for name, person_rows in rows.items()}
+    return {
+        # Use the first of several rows of a person in one frame.
+        name: np.array(person_rows)[np.unique(frames[person_rows], return_index=True)[1]]
+        for name, person_rows in rows.items()
+    }
 
 
 def track_people(frames: Rows, points: Floats) -> list[int]:

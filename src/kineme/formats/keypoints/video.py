@@ -91,10 +91,7 @@ def video_to_motion(
     if n_unsure := int(is_unsure[rows].sum()):
         remarks.append(f"{format_count(n_unsure, 'position')} below confidence {limit:g} not used")
     remarks += notes
-    image = points[..., :2]
-    # Most of them: single keypoints may be at the corner, or far outside of the image.
-    is_small = (np.abs(image) < SMALLEST_PIXEL).sum() > np.isfinite(image).sum() / 2
-    if unit == "pixel" and not options.unit and is_small:
+    if unit == "pixel" and not options.unit and is_relative(points):
         content.warn(
             "keypoints are relative to an image of unknown size, assumed square: "
             "otherwise multiply x and z by width / height"
@@ -104,6 +101,13 @@ def video_to_motion(
     provenance = content.provenance(program, remarks).of_person(name, all_people)
     named_points = Points(names, positions, fps, options.unit or unit, options.up or up)
     return to_motion(named_points, provenance)
+
+
+def is_relative(points: Floats) -> bool:
+    """Return whether points in an image are fractions of its width and height, not pixels."""
+    sizes = np.abs(points[..., :2]).max(axis=-1)
+    # Most of them: single keypoints may be at the corner, or far outside of the image.
+    return bool(np.nanquantile(sizes, 0.9) < SMALLEST_PIXEL)
 
 
 def name_people(entries: Sequence[Mapping[str, Any]], *keys: str) -> list[str | None]:

@@ -29,7 +29,7 @@ import re
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import accumulate, islice
+from itertools import accumulate, islice, pairwise
 from math import ceil
 from pathlib import Path
 from typing import NamedTuple
@@ -55,6 +55,7 @@ from kineme.formats.scenes.characters import Character, SceneNode, find_characte
 from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
+from kineme.recordings.joint_names import find_joints
 from kineme.recordings.kinematics import compute_local_translations
 from kineme.recordings.posing import align_to_rest
 from kineme.recordings.rig import Channel
@@ -133,13 +134,7 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
     if split is None:
         raise content.error("no MOTION section with 'Frames:', so this is not a complete BVH file")
     joints = _HierarchyParser(content, split.start()).joints
-    nodes = [
-        SceneNode(
-            joint.name, joint.parent, bone=True, geometry=False, animated=bool(joint.channels)
-        )
-        for joint in joints
-    ]
-    character = find_character(content, nodes, options.person)
+    character = _find_character(content, joints, options.person)
     first, stop = character.joints[0], character.joints[-1] + 1
     # Column of the first channel of each joint.
     columns = [0, *accumulate(len(joint.channels) for joint in joints)]
@@ -171,6 +166,21 @@ def _parse_head(content: FileContent, options: ReadOptions) -> _Head:
         line=line,
         start=header.end(),
     )
+
+
+def _find_character(content: FileContent, joints: Sequence[Joint], person: str | None) -> Character:
+    """Return the joints of one of several people; all joints if one tree at most has a pelvis."""
+    roots = [i for i, joint in enumerate(joints) if joint.parent < 0]
+    trees = [[joint.name for joint in joints[a:b]] for a, b in pairwise([*roots, len(joints)])]
+    if sum(bool(find_joints(names, [("pelvis",)])) for names in trees) < 2:
+        return Character([*range(len(joints))], [], "", [])
+    nodes = [
+        SceneNode(
+            joint.name, joint.parent, bone=True, geometry=False, animated=bool(joint.channels)
+        )
+        for joint in joints
+    ]
+    return find_character(content, nodes, person)
 
 
 def _parse_rate(content: FileContent, word: bytes, line: int) -> tuple[float, str | None]:
