@@ -240,8 +240,10 @@ def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) 
 @pytest.mark.parametrize(
     ("times", "n_frames", "gaps", "said"),
     [
-        (EVEN + 7198 - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (1_769_398_198.01 + EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (1_769_399_998 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (1_769_399_997.9 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (EVEN - 1.5 * (EVEN >= 2), 401, ((200, 201),), "goes back 1 time"),
         (EVEN + 1.7e9 * (EVEN >= 1), 401, ((100, 101),), "of 1.7e\\+09 s after second 0.99"),
         (np.floor(EVEN * 4) / 4, 400, (), "384 rows with the same time as the row before"),
