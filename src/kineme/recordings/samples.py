@@ -28,6 +28,8 @@ from kineme.recordings.times import UNITS_NAMED, Clock, as_seconds, find_time_un
 ASSUMED_FPS = 30.0
 """Default rows per second if neither data nor caller tell the rate."""
 
+_ZONES_S = 26 * 3600.0  # largest difference of the clocks of two time zones
+
 
 def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None = None) -> Signals:
     """Return rows of numbers as signals at their true times.
@@ -335,12 +337,13 @@ def _compare_clocks(
     overlap = min(stops) - max(clock.times[0] for clock in clocks)
     # Dates have one origin; times that count from any other must overlap for long.
     dates = all(clock.shows_dates for clock in clocks)
-    if overlap > (0.0 if dates else 0.5 * min(each.duration for each in signals)):
+    enough = 0.0 if dates else 0.5 * min(each.duration for each in signals)
+    if overlap > enough or (dates and overlap < -_ZONES_S):
         return clocks, []
-    remark = (
-        "the sensors have no common clock: assumed to begin together (kineme.join_signals takes "
-        "their offsets)"
-    )
+    reason = "the sensors have no common clock"
+    if dates:
+        reason = f"the recordings do not overlap ({-overlap:.5g} s apart)"
+    remark = f"{reason}: assumed to begin together (kineme.join_signals takes their offsets)"
     return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 
 
