@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import re
 from array import array
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
@@ -154,9 +154,7 @@ class DelimitedText:
 
     def texts(self, column: int) -> list[str]:
         """Return the cells of one column; a truncated last row is included."""
-        rows = csv.reader(self.rows, delimiter=self.separator)
-        full = (row for row in rows if any(map(str.strip, row)))
-        return [row[column].strip() if column < len(row) else "" for row in full]
+        return [row[column].strip() if column < len(row) else "" for _, row in self._split_rows()]
 
     def numbers(self, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
         """Return cells as numbers (rows, columns), NaN if empty, dates as seconds since 1970.
@@ -164,32 +162,24 @@ class DelimitedText:
         ``columns`` selects columns; the others may hold anything. A truncated last line is dropped
         with a warning.
         """
-        content, width, first = self.content, len(self.names), self.first_row + 1
+        content, width = self.content, len(self.names)
         chosen = range(width) if columns is None else columns
         dates = [i for i in self.dates if i in chosen]
         values = array("d")
-        reader = csv.reader(self.rows, delimiter=self.separator)
-        try:
-            for cells in reader:
-                if not any(map(str.strip, cells)):
-                    continue
-                # Quoted cells may span lines, so the reader counts them.
-                line = first + reader.line_num - 1
-                if len(cells) < width or any(map(str.strip, cells[width:])):
-                    reason = f"{len(cells)} cells, but {width} columns"
-                    # Only a short last row is what a truncated file looks like.
-                    if reader.line_num < len(self.rows) or len(cells) > width:
-                        raise content.error(reason, line)
-                    content.warn(f"{reason}: the last row is truncated and left out", line)
-                    break
-                for i in dates:
-                    cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
-                row = [cells[i] for i in chosen]
-                if self.has_decimal_comma:
-                    row = [*map(replace_decimal_comma, row)]
-                values.extend(_parse_cells(content, row, line))
-        except csv.Error as error:
-            raise content.error(str(error), first + reader.line_num - 1) from None
+        for line, cells in self._split_rows():
+            if len(cells) < width or any(map(str.strip, cells[width:])):
+                reason = f"{len(cells)} cells, but {width} columns"
+                # Only a short last row is what a truncated file looks like.
+                if line < self.first_row + len(self.rows) or len(cells) > width:
+                    raise content.error(reason, line)
+                content.warn(f"{reason}: the last row is truncated and left out", line)
+                break
+            for i in dates:
+                cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
+            row = [cells[i] for i in chosen]
+            if self.has_decimal_comma:
+                row = [*map(replace_decimal_comma, row)]
+            values.extend(_parse_cells(content, row, line))
         if not values:
             raise content.error("no row of numbers found")
         return np.array(values).reshape(-1, len(chosen))
@@ -203,6 +193,17 @@ class DelimitedText:
         numeric = (name for name in self.find_numeric_columns() if name not in self.times)
         if error := describe_alternation(texts, columns or [*filter(is_channel_name, numeric)]):
             raise self.content.error(error)
+
+    def _split_rows(self) -> Iterator[tuple[int, list[str]]]:
+        """Yield the line number and the cells of each row that is not blank."""
+        reader = csv.reader(self.rows, delimiter=self.separator)
+        try:
+            for cells in reader:
+                if any(map(str.strip, cells)):
+                    # Quoted cells may span lines, so the reader counts them.
+                    yield self.first_row + reader.line_num, cells
+        except csv.Error as error:
+            raise self.content.error(str(error), self.first_row + reader.line_num) from None
 
 
 def make_unique_names(names: Iterable[str]) -> list[str]:
