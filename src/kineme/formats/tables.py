@@ -116,7 +116,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
         options = replace(options, fps=table.rate)
         remarks.append(describe_header_rate(table.rate))
     elif options.fps:
-        options = replace(options, fps=content.choose_rate(options.fps, table.rate))
+        content.choose_rate(options.fps, table.rate)  # warns if they differ
     # With a given rate, columns of times are not read.
     times = {} if options.fps else table.times
     used = [
