@@ -23,7 +23,15 @@ from kineme.recordings.column_names import (
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
-from kineme.recordings.times import UNITS_NAMED, Clock, as_seconds, find_time_unit, is_rate, is_time
+from kineme.recordings.times import (
+    UNITS_NAMED,
+    Clock,
+    as_seconds,
+    find_time_unit,
+    find_unnamed_clock,
+    is_rate,
+    is_time,
+)
 
 ASSUMED_FPS = 30.0
 """Default rows per second if neither data nor caller tell the rate."""
@@ -202,8 +210,8 @@ def _convert_frame(frame: Any) -> _Samples:
     called = [*map(name_column, names)]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
     dates = [i for i, kind in enumerate(kinds) if kind in "mM"]
-    # If no name is that of times, the only column of dates is the clock.
-    timing = [i for i, name in enumerate(called) if is_time(name)] or dates * (len(dates) == 1)
+    timing = [i for i, name in enumerate(called) if is_time(name)]
+    timing = timing or find_unnamed_clock(called, dates)
     rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
     chosen = [i for i in numbers if i not in (*timing, *rates)]
     # If all names look like counters or labels, keep all numeric columns.

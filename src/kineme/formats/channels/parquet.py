@@ -19,7 +19,7 @@ from kineme.formats.channels.reading import (
 from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
 from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
-from kineme.recordings.times import is_timing
+from kineme.recordings.times import find_unnamed_clock, is_timing
 
 
 def open_parquet(content: FileContent) -> Any:
@@ -97,10 +97,7 @@ def read_parquet_channels(
 
 
 def find_parquet_times(file: Any) -> dict[str, str]:
-    """Return columns of times or rates, and the names that `find_table_timing` knows.
-
-    If no name is that of times, the only column of dates is the clock, as an index of pandas.
-    """
+    """Return columns of times or rates, and the names that `find_table_timing` knows."""
     from pyarrow import types
 
     dates = (types.is_timestamp, types.is_duration)
@@ -112,7 +109,8 @@ def find_parquet_times(file: Any) -> dict[str, str]:
         if is_timing(name) and any(is_kind(field.type) for is_kind in named)
     }
     clocks = [name for name, field in fields if any(is_kind(field.type) for is_kind in dates)]
-    return times or ({clocks[0]: "time"} if len(clocks) == 1 else {})
+    # An index of pandas is a column of dates without such a name.
+    return times | dict.fromkeys(find_unnamed_clock(times, clocks), "time")
 
 
 def refuse_interleaved(content: FileContent, file: Any, channels: Sequence[str]) -> None:
