@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent, parse_numbers
-from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
+from kineme.recordings.column_names import EMPTY, describe_alternation, is_owner
 from kineme.recordings.times import (
     append_unit,
     find_date_columns,
@@ -32,11 +32,6 @@ from kineme.recordings.times import (
     is_timing,
     parse_date,
 )
-
-EMPTY = frozenset(
-    {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
-)
-"""Contents of a cell without a number, in lower case; the last ones are errors of spreadsheets."""
 
 NAMELESS = "(no name)"
 """Name given to columns without one."""
@@ -184,14 +179,10 @@ class DelimitedText:
             raise content.error("no row of numbers found")
         return np.array(values).reshape(-1, len(chosen))
 
-    def refuse_interleaved(self, columns: Collection[str] | None = None) -> None:
-        """Raise ReadError if rows of several people, devices or joints alternate.
-
-        ``columns`` are the channels; by default all columns of numbers.
-        """
+    def refuse_interleaved(self, requested: Collection[str] = ()) -> None:
+        """Raise ReadError if rows of several people or devices alternate."""
         texts = {name: self.texts(i) for i, name in enumerate(self.names) if is_owner(name)}
-        numeric = (name for name in self.find_numeric_columns() if name not in self.times)
-        if error := describe_alternation(texts, columns or [*filter(is_channel_name, numeric)]):
+        if error := describe_alternation(texts, requested):
             raise self.content.error(error)
 
     def _split_rows(self) -> Iterator[tuple[int, list[str]]]:

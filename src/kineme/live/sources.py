@@ -24,7 +24,7 @@ from kineme._util.checks import join_names, make_unique, require_extra
 from kineme.errors import ParameterError
 from kineme.live.intake import count_rows_for_unit, guess_unit
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.recordings.column_names import is_channel_name
+from kineme.recordings.column_names import select_channels
 from kineme.recordings.regular import place_rows
 from kineme.recordings.times import (
     UNITS_OF_TIME,
@@ -192,7 +192,7 @@ class _Parser:
             and (
                 any(fnmatchcase(name, each) for each in columns)
                 if columns
-                else name and is_channel_name(name) and not is_timing(name)
+                else name and not is_timing(name)
             )
         ]
         self.first_lines: list[str] = []
@@ -200,7 +200,9 @@ class _Parser:
             self.first_lines.append(line)
             with suppress(ValueError):
                 row = self._row(line)
-                self.at = [i for i in wanted if _is_number(row[i])]
+                numeric = [self.names[i] for i in wanted if _is_number(row[i])]
+                chosen = numeric if columns else select_channels(numeric)
+                self.at = [i for i in wanted if self.names[i] in chosen]
                 if np.isfinite([_number(row[i]) for i in self.at]).any():
                     break
         else:

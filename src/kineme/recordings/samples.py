@@ -16,9 +16,9 @@ from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
 from kineme.recordings.column_names import (
     describe_alternation,
-    is_channel_name,
     is_owner,
     name_column,
+    select_channels,
 )
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
@@ -214,12 +214,12 @@ def _convert_frame(frame: Any) -> _Samples:
     timing = timing or find_unnamed_clock(called, dates)
     rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
     chosen = [i for i in numbers if i not in (*timing, *rates)]
-    # If all names look like counters or labels, keep all numeric columns.
-    chosen = [i for i in chosen if is_channel_name(called[i])] or chosen
+    measured = select_channels(called[i] for i in chosen)
+    chosen = [i for i in chosen if called[i] in measured]
     if not chosen:
         raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
     owners = {name: columns[i] for i, name in enumerate(called) if is_owner(name)}
-    if error := describe_alternation(owners, [called[i] for i in chosen]):
+    if error := describe_alternation(owners):
         raise ParameterError(error)
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
     notes: list[Note | str] = []
