@@ -26,7 +26,7 @@ def lines():
     rows = two_exercises(8.0)[: int(16 * FPS)]
     times = 81_000_000 + 1000 * np.arange(len(rows)) / FPS
     return "t,x,y,note\n" + "".join(
-        f"{t:.0f},{x:.4f},{y:.4f},none\n" for t, (x, y) in zip(times, rows, strict=True)
+        f"{t:.0f},{x:.4f},{y:.4f},easy\n" for t, (x, y) in zip(times, rows, strict=True)
     )
 
 

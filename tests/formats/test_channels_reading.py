@@ -240,8 +240,10 @@ def test_frames_are_where_the_clock_says(tmp_path, times, n_frames, gaps, said) 
 @pytest.mark.parametrize(
     ("times", "n_frames", "gaps", "said"),
     [
-        (EVEN + 7198 - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (1_769_398_198.01 + EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (1_769_399_998 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        (1_769_399_997.9 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (EVEN - 1.5 * (EVEN >= 2), 401, ((200, 201),), "goes back 1 time"),
         (EVEN + 1.7e9 * (EVEN >= 1), 401, ((100, 101),), "of 1.7e\\+09 s after second 0.99"),
         (np.floor(EVEN * 4) / 4, 400, (), "384 rows with the same time as the row before"),
@@ -323,8 +325,12 @@ def test_what_tells_of_the_device_or_the_place_is_no_channel(tmp_path) -> None:
     assert read(path, fps=50).names == as_signals(csv.read_csv(path).to_pandas(), fps=50).names
     assert read(path, fps=50).names == motion
     assert read(path, fps=50, columns=["hand_temperature"]).names == ("hand_temperature",)
-    alone = write(tmp_path, "b.csv", "heart_rate\n70\n71\n71\n")
+    alone = write(tmp_path, "b.csv", "heart_rate,count\n70,1\n71,1\n71,2\n")
     assert read(alone, fps=1).names == ("heart_rate",)
+    machine = write(tmp_path, "c.csv", "speed,cadence,pressure\n7,1,2\n8,2,2\n")
+    assert read(machine, fps=1).names == ("speed", "cadence", "pressure")
+    with pytest.raises(ReadError, match="none of its columns is a channel"):
+        read(write(tmp_path, "d.csv", "time,label\n0,1\n1,1\n2,2\n"))
 
 
 @pytest.mark.parametrize("column", ["device", "person_id", "Joint", "sensorName"])
@@ -333,7 +339,7 @@ def test_what_tells_of_the_device_or_the_place_is_no_channel(tmp_path) -> None:
 def test_rows_of_several_in_turn_are_refused(tmp_path, column, channels, late) -> None:
     rows = [f"{i // 2 / 50 + late * (i % 2)},{'AB'[i % 2]},{i % 7}.5,0.25\n" for i in range(40)]
     path = write(tmp_path, "a.csv", f"time,{column},{channels}\n" + "".join(rows))
-    said = rf"alternate \(column '{column}': A, B\)"
+    said = rf"people or devices alternate \(column '{column}': A, B\)"
     with pytest.raises(ReadError, match=said):
         read(path)
     table = csv.read_csv(path)
@@ -350,9 +356,37 @@ def test_owners_of_many_successive_rows_are_one_recording(tmp_path) -> None:
     assert read(path).n_frames == as_signals(csv.read_csv(path).to_pandas()).n_frames == 40
     steps = [f"{i / 50},{'LR'[i // 10 % 2]},{i % 7}.5,0.25\n" for i in range(200)]
     assert read(write(tmp_path, "c.csv", "time,side,x,y\n" + "".join(steps))).n_frames == 200
-    sole = write(tmp_path, "b.csv", "sensor\n" + "7\n9\n" * 20)  # a measurement, no owner
-    found = as_signals(csv.read_csv(sole).to_pandas(), fps=50)
-    assert read(sole, fps=50).names == found.names == ("sensor",)
+
+
+@pytest.mark.parametrize(
+    ("column", "cells"),
+    [
+        ("sensor", "01"),  # a foot switch
+        ("joint", ["true", "false"]),
+        ("track", ["0.5", "2e-3"]),
+        ("type", "12"),
+        ("side", ["both", "L"]),
+        ("source", ["gps", "fused"]),
+    ],
+)
+def test_measurements_and_labels_of_rows_are_no_owners(tmp_path, column, cells) -> None:
+    rows = [f"{i / 50},{i % 7}.5,{cells[i % 2]}\n" for i in range(40)]
+    path = write(tmp_path, "a.csv", f"time,acc_x,{column}\n" + "".join(rows))
+    table = csv.read_csv(path)
+    parquet.write_table(table, tmp_path / "a.parquet")
+    found = [read(path), read(tmp_path / "a.parquet"), as_signals(table.to_pandas())]
+    assert {(each.names[0], each.n_frames) for each in found} == {("acc_x", 40)}
+
+
+def test_a_table_with_numbers_of_devices_is_read_if_channels_are_requested(tmp_path) -> None:
+    rows = [f"{i / 50},{i % 7}.5,{i % 2}\n" for i in range(40)]
+    path = write(tmp_path, "a.csv", "time,acc_x,device_id\n" + "".join(rows))
+    with pytest.raises(ReadError, match="devices alternate"):
+        read(path)
+    assert read(path, columns=["acc_x"]).names == ("acc_x",)
+    names = write(tmp_path, "b.csv", "time,acc_x,device\n" + "0,1,a\n1,2,b\n" * 9)
+    with pytest.raises(ReadError, match="devices alternate"):
+        read(names, columns=["acc_x"])
 
 
 def test_parquet(tmp_path) -> None:
@@ -370,10 +404,10 @@ def test_parquet(tmp_path) -> None:
 @pytest.mark.parametrize("kind", ["M8[ns]", "m8[ms]"])
 @pytest.mark.parametrize("name", ["time", "recorded_at", "__index_level_0__"])
 @pytest.mark.parametrize("channels", [["a", "b"], ["hip_x", "hip_y"]])
-def test_the_only_column_of_dates_is_the_clock(tmp_path, kind, name, channels) -> None:
+def test_the_first_column_of_dates_is_the_clock(tmp_path, kind, name, channels) -> None:
     times = (np.arange(50) * 20 + 1_790_000_000_000).astype("i8").astype(f"{kind[:2]}[ms]")
     columns = {channel: 1 + np.arange(50) % 7 / 9 for channel in channels}
-    columns[name] = times.astype(kind)
+    columns |= {name: times.astype(kind), "uploaded": times[::-1].astype(kind)}
     parquet.write_table(pa.table(columns), tmp_path / "a.parquet")
     recording = read(tmp_path / "a.parquet", unit="m")
     assert (recording.fps, recording.n_frames) == (50, 50)

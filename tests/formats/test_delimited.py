@@ -30,6 +30,16 @@ LAYOUTS = {
 }
 
 
+@pytest.mark.parametrize("name", ["device", "note"])
+def test_a_quote_without_an_end_is_named_with_its_line(tmp_path: Path, name: str) -> None:
+    rows = [f"{i / 50},a,{i % 7}\n" for i in range(20000)]
+    rows[30] = '0.6,"b,3\n'
+    path = tmp_path / "a.csv"
+    path.write_text(f"time,{name},acc_x\n{''.join(rows)}")
+    with pytest.raises(kineme.errors.ReadError, match=r"line \d+: "):
+        kineme.read(path)
+
+
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 @pytest.mark.parametrize("joint", ["hüfte", "acc"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import socket
-from itertools import chain
+from itertools import chain, repeat
 from threading import Thread
 from time import sleep
 
@@ -58,6 +58,21 @@ def test_columns_of_text_and_counters_are_no_channels(lines):
     remarks = [*chain.from_iterable(each.remarks for each in rows)]
     assert "note" in remarks[0]
     assert "index" in remarks[0]
+
+
+def test_a_channel_may_begin_with_a_missing_value():
+    source = read_lines(["time,a,b\n", "0,1,NA\n", "1,2,-\n", "2,3,4\n"])
+    values = np.concatenate([each.values for each in source.rows])
+    np.testing.assert_array_equal(values, [[1, np.nan], [2, np.nan], [3, 4]])
+
+
+def test_a_heart_rate_alone_is_a_channel():
+    assert read_lines(["time,note,heart_rate\n", "0,a,70\n"]).channels == ("heart_rate",)
+
+
+def test_rows_that_never_fit_the_names_are_refused():
+    with pytest.raises(ParameterError, match="rows have 3 cells, but the first line has 2"):
+        read_lines(chain(["a,b\n"], repeat("1,2,\n")))
 
 
 def test_nested_json_becomes_channels():

@@ -84,10 +84,15 @@ def test_a_stream_goes_on_after_it_was_saved(rows, told, tmp_path):
     assert again.segmentation == told[0].segmentation
 
 
-def test_a_file_that_is_no_stream_is_refused(tmp_path):
+def test_files_of_nothing_and_of_other_versions_are_refused(tmp_path, monkeypatch):
     (tmp_path / "other.npz").write_bytes(b"nothing")
     with pytest.raises(ReadError, match="not a stream"):
         Stream.load(tmp_path / "other.npz")
+    with monkeypatch.context() as context:
+        context.setattr("kineme.live.storage.SCHEMA", "kineme.stream/1")
+        make_stream().save(tmp_path / "older.npz")
+    with pytest.raises(ReadError, match="another version: 'kineme.stream/1'"):
+        Stream.load(tmp_path / "older.npz")
 
 
 def test_memory_is_bounded(rows):

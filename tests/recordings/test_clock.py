@@ -199,9 +199,11 @@ def test_the_command_joins_files_and_names_rows(tmp_path) -> None:
     frame, times = lose_rows()
     with pytest.warns(KinemeWarning, match="no common clock: assumed to begin together"):
         join_signals(as_signals(frame, times=times + 1.7e9), as_signals(frame, times=times))
-    zones = [as_signals(frame, times=times + start) for start in (1.7e9, 1.7e9 - 7200)]
-    with pytest.warns(KinemeWarning, match="no common clock: assumed to begin together"):
-        assert join_signals(*zones).duration == zones[0].duration
+    now, zone, days = (as_signals(frame, times=times + 1.7e9 - ago) for ago in (0, 7200, 3 * 86400))
+    with pytest.warns(KinemeWarning, match=r"overlap \(7080 s apart\): assumed to begin together"):
+        assert join_signals(now, zone).duration == now.duration
+    with pytest.raises(ParameterError, match="do not overlap in time"):
+        join_signals(now, days)
     with pytest.warns(KinemeWarning, match="s left out in which not all sensors recorded"):
         join_signals(as_signals(frame, times=times), as_signals(frame[:500], times=times[:500]))
     with pytest.raises(ParameterError, match="do not overlap in time"):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import re
 from array import array
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent, parse_numbers
-from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
+from kineme.recordings.column_names import EMPTY, describe_alternation, is_owner
 from kineme.recordings.times import (
     append_unit,
     find_date_columns,
@@ -32,11 +32,6 @@ from kineme.recordings.times import (
     is_timing,
     parse_date,
 )
-
-EMPTY = frozenset(
-    {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
-)
-"""Contents of a cell without a number, in lower case; the last ones are errors of spreadsheets."""
 
 NAMELESS = "(no name)"
 """Name given to columns without one."""
@@ -154,9 +149,7 @@ class DelimitedText:
 
     def texts(self, column: int) -> list[str]:
         """Return the cells of one column; a truncated last row is included."""
-        rows = csv.reader(self.rows, delimiter=self.separator)
-        full = (row for row in rows if any(map(str.strip, row)))
-        return [row[column].strip() if column < len(row) else "" for row in full]
+        return [row[column].strip() if column < len(row) else "" for _, row in self._split_rows()]
 
     def numbers(self, columns: Sequence[int] | None = None) -> NDArray[np.float64]:
         """Return cells as numbers (rows, columns), NaN if empty, dates as seconds since 1970.
@@ -164,45 +157,44 @@ class DelimitedText:
         ``columns`` selects columns; the others may hold anything. A truncated last line is dropped
         with a warning.
         """
-        content, width, first = self.content, len(self.names), self.first_row + 1
+        content, width = self.content, len(self.names)
         chosen = range(width) if columns is None else columns
         dates = [i for i in self.dates if i in chosen]
         values = array("d")
-        reader = csv.reader(self.rows, delimiter=self.separator)
-        try:
-            for cells in reader:
-                if not any(map(str.strip, cells)):
-                    continue
-                # Quoted cells may span lines, so the reader counts them.
-                line = first + reader.line_num - 1
-                if len(cells) < width or any(map(str.strip, cells[width:])):
-                    reason = f"{len(cells)} cells, but {width} columns"
-                    # Only a short last row is what a truncated file looks like.
-                    if reader.line_num < len(self.rows) or len(cells) > width:
-                        raise content.error(reason, line)
-                    content.warn(f"{reason}: the last row is truncated and left out", line)
-                    break
-                for i in dates:
-                    cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
-                row = [cells[i] for i in chosen]
-                if self.has_decimal_comma:
-                    row = [*map(replace_decimal_comma, row)]
-                values.extend(_parse_cells(content, row, line))
-        except csv.Error as error:
-            raise content.error(str(error), first + reader.line_num - 1) from None
+        for line, cells in self._split_rows():
+            if len(cells) < width or any(map(str.strip, cells[width:])):
+                reason = f"{len(cells)} cells, but {width} columns"
+                # Only a short last row is what a truncated file looks like.
+                if line < self.first_row + len(self.rows) or len(cells) > width:
+                    raise content.error(reason, line)
+                content.warn(f"{reason}: the last row is truncated and left out", line)
+                break
+            for i in dates:
+                cells[i] = _convert_date(content, cells[i].strip(), line, self.day_first)
+            row = [cells[i] for i in chosen]
+            if self.has_decimal_comma:
+                row = [*map(replace_decimal_comma, row)]
+            values.extend(_parse_cells(content, row, line))
         if not values:
             raise content.error("no row of numbers found")
         return np.array(values).reshape(-1, len(chosen))
 
-    def refuse_interleaved(self, columns: Collection[str] | None = None) -> None:
-        """Raise ReadError if rows of several people, devices or joints alternate.
-
-        ``columns`` are the channels; by default all columns of numbers.
-        """
+    def refuse_interleaved(self, requested: Collection[str] = ()) -> None:
+        """Raise ReadError if rows of several people or devices alternate."""
         texts = {name: self.texts(i) for i, name in enumerate(self.names) if is_owner(name)}
-        numeric = (name for name in self.find_numeric_columns() if name not in self.times)
-        if error := describe_alternation(texts, columns or [*filter(is_channel_name, numeric)]):
+        if error := describe_alternation(texts, requested):
             raise self.content.error(error)
+
+    def _split_rows(self) -> Iterator[tuple[int, list[str]]]:
+        """Yield the line number and the cells of each row that is not blank."""
+        reader = csv.reader(self.rows, delimiter=self.separator)
+        try:
+            for cells in reader:
+                if any(map(str.strip, cells)):
+                    # Quoted cells may span lines, so the reader counts them.
+                    yield self.first_row + reader.line_num, cells
+        except csv.Error as error:
+            raise self.content.error(str(error), self.first_row + reader.line_num) from None
 
 
 def make_unique_names(names: Iterable[str]) -> list[str]:

@@ -29,7 +29,6 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
 from kineme.formats.delimited import (
-    EMPTY,
     DelimitedText,
     find_separator,
     from_text,
@@ -41,6 +40,7 @@ from kineme.formats.delimited import (
 from kineme.formats.files import FileContent
 from kineme.recordings import Note
 from kineme.recordings.arrays import list_spans, mark_spans
+from kineme.recordings.column_names import EMPTY
 from kineme.recordings.regular import Timing, place_rows
 from kineme.recordings.times import (
     UNITS_NAMED,

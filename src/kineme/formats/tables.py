@@ -30,7 +30,7 @@ from kineme.formats.channels.reading import (
     to_signals,
 )
 from kineme.formats.channels.writing import write_signals
-from kineme.formats.delimited import EMPTY, DelimitedText, as_text, is_number, make_unique_names
+from kineme.formats.delimited import DelimitedText, as_text, is_number, make_unique_names
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
 from kineme.formats.files import FileContent, clean_names, format_point_name, save
 from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_motion
@@ -40,6 +40,7 @@ from kineme.formats.plausibility import mark_gaps
 from kineme.formats.points import columns_to_motion, is_used
 from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
+from kineme.recordings.column_names import EMPTY
 from kineme.recordings.times import NO_TIMES, RATE, is_date, is_timing
 
 
@@ -77,7 +78,7 @@ def read_parquet(content: FileContent, options: ReadOptions) -> Motion | Signals
     if options.channels or hold_channels(names):
         table = read_parquet_channels(content, file, options.columns or None)
         return to_signals(content, PARQUET.name, table, options.fps)
-    refuse_interleaved(content, file, names)
+    refuse_interleaved(content, file)
     times = find_parquet_times(file)
     stored = [name for name in stored_names if name in times or is_used(name)]
     used = read_parquet_columns(content, file, stored)
@@ -116,7 +117,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
         options = replace(options, fps=table.rate)
         remarks.append(describe_header_rate(table.rate))
     elif options.fps:
-        options = replace(options, fps=content.choose_rate(options.fps, table.rate))
+        content.choose_rate(options.fps, table.rate)  # warns if they differ
     # With a given rate, columns of times are not read.
     times = {} if options.fps else table.times
     used = [

@@ -293,7 +293,7 @@ class Intake:
         self.seen = self.seen | np.isfinite(values).any(axis=0)
         missing: Masks = np.zeros(len(values), np.bool_)
         if found.missing is not None:
-            missing = np.asarray(found.missing[made][:, self._find_used(pieces)].any(axis=1))
+            missing = np.asarray(found.missing[made][:, self._report_absent(pieces)].any(axis=1))
             for i, row in enumerate(values):  # A channel without a value repeats its last one.
                 row[:] = np.where(np.isfinite(row), row, values[i - 1] if i else self.filler)
         self.filler = values[-1]
@@ -304,8 +304,8 @@ class Intake:
         self.at, self.rows = self.at[kept:], self.rows[kept:]
         return Frames(values, missing)
 
-    def _find_used(self, pieces: list[Piece]) -> Masks:
-        """Return which channels make a gap where they are missing."""
+    def _report_absent(self, pieces: list[Piece]) -> Masks:
+        """Report channels without a value; return those that make a gap where they are missing."""
         if self.emitted < ABSENT_S * self.fps or not self.seen.any() or self.seen.all():
             return np.ones_like(self.seen)
         for name, seen in zip(self.channels, self.seen.tolist(), strict=True):

@@ -8,10 +8,9 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
-from itertools import chain
+from itertools import chain, islice
 from queue import Empty, Queue
 from threading import Thread
 from time import monotonic, sleep, time
@@ -24,7 +23,7 @@ from kineme._util.checks import join_names, make_unique, require_extra
 from kineme.errors import ParameterError
 from kineme.live.intake import count_rows_for_unit, guess_unit
 from kineme.recordings import Motion, Signals, Skeleton
-from kineme.recordings.column_names import is_channel_name
+from kineme.recordings.column_names import EMPTY, select_channels
 from kineme.recordings.regular import place_rows
 from kineme.recordings.times import (
     UNITS_OF_TIME,
@@ -177,7 +176,7 @@ class _Parser:
         self.is_json = first.lstrip()[:1] in ("{", "[")
         self.separator = next((mark for mark in "\t;" if mark in first), ",")
         try:
-            cells = self._cells(first)
+            cells = self._split_line(first)
         except ValueError as error:
             raise ParameterError(f"the first line is not complete JSON: {first:.60}") from error
         is_row = self.is_json or all(_is_number(cell) for cell in cells.values())
@@ -192,19 +191,26 @@ class _Parser:
             and (
                 any(fnmatchcase(name, each) for each in columns)
                 if columns
-                else name and is_channel_name(name) and not is_timing(name)
+                else name and not is_timing(name)
             )
         ]
+        reason = f"none of the columns is a channel ({join_names(self.names)})"
         self.first_lines: list[str] = []
-        for line in chain([first] if is_row else [], lines):
+        self.at: list[int] = []
+        for line in islice(chain([first] if is_row else [], lines), TIMED_ROWS):
             self.first_lines.append(line)
-            with suppress(ValueError):
-                row = self._row(line)
-                self.at = [i for i in wanted if _is_number(row[i])]
-                if np.isfinite([_number(row[i]) for i in self.at]).any():
-                    break
-        else:
-            raise ParameterError(f"none of the columns is a channel ({join_names(self.names)})")
+            try:
+                row = self._parse_row(line)
+            except ValueError as error:
+                reason = str(error)
+                continue
+            numeric = [self.names[i] for i in wanted if _is_number(row[i])]
+            chosen = numeric if columns else select_channels(numeric)
+            self.at = [i for i in wanted if self.names[i] in chosen]
+            if np.isfinite([_parse_number(row[i]) for i in self.at]).any():
+                break
+        if not self.at:
+            raise ParameterError(reason)
         if self.time is not None and not _is_number(row[self.time]):
             self.unit = "s"  # dates
         self.channels = tuple(self.names[i] for i in self.at)
@@ -217,12 +223,12 @@ class _Parser:
         rows, seconds, wrong, texts = [], [], 0, 0
         for line in filter(str.strip, lines):
             try:
-                cells = self._row(line)
-                second = 0.0 if self.time is None else self._seconds(cells[self.time])
+                cells = self._parse_row(line)
+                second = 0.0 if self.time is None else self._parse_time(cells[self.time])
             except ValueError:
                 wrong += 1
                 continue
-            row = [_number(cells[i]) if _is_number(cells[i]) else None for i in self.at]
+            row = [_parse_number(cells[i]) if _is_number(cells[i]) else None for i in self.at]
             n_texts = row.count(None)
             if n_texts == len(row):  # such as names of columns
                 wrong += 1
@@ -238,25 +244,26 @@ class _Parser:
             remarks.append(f"{texts} cells of text left out")
         return Rows(values, None if self.time is None else np.array(seconds), tuple(remarks))
 
-    def _cells(self, line: str) -> dict[str, Any]:
+    def _split_line(self, line: str) -> dict[str, Any]:
         """Return the cells of a line by name; those of a CSV are numbered."""
         return _flatten(
             json.loads(line) if self.is_json else next(csv.reader([line], delimiter=self.separator))
         )
 
-    def _row(self, line: str) -> list[Any]:
+    def _parse_row(self, line: str) -> list[Any]:
         """Return the cells of a line in the order of `names`; raise ValueError if they differ."""
-        cells = self._cells(line)
-        if not self.is_json and len(cells) == len(self.names):
-            return [*cells.values()]
-        if not self.is_json or cells.keys().isdisjoint(self.names):
-            raise ValueError("other cells")
-        return [cells.get(name) for name in self.names]
+        cells = self._split_line(line)
+        n_cells, n_names = len(cells), len(self.names)
+        if not self.is_json and n_cells != n_names:
+            raise ValueError(f"rows have {n_cells} cells, but the first line has {n_names}")
+        if self.is_json and cells.keys().isdisjoint(self.names):
+            raise ValueError("rows have none of the names in the first line")
+        return [cells.get(name) for name in self.names] if self.is_json else [*cells.values()]
 
-    def _seconds(self, cell: Any) -> float:
+    def _parse_time(self, cell: Any) -> float:
         """Return a time in seconds; numbers without a unit are unchanged."""
         if _is_number(cell):
-            return _number(cell) / UNITS_OF_TIME[self.unit or "s"]
+            return _parse_number(cell) / UNITS_OF_TIME[self.unit or "s"]
         return parse_date(cell.strip())
 
 
@@ -278,16 +285,16 @@ def _flatten(values: Any, name: str = "") -> dict[str, Any]:
     return found
 
 
-def _number(cell: Any) -> float:
+def _parse_number(cell: Any) -> float:
     """Return a cell as a number, NaN if it is empty; raise ValueError if it is text."""
     if not isinstance(cell, str):
         return np.nan if cell is None else float(cell)
-    return float(cell.replace(",", ".")) if cell.strip() else np.nan
+    return np.nan if cell.strip().lower() in EMPTY else float(cell.replace(",", "."))
 
 
 def _is_number(cell: Any) -> bool:
     try:
-        _number(cell)
+        _parse_number(cell)
     except ValueError:
         return False
     return True

@@ -32,7 +32,7 @@ from kineme.live.intake import Intake
 from kineme.live.looking import RecentPast
 from kineme.live.sources import Rows
 
-SCHEMA = "kineme.stream/1"
+SCHEMA = "kineme.stream/2"
 EXAMPLE = "example "
 NUMBERS = ("gap", "now", "next_look", "is_timed", "is_finished")
 Settings = dict[str, Any]

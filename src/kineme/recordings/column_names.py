@@ -19,7 +19,7 @@ from kineme.recordings.joint_names import SENSOR
 
 _COUNTS = frozenset(
     {"frame", "frames", "index", "idx", "sample", "row", "id", "unnamed 0", "index level 0"}
-    | {"counter", "packet counter", "packetcounter", "level 0", "step", "seq", "sequence", "crc"}
+    | {"counter", "packet counter", "packetcounter", "level 0", "seq", "sequence", "crc"}
 )
 _LABELS = frozenset(
     {"label", "labels", "class", "annotation", "ground truth", "class id", "label id", "target"}
@@ -30,16 +30,24 @@ _NUMBERED = re.compile(r"(.+?) ?(?:id|idx|index|no|num|number|nr|count)")
 _SURROUNDINGS = re.compile(
     r"(?:.* )?(?:temp|temperature|battery|humidity|lux|latitude|longitude|altitude|accuracy|gps"
     r"|heart ?rate|bpm|steps|pedometer|barometer|sound)(?: .*)?|location [a-z]{2}.*"
-    # Insoles have pressures, and machines speeds, too: these are left out only without a place.
-    r"|(?:lat|lon|lng|hr|pressure|speed|bearing|course)(?: (?:h?pa|m s|km h|deg|degrees))?"
+    r"|(?:lat|lon|lng|hr)(?: deg| degrees)?"
 )
+_PLACE = re.compile(r"\b(?:lat|lon|lng|latitude|longitude|gps)\b")
+# Insoles have pressures, and machines speeds, too: these are left out only beside a place.
+_COURSE = re.compile(r"(?:pressure|speed|bearing|course)(?: (?:h?pa|m s|km h|deg|degrees))?")
 _OWNER = re.compile(
-    r"(?:person|subject|participant|individual|user|track|device|sensor|joint|body ?part|side"
-    r"|placement|source|type|kind)(?: ?(?:id|name|type|kind|no|number|label))?"
+    r"(?:person|subject|participant|individual|user|(?P<part>track|device|sensor|joint|body ?part))"
+    r"(?P<suffix> ?(?:id|name|type|kind|no|number|label))?"
 )
-_EMPTY = frozenset({"", "nan", "none", "null", "<na>"})
-_MOST_OWNERS = 50  # more are measurements, or names of rows
+_NUMBER = re.compile(r"[-+]?[\d.,]+(?:e[-+]?\d+)?", re.IGNORECASE)
 _ROWS_IN_TURN = 5  # mean of successive rows of one owner, above which they are no turns
+
+EMPTY = frozenset(
+    {"", "nan", "na", "n/a", "null", "none", "-"} | {"#n/a", "#nv", "#div/0!", "#num!", "#value!"}
+)
+"""Contents of a cell without a number, in lower case; the last ones are errors of spreadsheets."""
+
+_NO_OWNERS = EMPTY | {"<na>", "true", "false"}
 
 COORDINATE = re.compile(
     r"(?:(.*[^\s_.:/-])[\s_.:/-]+([xyzXYZ])|(.*[a-z0-9])([XYZ]))(?:(?:[\s_]*[\[(]|[\s_]+)(m|cm|mm|px)[\])]?)?"
@@ -94,18 +102,22 @@ def list_beginnings(name: str) -> Iterator[str]:
         yield name[: word.start()].rstrip(" \t_.:/-")
 
 
-def is_channel_name(name: str) -> bool:
-    """Return whether a column of numbers may be a channel, judging by its name.
+def select_channels(names: Iterable[str]) -> list[str]:
+    """Return the columns of numbers that may be channels, judging by their names.
+
+    Counters and labels never are, measurements of surroundings only if there are no others.
 
     Examples
     --------
-    >>> [is_channel_name(name) for name in ("acc_x", "Set number", "batteryLevel", "HR [bpm]")]
-    [True, False, False, False]
+    >>> select_channels(["acc_x", "Set number", "batteryLevel"]), select_channels(["id", "HR"])
+    (['acc_x'], ['HR'])
     """
-    words = _split_words(name)
-    numbered = _NUMBERED.fullmatch(words)
-    names = {words, numbered[1] if numbered else words}
-    return names.isdisjoint(_COUNTS | _LABELS) and _SURROUNDINGS.fullmatch(words) is None
+    words = {name: _split_words(name) for name in names}
+    measured = [name for name in words if not _is_count_or_label(words[name])]
+    others = [name for name in measured if not _SURROUNDINGS.fullmatch(words[name])]
+    if any(map(_PLACE.search, words.values())):
+        others = [name for name in others if not _COURSE.fullmatch(words[name])]
+    return others or measured
 
 
 def name_column(label: object) -> str:
@@ -131,35 +143,45 @@ def is_owner(name: str) -> bool:
 
 
 def describe_alternation(
-    columns: Mapping[str, ArrayLike], channels: Collection[str] = ()
+    columns: Mapping[str, ArrayLike], requested: Collection[str] = ()
 ) -> str | None:
     """Return an error if rows of several people or devices alternate in a column of owners.
 
-    Neither a device that is exchanged in the middle alternates, nor the side of each step. The only
-    channel is no owner.
+    A device exchanged once does not count as alternation. A requested channel is no owner. Numbers
+    are owners only if the name of their column says so, and no channels are requested.
 
     Examples
     --------
-    >>> describe_alternation({"device": ["left", "right"] * 3})
-    "rows of several alternate (column 'device': left, right): separate them, one table for each"
+    >>> print(describe_alternation({"device": ["left", "right"] * 3}))
+    rows of several people or devices alternate (column 'device': left, right): separate them, ...
     >>> describe_alternation({"device": ["left"] * 3 + ["right"] * 3})
     """
     for name, column in columns.items():
-        if not is_owner(name) or [*channels] == [name]:
+        match = _OWNER.fullmatch(_split_words(name))
+        if match is None or name in requested:
             continue
         texts = (str(cell).strip() for cell in np.asarray(column).tolist())
-        cells = [text for text in texts if text.lower() not in _EMPTY]
+        cells = [text for text in texts if text.lower() not in _NO_OWNERS]
+        # A bare "sensor" may be a measurement, such as that of a foot switch.
+        needs_text = requested or (match["part"] and not match["suffix"])
+        if needs_text and all(map(_NUMBER.fullmatch, cells)):
+            continue
         rows, turns = Counter(cells), Counter(owner for owner, _ in groupby(cells))
         owners = [*rows]
-        if len(owners) > _MOST_OWNERS or turns.total() <= len(owners) + 1:
+        if turns.total() <= len(owners) + 1:
             continue
         # The slowest of several sensors has about one row at a time.
         if any(rows[owner] <= _ROWS_IN_TURN * turns[owner] for owner in owners):
             return (
-                f"rows of several alternate (column {name!r}: {owners[0]:.20}, {owners[1]:.20}): "
-                "separate them, one table for each"
+                f"rows of several people or devices alternate (column {name!r}: {owners[0]:.20}, "
+                f"{owners[1]:.20}): separate them, one table for each"
             )
     return None
+
+
+def _is_count_or_label(words: str) -> bool:
+    numbered = _NUMBERED.fullmatch(words)
+    return not {words, numbered[1] if numbered else words}.isdisjoint(_COUNTS | _LABELS)
 
 
 def _split_words(name: str) -> str:

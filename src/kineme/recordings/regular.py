@@ -220,10 +220,10 @@ def _correct_clock(
         return np.asarray(np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S))
 
     notes: list[Note | str] = []
-    # Summer time begins and ends at a full hour of the local clock; pauses end at any time.
-    at_full_hour = (shown[1:] % _HOUR <= max(2 * usual, LONGEST_S)) & (usual < _HOUR / 10)
-    forward = near(_HOUR) if is_unix_time(shown[0]) else np.zeros_like(back)
-    hours = at_full_hour & ((near(-_HOUR) & back) | forward)
+    # A step forward is a pause unless it leads to a full hour of a clock that counts from 1970.
+    from_full_hour = np.abs(shown[1:] - np.rint(shown[1:] / _HOUR) * _HOUR)
+    forward = (from_full_hour <= max(2 * usual, LONGEST_S)) & is_unix_time(shown[0])
+    hours = ((near(-_HOUR) & back) | (near(_HOUR) & forward)) & (usual < _HOUR / 10)
     days = near(-_DAY) & back
     if hours.any():
         notes.append(Note("local times jump by an hour, as for summer time: corrected", "warning"))

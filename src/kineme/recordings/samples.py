@@ -16,17 +16,27 @@ from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
 from kineme.recordings.column_names import (
     describe_alternation,
-    is_channel_name,
     is_owner,
     name_column,
+    select_channels,
 )
 from kineme.recordings.provenance import Note, Provenance
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
-from kineme.recordings.times import UNITS_NAMED, Clock, as_seconds, find_time_unit, is_rate, is_time
+from kineme.recordings.times import (
+    UNITS_NAMED,
+    Clock,
+    as_seconds,
+    find_time_unit,
+    find_unnamed_clock,
+    is_rate,
+    is_time,
+)
 
 ASSUMED_FPS = 30.0
 """Default rows per second if neither data nor caller tell the rate."""
+
+_ZONES_S = 26 * 3600.0  # largest difference of the clocks of two time zones
 
 
 def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None = None) -> Signals:
@@ -200,16 +210,16 @@ def _convert_frame(frame: Any) -> _Samples:
     called = [*map(name_column, names)]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
     dates = [i for i, kind in enumerate(kinds) if kind in "mM"]
-    # If no name is that of times, the only column of dates is the clock.
-    timing = [i for i, name in enumerate(called) if is_time(name)] or dates * (len(dates) == 1)
+    timing = [i for i, name in enumerate(called) if is_time(name)]
+    timing = timing or find_unnamed_clock(called, dates)
     rates = [i for i, name in enumerate(called) if is_rate(name) and i in numbers]
     chosen = [i for i in numbers if i not in (*timing, *rates)]
-    # If all names look like counters or labels, keep all numeric columns.
-    chosen = [i for i in chosen if is_channel_name(called[i])] or chosen
+    measured = select_channels(called[i] for i in chosen)
+    chosen = [i for i in chosen if called[i] in measured]
     if not chosen:
         raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
     owners = {name: columns[i] for i, name in enumerate(called) if is_owner(name)}
-    if error := describe_alternation(owners, [called[i] for i in chosen]):
+    if error := describe_alternation(owners):
         raise ParameterError(error)
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
     notes: list[Note | str] = []
@@ -335,12 +345,13 @@ def _compare_clocks(
     overlap = min(stops) - max(clock.times[0] for clock in clocks)
     # Dates have one origin; times that count from any other must overlap for long.
     dates = all(clock.shows_dates for clock in clocks)
-    if overlap > (0.0 if dates else 0.5 * min(each.duration for each in signals)):
+    enough = 0.0 if dates else 0.5 * min(each.duration for each in signals)
+    if overlap > enough or (dates and overlap < -_ZONES_S):
         return clocks, []
-    remark = (
-        "the sensors have no common clock: assumed to begin together (kineme.join_signals takes "
-        "their offsets)"
-    )
+    reason = "the sensors have no common clock"
+    if dates:
+        reason = f"the recordings do not overlap ({-overlap:.5g} s apart)"
+    remark = f"{reason}: assumed to begin together (kineme.join_signals takes their offsets)"
     return [clock.make_relative() for clock in clocks], [Note(remark, "warning")]
 
 

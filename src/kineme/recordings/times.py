@@ -19,11 +19,11 @@ first of the two. A time within a pause maps to the end of the pause.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,6 +31,8 @@ from numpy.typing import ArrayLike
 from kineme._util.arrays import Floats
 from kineme._util.checks import is_number
 from kineme.errors import ParameterError
+
+T = TypeVar("T")
 
 UNITS_OF_TIME = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "μs": 1e6, "ns": 1e9}
 """Units of time, and how many of each make a second."""
@@ -87,14 +89,15 @@ def is_rate(column: str) -> bool:
 
 
 def find_date_columns(names: Sequence[str], cells: Sequence[str]) -> list[int]:
-    """Return the columns of a text table that hold dates, judging by their first cells.
-
-    If no name is that of times, return the first column with a time of day.
-    """
+    """Return the columns of a text table that hold dates, judging by their first cells."""
     dates = [i for i, (_, cell) in enumerate(zip(names, cells, strict=False)) if is_date(cell)]
-    if any(map(is_timing, names)):
-        return [i for i in dates if is_time(names[i])]
-    return [i for i in dates if ":" in cells[i]][:1]
+    times_of_day = [i for i in dates if ":" in cells[i]]
+    return [i for i in dates if is_time(names[i])] or find_unnamed_clock(names, times_of_day)
+
+
+def find_unnamed_clock(names: Iterable[str], dates: list[T]) -> list[T]:
+    """Return the first column of dates if no name is that of times or rates, else none."""
+    return [] if any(map(is_timing, names)) else dates[:1]
 
 
 def append_unit(name: str, unit: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,8 +18,8 @@ from kineme.formats.channels.reading import (
 )
 from kineme.formats.delimited import make_unique_names
 from kineme.formats.files import FileContent
-from kineme.recordings.column_names import describe_alternation, is_channel_name, is_owner
-from kineme.recordings.times import is_timing
+from kineme.recordings.column_names import describe_alternation, is_owner
+from kineme.recordings.times import find_unnamed_clock, is_timing
 
 
 def open_parquet(content: FileContent) -> Any:
@@ -80,8 +80,7 @@ def read_parquet_channels(
         name for name in names if name in times or any(is_kind(types[name]) for is_kind in numbers)
     ]
     columns = select_columns(content, names, columns, numeric, times)
-    measured = [name for name in numeric if name not in times and is_channel_name(name)]
-    refuse_interleaved(content, file, columns or measured)
+    refuse_interleaved(content, file, columns or ())
     chosen = list_needed_columns(columns, numeric, times)
     try:
         stored = [file.schema_arrow.names[names.index(name)] for name in chosen]
@@ -97,10 +96,7 @@ def read_parquet_channels(
 
 
 def find_parquet_times(file: Any) -> dict[str, str]:
-    """Return columns of times or rates, and the names that `find_table_timing` knows.
-
-    If no name is that of times, the only column of dates is the clock, as an index of pandas.
-    """
+    """Return columns of times or rates, and the names that `find_table_timing` knows."""
     from pyarrow import types
 
     dates = (types.is_timestamp, types.is_duration)
@@ -112,15 +108,16 @@ def find_parquet_times(file: Any) -> dict[str, str]:
         if is_timing(name) and any(is_kind(field.type) for is_kind in named)
     }
     clocks = [name for name, field in fields if any(is_kind(field.type) for is_kind in dates)]
-    return times or ({clocks[0]: "time"} if len(clocks) == 1 else {})
+    # An index of pandas is a column of dates without such a name.
+    return times | dict.fromkeys(find_unnamed_clock(times, clocks), "time")
 
 
-def refuse_interleaved(content: FileContent, file: Any, channels: Sequence[str]) -> None:
+def refuse_interleaved(content: FileContent, file: Any, requested: Collection[str] = ()) -> None:
     """Raise ReadError if rows of several people or devices alternate."""
     owners = [name for name in file.schema_arrow.names if is_owner(name)]
     table = read_parquet_columns(content, file, owners)
     cells = zip(owners, (column.to_pylist() for column in table.columns), strict=True)
-    if error := describe_alternation(dict(cells), channels):
+    if error := describe_alternation(dict(cells), requested):
         raise content.error(error)
 
 

@@ -29,7 +29,7 @@ from kineme.formats.delimited import NAMELESS, DelimitedText
 from kineme.formats.files import RATE_ROUNDING, FileContent
 from kineme.formats.sniffing import find_table_timing
 from kineme.recordings import Signals
-from kineme.recordings.column_names import is_channel_name
+from kineme.recordings.column_names import select_channels
 from kineme.recordings.regular import Timing, fill_gaps_in_channels
 from kineme.recordings.times import NO_TIMES, name_clock
 
@@ -80,9 +80,9 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
 def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
     """Return the named channels of a text table in this order, or all columns of numbers."""
     text = text.number_columns()
-    text.refuse_interleaved(columns)
     names, numeric, times = list(text.names), text.find_numeric_columns(), text.times
     columns = select_columns(text.content, names, columns, numeric, times)
+    text.refuse_interleaved(columns or ())
     chosen = list_needed_columns(columns, numeric, times or list(filter(name_clock, numeric)))
     places = {name: i for i, name in enumerate(names)}
     values = text.numbers([places[name] for name in chosen])
@@ -174,9 +174,7 @@ def make_channel_table(
         chosen, notes = list(columns), []
     else:
         chosen = [name for name in values if name not in times]
-        # If no name is that of a channel, as in a file of heart rates, keep all columns.
-        chosen = [*filter(is_channel_name, chosen)] or chosen
-        chosen = [name for name in chosen if not name.startswith(NAMELESS)]
+        chosen = [name for name in select_channels(chosen) if not name.startswith(NAMELESS)]
         chosen = [name for name in chosen if np.isfinite(values[name]).any()] or chosen
         rising = {name: None for name in chosen if _is_clock(values[name])}
         if len(rising) < len(chosen):
