@@ -22,6 +22,7 @@ import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, replace
+from itertools import product
 from pathlib import Path
 from typing import Any, Literal
 
@@ -63,7 +64,7 @@ ALIASES = {
     "label": ("label", "name", "activity"),
     "recording": ("recording", "file", "filename", "file_name"),  # a trial may be a number
 }
-"""Usual names of columns, see `rename_columns`."""
+"""Usual names of columns, preferred ones first, see `rename_columns`."""
 OTHER_TABLES = (
     {"level", "start_frame"},  # segment tables and manifests of clips
     {"file", "start", "stop"},  # clip lists, which count frames
@@ -144,22 +145,24 @@ def rename_columns(names: Collection[str]) -> list[str]:
 
     Examples
     --------
-    >>> rename_columns(["File", "Start Time", "end (ms)", "label", "activity"])
-    ['recording', 'start_s', 'stop_ms', 'label', 'activity']
+    >>> rename_columns(["File", "Start Time", "end (ms)", "activity", "Label"])
+    ['recording', 'start_s', 'stop_ms', 'activity', 'label']
     """
     renamed = list(names)
     if any(needed <= set(names) for needed in OTHER_TABLES):
         return renamed
     has_span = any(set(pair) <= set(names) for pair in SPANS)
-    for i, name in enumerate(names):
+    found = []  # rank of the alias, position and new name
+    for (i, name), (column, aliases) in product(enumerate(names), ALIASES.items()):
         plain = re.sub(r"[\W_]+", "_", name.lower()).strip("_")
         base, _, unit = plain.rpartition("_")
         if unit not in ("s", "ms", "frame"):
             base, unit = plain, "s"
-        column = next((known for known, aliases in ALIASES.items() if base in aliases), "")
-        if column in ("start", "stop", "duration"):
-            column = "" if has_span else f"{column}_{unit}"
-        if column and column not in renamed:
+        is_time = column in ("start", "stop", "duration")
+        if base in aliases and not (is_time and has_span):
+            found.append((aliases.index(base), i, f"{column}_{unit}" if is_time else column))
+    for _, i, column in sorted(found):
+        if column not in renamed:
             renamed[i] = column
     return renamed
 
