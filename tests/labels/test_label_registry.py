@@ -76,6 +76,22 @@ def test_columns_of_intervals_have_usual_names(tmp_path: Path, text: str) -> Non
     assert found.activities.stop_frame.tolist() == [20, 25, 40]
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("bids.tsv", "# by Ann, 2026\nonset\tduration\ttrial_type\n0\t1.5\twalk\n"),
+        ("boris.csv", "Observation id\tx\n\nTime,Behavior,Status\n0,walk,START\n1.5,walk,STOP\n"),
+        ("intervals.csv", "by Ann, 2026\nstart_s;stop_s;label\n0;1,5;walk\n"),
+    ],
+)
+def test_lines_above_the_header_may_have_another_separator(
+    tmp_path: Path, name: str, text: str
+) -> None:
+    (tmp_path / name).write_text(text)
+    found = read_segments(tmp_path / name, fps=10)
+    assert (found.activities.label.tolist(), found.n_frames) == (["walk"], 15)
+
+
 @pytest.mark.parametrize("column", ["recording", "File"])
 def test_recordings_in_a_table_are_matched_without_case_unless_ambiguous(
     tmp_path: Path, column: str

@@ -22,7 +22,7 @@ import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, replace
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
 from typing import Any, Literal
 
@@ -177,15 +177,10 @@ def read_intervals(path: Path) -> dict[str, Labels]:
     first, second = SPANS[0]
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
-        comma = find_separator(file.readline())
-        file.seek(0)
         headers = [(*names, "label") for names in SPANS]
-        for line, row in read_rows(file, path, headers, rename_columns):
+        for line, row in read_rows(file, path, headers, rename_columns, numbers={*chain(*SPANS)}):
             first, second = next(names for names in SPANS if set(names) <= set(row))
-            start, stop = (
-                _parse_time(row[name], name, path, line, commas=comma != ",")
-                for name in (first, second)
-            )
+            start, stop = (_parse_time(row[name], name, path, line) for name in (first, second))
             stop += start if second.startswith("duration") else 0.0
             count = _parse_count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
@@ -196,14 +191,14 @@ def read_intervals(path: Path) -> dict[str, Labels]:
     return {recording: Labels(some, unit) for recording, some in spans.items()}
 
 
-def _parse_time(cell: str, name: str, path: Path, line: int, *, commas: bool) -> float:
+def _parse_time(cell: str, name: str, path: Path, line: int) -> float:
     """Return a time in frames or seconds.
 
     It may also be a date (seconds since 1970) or a time of day (since midnight).
     """
     if not name.endswith("frame") and is_date(cell.strip()):
         return parse_date(cell.strip())
-    value = parse_number(replace_decimal_comma(cell) if commas else cell, name, path, line)
+    value = parse_number(cell, name, path, line)
     return value / 1000 if name.endswith("_ms") else value
 
 
