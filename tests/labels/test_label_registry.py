@@ -97,11 +97,22 @@ def test_recordings_in_a_table_are_matched_without_case_unless_ambiguous(
     tmp_path: Path, column: str
 ) -> None:
     path = tmp_path / "labels.csv"
-    path.write_text(f"{column},start_s,stop_s,label\nTAKE,0,2,walk\nRun.bvh,0,2,a\nrun,0,2,b\n")
-    recordings = [Path("take.bvh"), Path("RUN.bvh")]
+    rows = "TAKE,0,2,walk\nRun.bvh,0,2,a\nrun,0,2,b\nD:\\data\\Jump.bvh,0,2,c\nSESSION,0,2,d\n"
+    path.write_text(f"{column},start_s,stop_s,label\n{rows}")
+    recordings = [Path("take.bvh"), Path("RUN.bvh"), Path("jump.bvh"), Path("session")]
     found, unmatched = find_labels_and_unmatched(recordings, path)
-    assert (list(found), unmatched) == ([Path("take.bvh")], ["Run.bvh", "run"])
+    assert (list(found), unmatched) == ([*recordings[:1], *recordings[2:]], ["Run.bvh", "run"])
     assert read_labels(recordings[0], path, n_frames=20, fps=10).activities.label[0] == "walk"
+
+
+def test_a_column_with_the_video_of_a_recording_is_ignored(tmp_path: Path) -> None:
+    path = tmp_path / "labels.csv"
+    path.write_text("start_s,stop_s,label,file\n0,1.1,stride,cam1.mp4\n")
+    found = read_labels(Path("walk.bvh"), path, n_frames=20, fps=10)
+    assert found.activities.label[0] == "stride"
+    path.write_text("start_s,stop_s,label,recording\n0,1.1,stride,run\n")
+    with pytest.raises(ReadError, match="no labels of 'walk', but of 'run'"):
+        read_labels(Path("walk.bvh"), path, n_frames=20, fps=10)
 
 
 def test_levels_kinds_and_clusters_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None:

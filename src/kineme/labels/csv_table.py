@@ -26,7 +26,7 @@ from itertools import chain, product
 from pathlib import Path
 from typing import Any, Literal
 
-from kineme._util.files import atomic_write
+from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ReadError
 from kineme.formats.delimited import from_text, replace_decimal_comma
 from kineme.labels.delimited import (
@@ -168,8 +168,16 @@ def rename_columns(names: Collection[str]) -> list[str]:
 
 
 def lists_recordings(path: Path) -> bool:
-    """Return whether a table of intervals has a column with the names of recordings."""
-    return "recording" in rename_columns(read_columns(path))
+    """Return whether a table has a column ``recording``, or lists several in one named otherwise.
+
+    A single name in a column such as ``file`` may be that of a video of the recording.
+    """
+    columns = read_columns(path)
+    has_other_name = "recording" in rename_columns(columns) and "recording" not in columns
+    if not (has_other_name and _recognises(path)):
+        return "recording" in columns
+    with translate_read_errors(path):
+        return len(read_intervals(path)) > 1
 
 
 def read_intervals(path: Path) -> dict[str, Labels]:
