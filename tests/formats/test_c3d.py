@@ -16,6 +16,7 @@ from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
 from kineme.formats.files import FileContent, load
 from kineme.formats.markers.c3d_file import parse_c3d
+from kineme.formats.options import choose_person
 from kineme.labels.c3d_events import write_events
 from kineme.studio.loading import LoadedRecording, RecordingCache
 from kineme.studio.storage.sidecars import ListedRecording
@@ -142,6 +143,9 @@ def test_two_subjects(tmp_path: Path) -> None:
         assert kineme.read(tmp_path / "take.c3d", person=person).provenance.person == "Bob"
     with pytest.raises(SeveralPeopleError, match="no person 'Eve': choose from Ann, Bob"):
         kineme.read(tmp_path / "take.c3d", person="Eve")
+    assert choose_person("take.c3d", ["Ann", "ANN"], "Ann") == "Ann"
+    with pytest.raises(SeveralPeopleError, match="no person 'ann': choose from Ann, ANN"):
+        choose_person("take.c3d", ["Ann", "ANN"], "ann")
 
 
 def test_events_of_two_subjects_stay_apart(tmp_path: Path) -> None:

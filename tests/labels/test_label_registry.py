@@ -63,6 +63,7 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
         "Start Time,End Time,Activity\n0,2,walk\n2.5,4,jump\n",
         "onset;duration;label\n0;2,0;walk\n2,5;1,5;jump\n",
         "name\tbegin (ms)\tend (ms)\nwalk\t0\t2000\njump\t2500\t4000\n",
+        "Name,Start,End,Label\nAnn,0,2,walk\nAnn,2.5,4,jump\n",
         "label,start,end,start_frame,stop_frame\nwalk,,,0,20\njump,,,25,40\n",
     ],
 )
@@ -75,16 +76,43 @@ def test_columns_of_intervals_have_usual_names(tmp_path: Path, text: str) -> Non
     assert found.activities.stop_frame.tolist() == [20, 25, 40]
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("bids.tsv", "# by Ann, 2026\nonset\tduration\ttrial_type\n0\t1.5\twalk\n"),
+        ("boris.csv", "Observation id\tx\n\nTime,Behavior,Status\n0,walk,START\n1.5,walk,STOP\n"),
+        ("intervals.csv", "by Ann, 2026\nstart_s;stop_s;label\n0;1,5;walk\n"),
+    ],
+)
+def test_lines_above_the_header_may_have_another_separator(
+    tmp_path: Path, name: str, text: str
+) -> None:
+    (tmp_path / name).write_text(text)
+    found = read_segments(tmp_path / name, fps=10)
+    assert (found.activities.label.tolist(), found.n_frames) == (["walk"], 15)
+
+
 @pytest.mark.parametrize("column", ["recording", "File"])
 def test_recordings_in_a_table_are_matched_without_case_unless_ambiguous(
     tmp_path: Path, column: str
 ) -> None:
     path = tmp_path / "labels.csv"
-    path.write_text(f"{column},start_s,stop_s,label\nTAKE,0,2,walk\nRun.bvh,0,2,a\nrun,0,2,b\n")
-    recordings = [Path("take.bvh"), Path("RUN.bvh")]
+    rows = "TAKE,0,2,walk\nRun.bvh,0,2,a\nrun,0,2,b\nD:\\data\\Jump.bvh,0,2,c\nSESSION,0,2,d\n"
+    path.write_text(f"{column},start_s,stop_s,label\n{rows}")
+    recordings = [Path("take.bvh"), Path("RUN.bvh"), Path("jump.bvh"), Path("session")]
     found, unmatched = find_labels_and_unmatched(recordings, path)
-    assert (list(found), unmatched) == ([Path("take.bvh")], ["Run.bvh", "run"])
+    assert (list(found), unmatched) == ([*recordings[:1], *recordings[2:]], ["Run.bvh", "run"])
     assert read_labels(recordings[0], path, n_frames=20, fps=10).activities.label[0] == "walk"
+
+
+def test_a_column_with_the_video_of_a_recording_is_ignored(tmp_path: Path) -> None:
+    path = tmp_path / "labels.csv"
+    path.write_text("start_s,stop_s,label,file\n0,1.1,stride,cam1.mp4\n")
+    found = read_labels(Path("walk.bvh"), path, n_frames=20, fps=10)
+    assert found.activities.label[0] == "stride"
+    path.write_text("start_s,stop_s,label,recording\n0,1.1,stride,run\n")
+    with pytest.raises(ReadError, match="no labels of 'walk', but of 'run'"):
+        read_labels(Path("walk.bvh"), path, n_frames=20, fps=10)
 
 
 def test_levels_kinds_and_clusters_of_a_table_of_seconds_are_kept(tmp_path: Path) -> None:

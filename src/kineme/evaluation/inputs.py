@@ -64,14 +64,15 @@ def read_truth(path: Path, found: Segmentation, *, fps: float | None = None) -> 
     label_format, content = read_content(path)
     try:
         if isinstance(content, Labels):
-            counted = found.fps if content.unit == "seconds" else content.fps or fps or found.fps
+            counted = content.fps or fps or found.fps
             length_s = found.n_frames / found.fps
             content = convert_clock_times(content, found.clock, length_s=length_s)
+            content = replace(content, fps=counted)
             # Without a length, labels extend to the end of the recording.
             if content.length is None:
                 length = length_s if content.unit == "seconds" else round(length_s * counted)
                 content = replace(content, length=length)
-            content, unusual = as_segmentation(content, path, label_format.name, fps=counted)
+            content, unusual = as_segmentation(content, path, label_format.name, fps=found.fps)
             if unusual:
                 warnings.warn(f"{path}: {'; '.join(unusual)}", KinemeWarning, stacklevel=2)
         check_length(content.n_frames, content.fps, found.n_frames, found.fps)

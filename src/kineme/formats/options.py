@@ -80,16 +80,17 @@ def choose_person(
 ) -> str:
     """Return the requested person, or the only one; raise SeveralPeopleError if neither exists.
 
-    A name may differ in case. Where no name is a number, numbers count people from 0. ``shown`` are
-    the people as listed in the message, ``what`` is the noun for them.
+    The case of a name does not matter if it is unique without. Where no name is a number, numbers
+    count people from 0. ``shown`` are the people as listed in the message, ``what`` is the noun.
     """
-    if person is None and len(people) == 1:
-        return next(iter(people))
-    keys = {name.casefold(): name for name in people} | {name: name for name in people}
+    keys = {name: name for name in people}
     if not any(map(str.isdecimal, people)):
         keys |= {str(number): name for number, name in enumerate(people)}
-    if person is not None and (name := keys.get(person, keys.get(person.casefold()))) is not None:
-        return name
+    if person in keys:
+        return keys[person]
+    alike = [name for name in people if person is None or name.casefold() == person.casefold()]
+    if len(alike) == 1:
+        return alike[0]
     question = (
         f"{len(people)} {what} are in it: choose one with person= (--person):"
         if person is None

@@ -18,7 +18,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import ceil
 from os import PathLike
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
 from kineme._util.checks import format_count
@@ -90,15 +90,17 @@ def find_labels_and_unmatched(
     files, folder = list(recordings), Path(labels)
     sources = _find_in_folder(folder) if folder.is_dir() else _read_table(folder)
     present = {name for path in files for name in (path.name, path.stem)}
+    are_unique = len({path.name for path in files}) == len(files)
     by_case: defaultdict[str, list[LabelSource]] = defaultdict(list)
     for name, source in sources.items():
         if name not in present:
-            by_case[name.casefold()].append(source)
+            by_case[(PureWindowsPath(name).name if are_unique else name).casefold()].append(source)
     found: dict[Path, LabelSource] = {}
     for path in files:
-        # Tables may name a recording with or without its suffix, or in another case.
+        # Tables may name a recording with or without folder and suffix, or in another case.
         exact = sources.get(path.name) or sources.get(path.stem)
-        alike = by_case[path.name.casefold()] + by_case[path.stem.casefold()]
+        keys = {path.name.casefold(), path.stem.casefold()}  # one if there is no suffix
+        alike = [source for key in keys for source in by_case[key]]
         if exact or len(alike) == 1:
             found[path] = exact or alike[0]
     if not found:

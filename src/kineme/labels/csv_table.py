@@ -22,10 +22,11 @@ import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, replace
+from itertools import chain, product
 from pathlib import Path
 from typing import Any, Literal
 
-from kineme._util.files import atomic_write
+from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ReadError
 from kineme.formats.delimited import from_text, replace_decimal_comma
 from kineme.labels.delimited import (
@@ -63,7 +64,7 @@ ALIASES = {
     "label": ("label", "name", "activity"),
     "recording": ("recording", "file", "filename", "file_name"),  # a trial may be a number
 }
-"""Usual names of columns, see `rename_columns`."""
+"""Usual names of columns, preferred ones first, see `rename_columns`."""
 OTHER_TABLES = (
     {"level", "start_frame"},  # segment tables and manifests of clips
     {"file", "start", "stop"},  # clip lists, which count frames
@@ -144,29 +145,39 @@ def rename_columns(names: Collection[str]) -> list[str]:
 
     Examples
     --------
-    >>> rename_columns(["File", "Start Time", "end (ms)", "label", "activity"])
-    ['recording', 'start_s', 'stop_ms', 'label', 'activity']
+    >>> rename_columns(["File", "Start Time", "end (ms)", "activity", "Label"])
+    ['recording', 'start_s', 'stop_ms', 'activity', 'label']
     """
     renamed = list(names)
     if any(needed <= set(names) for needed in OTHER_TABLES):
         return renamed
     has_span = any(set(pair) <= set(names) for pair in SPANS)
-    for i, name in enumerate(names):
+    found = []  # rank of the alias, position and new name
+    for (i, name), (column, aliases) in product(enumerate(names), ALIASES.items()):
         plain = re.sub(r"[\W_]+", "_", name.lower()).strip("_")
         base, _, unit = plain.rpartition("_")
         if unit not in ("s", "ms", "frame"):
             base, unit = plain, "s"
-        column = next((known for known, aliases in ALIASES.items() if base in aliases), "")
-        if column in ("start", "stop", "duration"):
-            column = "" if has_span else f"{column}_{unit}"
-        if column and column not in renamed:
+        is_time = column in ("start", "stop", "duration")
+        if base in aliases and not (is_time and has_span):
+            found.append((aliases.index(base), i, f"{column}_{unit}" if is_time else column))
+    for _, i, column in sorted(found):
+        if column not in renamed:
             renamed[i] = column
     return renamed
 
 
 def lists_recordings(path: Path) -> bool:
-    """Return whether a table of intervals has a column with the names of recordings."""
-    return "recording" in rename_columns(read_columns(path))
+    """Return whether a table has a column ``recording``, or lists several in one named otherwise.
+
+    A single name in a column such as ``file`` may be that of a video of the recording.
+    """
+    columns = read_columns(path)
+    has_other_name = "recording" in rename_columns(columns) and "recording" not in columns
+    if not (has_other_name and _recognises(path)):
+        return "recording" in columns
+    with translate_read_errors(path):
+        return len(read_intervals(path)) > 1
 
 
 def read_intervals(path: Path) -> dict[str, Labels]:
@@ -174,15 +185,10 @@ def read_intervals(path: Path) -> dict[str, Labels]:
     first, second = SPANS[0]
     spans: dict[str, list[Span]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
-        comma = find_separator(file.readline())
-        file.seek(0)
         headers = [(*names, "label") for names in SPANS]
-        for line, row in read_rows(file, path, headers, rename_columns):
+        for line, row in read_rows(file, path, headers, rename_columns, numbers={*chain(*SPANS)}):
             first, second = next(names for names in SPANS if set(names) <= set(row))
-            start, stop = (
-                _parse_time(row[name], name, path, line, commas=comma != ",")
-                for name in (first, second)
-            )
+            start, stop = (_parse_time(row[name], name, path, line) for name in (first, second))
             stop += start if second.startswith("duration") else 0.0
             count = _parse_count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
@@ -193,14 +199,14 @@ def read_intervals(path: Path) -> dict[str, Labels]:
     return {recording: Labels(some, unit) for recording, some in spans.items()}
 
 
-def _parse_time(cell: str, name: str, path: Path, line: int, *, commas: bool) -> float:
+def _parse_time(cell: str, name: str, path: Path, line: int) -> float:
     """Return a time in frames or seconds.
 
     It may also be a date (seconds since 1970) or a time of day (since midnight).
     """
     if not name.endswith("frame") and is_date(cell.strip()):
         return parse_date(cell.strip())
-    value = parse_number(replace_decimal_comma(cell) if commas else cell, name, path, line)
+    value = parse_number(cell, name, path, line)
     return value / 1000 if name.endswith("_ms") else value
 
 

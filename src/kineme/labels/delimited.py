@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import math
 from codecs import BOM_UTF8
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from hashlib import sha256
 from itertools import chain
@@ -20,7 +20,7 @@ from typing import Any, TextIO
 
 from kineme._util.files import atomic_write, read_head, read_tail
 from kineme.errors import ReadError
-from kineme.formats.delimited import as_text, from_text
+from kineme.formats.delimited import as_text, from_text, replace_decimal_comma
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -35,30 +35,37 @@ def read_rows(
     path: Path,
     header: Sequence[Sequence[str]],
     rename: Callable[[Sequence[str]], list[str]] = list,
+    *,
+    numbers: Collection[str] = (),
 ) -> Iterator[tuple[int, dict[str, str]]]:
     """Yield line number and cells by column name of each row below the header.
 
     The header is the first row that contains all names of one of the sets in ``header``; lines
-    above it are skipped. Names are compared after ``rename``. Missing cells are empty.
+    above it are skipped. Names are compared after ``rename``. Missing cells are empty. ``numbers``
+    are columns that may have decimal commas, unless commas separate the cells.
     """
-    separator = find_separator(file.readline())
-    file.seek(0)
-    rows = csv.reader(file, delimiter=separator, strict=True)
-    names: list[str] = []
+    above = 0
     try:
-        for cells in rows:
-            if names and any(cells):
-                # Rows may be shorter or longer than the header.
-                texts = dict(zip(names, map(from_text, cells), strict=False))
-                yield rows.line_num, dict.fromkeys(names, "") | texts
-            elif not names:
-                renamed = rename(cells)
-                names = renamed if any(set(needed) <= set(renamed) for needed in header) else []
+        for line in file:
+            # Lines above the header may have other separators.
+            separator = find_separator(line)
+            rows = csv.reader(chain([line], file), delimiter=separator, strict=True)
+            names = rename(next(rows))
+            if any(set(needed) <= set(names) for needed in header):
+                break
+            above += rows.line_num
+        else:
+            needed = " or ".join(", ".join(map(repr, names)) for names in header[:2])
+            raise ReadError(path, f"has no header line with the columns {needed}")
+        with_comma = set() if separator == "," else {*numbers}
+        for cells in filter(any, rows):
+            # Rows may be shorter or longer than the header.
+            row = dict.fromkeys(names, "") | dict(zip(names, map(from_text, cells), strict=False))
+            row |= {name: replace_decimal_comma(row[name]) for name in with_comma & row.keys()}
+            yield above + rows.line_num, row
     except csv.Error as error:
-        raise ReadError(path, f"is not a valid table: {error}", line=rows.line_num) from error
-    if not names:
-        needed = " or ".join(", ".join(map(repr, names)) for names in header[:2])
-        raise ReadError(path, f"has no header line with the columns {needed}")
+        line_number = above + rows.line_num
+        raise ReadError(path, f"is not a valid table: {error}", line=line_number) from error
 
 
 def write_rows(
