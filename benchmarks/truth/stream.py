@@ -137,9 +137,11 @@ def kill_takes(n_kills: int) -> None:
                 [*command, "--record", str(Path(folder) / "take")], stdin=subprocess.PIPE, bufsize=0
             ) as process:
                 process.stdin.write(f"{','.join(watch.names)}\n".encode())
+                # The first row tells which columns are channels.
+                np.savetxt(process.stdin, watch.values[:1], delimiter=",")
                 while process.poll() is None and not journal.exists():
                     time.sleep(0.01)
-                begun, sent, until = time.monotonic(), 0, chance.uniform(0.5, 6)
+                begun, sent, until = time.monotonic(), 1, chance.uniform(0.5, 6)
                 while time.monotonic() - begun < until:
                     np.savetxt(process.stdin, watch.values[sent : sent + step], delimiter=",")
                     sent += step

@@ -43,7 +43,12 @@ def test_csv_has_the_cycles_with_summary_and_curves_beside(cycles, tmp_path: Pat
 def test_a_csv_shows_no_rounding_errors(tmp_path: Path) -> None:
     frames = np.array([2.32 * 100, 1.32 - 0.18, 2 / 3])
     write_table({"frame": frames}, tmp_path / "c.csv")
-    assert (tmp_path / "c.csv").read_text().split() == ["frame", "232.0", "1.14", "0.666666666667"]
+    assert (tmp_path / "c.csv").read_text().split() == [
+        "frame",
+        "232.0",
+        "1.14",
+        "0.666666666666667",
+    ]
 
 
 def test_parquet_and_data_frames_are_equal(cycles, tmp_path: Path) -> None:
