@@ -32,7 +32,7 @@ def rooted(request, motion: Motion) -> Motion:
 
 
 def add_root_bones(motion: Motion, count: int) -> Motion:
-    """The motion below so many bones that stay at the origin, the first one with z up."""
+    """Return the motion below some bones that stay at the origin, the first one with z up."""
     skeleton, n = motion.skeleton, motion.n_frames
     names = (*(f"root_{k}" for k in range(count)), *skeleton.names)
     parents = (*range(-1, count - 1), *(parent + count for parent in skeleton.parents))

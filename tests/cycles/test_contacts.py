@@ -188,7 +188,7 @@ def test_contacts_of_markers_are_near_those_of_plates(data_dir: Path) -> None:
 
 
 def pick_markers(walk: Motion, **joints: str) -> Motion:
-    """The joints of a walk as markers with these names."""
+    """Return joints of a walk as markers with these names."""
     chosen = [walk.skeleton.joint(joint) for joint in joints.values()]
     offsets = np.zeros((len(joints), 3))
     skeleton = Skeleton(tuple(joints), [-1] * len(joints), offsets)

@@ -187,8 +187,8 @@ class _SegmentedRecording(NamedTuple):
     recording: Motion | Signals
     segments: Segmentation
     analog: list[Signals]
-    are_labels: bool  # borders given by people, which stay
-    are_cycles: bool  # each row given is one, and all count
+    are_labels: bool  # whether people cut the segments, so that borders stay
+    are_cycles: bool  # whether rows of the table became repetitions, so that the ends count
     channels: tuple[str, ...]
 
 
@@ -309,6 +309,7 @@ def _write_results(
     *,
     ends: bool,
 ) -> None:
+    """Write the requested files: the table, the picture, comparisons of sessions and of sides."""
     from kineme.cycles import compare_sides, write_cycles, write_table
 
     if output is not None:

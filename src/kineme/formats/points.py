@@ -201,13 +201,16 @@ def select_subject(
     short = [name.rpartition(":")[2] for name in names]
     bodies = {subject: find_body(short, members) for subject, members in points.items()}
     subjects = [subject for subject, body in bodies.items() if "pelvis" in body]
-    # Without a body, a prefix common to all names is still removed.
-    chosen = next(iter(subjects or points)) if subjects or len(points) == 1 else ""
-    if len(subjects) > 1 and person is not None:
-        chosen = choose_person(path, subjects, person)
-    # Keep markers without a prefix, and props, of which one point may be named like a joint.
-    left_out = {each for each, body in bodies.items() if each not in ("", chosen) and len(body) > 1}
-    left_out = left_out | {*subjects} - {chosen} if subjects else set()
+    left_out: set[str] = set()
+    if subjects:
+        several = len(subjects) > 1 and person is not None
+        chosen = choose_person(path, subjects, person) if several else subjects[0]
+        # Keep markers without a prefix, and props, of which one point may be named like a joint.
+        left_out = {each for each, body in bodies.items() if each and len(body) > 1}
+        left_out = (left_out | {*subjects}) - {chosen}
+    else:
+        # Without a body, a prefix common to all names is still removed.
+        chosen = next(iter(points)) if len(points) == 1 else ""
     own_points = {
         i: short[i] if subject == chosen else names[i]
         for subject, members in points.items()

@@ -13,13 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import ceil, floor, log10, remainder
+from math import ceil, floor, log10
 
 import numpy as np
 
 from kineme._util.arrays import Floats, Masks
 from kineme.recordings.regular import LONGEST_S, UNEVEN, Timing
-from kineme.recordings.times import UNITS_OF_TIME, is_unix_time
+from kineme.recordings.times import UNITS_OF_TIME, is_near_full_hour, is_unix_time
 
 BLOCK_S = 0.1
 """Seconds of frames that are made at once."""
@@ -220,7 +220,7 @@ class Intake:
         """Undo a step of the clock if it was set; return whether it was."""
         near = max(LONGEST_S, 3 / self.fps)
         now_s = self.last_s + self.ahead_s + step
-        is_on_the_hour = is_unix_time(now_s) and abs(remainder(now_s, 3600)) <= near
+        is_on_the_hour = is_unix_time(now_s) and is_near_full_hour(now_s, near)
         for shift in SHIFTS_S:
             if abs(step - shift) <= near and (shift < 0 or is_on_the_hour):
                 self._say(pieces, "the clock changes by an hour or a day: corrected")

@@ -28,7 +28,7 @@ from kineme._util.checks import format_count, join_names
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import find_spans, list_spans, mark_spans
 from kineme.recordings.provenance import Note
-from kineme.recordings.times import Clock, is_unix_time
+from kineme.recordings.times import Clock, is_near_full_hour, is_unix_time
 
 LONGEST_S = 0.2
 """Longest hole that is filled, in seconds."""
@@ -216,13 +216,14 @@ def _correct_clock(
         remark = "rows are not in order of time: sorted by their times"
         return shown, None, [Note(remark, "warning")]
 
+    tolerance = max(2 * usual, LONGEST_S)
+
     def near(by: float) -> Masks:
-        return np.asarray(np.abs(steps - by - usual) <= max(2 * usual, LONGEST_S))
+        return np.asarray(np.abs(steps - by - usual) <= tolerance)
 
     notes: list[Note | str] = []
     # A step forward is a pause unless it leads to a full hour of a clock that counts from 1970.
-    from_full_hour = np.abs(shown[1:] - np.rint(shown[1:] / _HOUR) * _HOUR)
-    forward = (from_full_hour <= max(2 * usual, LONGEST_S)) & is_unix_time(shown[0])
+    forward = is_near_full_hour(shown[1:], tolerance) & is_unix_time(shown[0])
     hours = ((near(-_HOUR) & back) | (near(_HOUR) & forward)) & (usual < _HOUR / 10)
     days = near(-_DAY) & back
     if hours.any():

@@ -26,7 +26,7 @@ from itertools import pairwise
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import is_number
@@ -398,3 +398,15 @@ class Clock:
 def is_unix_time(seconds: float) -> bool:
     """Return whether a time in seconds counts from 1970, judging by its size."""
     return bool(_DATES[0] <= seconds < _DATES[1])
+
+
+def is_near_full_hour(seconds: ArrayLike, tolerance: float) -> NDArray[np.bool_]:
+    """Return whether each time is at most so many seconds from a full hour.
+
+    Examples
+    --------
+    >>> is_near_full_hour([7199.9, 7230.0], 0.2).tolist()
+    [True, False]
+    """
+    times = np.asarray(seconds)
+    return np.asarray(np.abs(times - np.rint(times / 3600) * 3600) <= tolerance)

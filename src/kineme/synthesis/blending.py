@@ -201,7 +201,7 @@ def _blend_spans(
     carriers = find_carriers(motions[0].skeleton, still)
     sources = [to_world_axes(motion, still) for motion in motions]
 
-    def place_frames(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
+    def place_span(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
         rotations, shift = (each[start:stop].copy() for each in sources[span.source])
         about_y = rot.rotate_about_y(span.at.angle)
         rotations[:, carriers] = rot.multiply(about_y, rotations[:, carriers])
@@ -209,15 +209,15 @@ def _blend_spans(
         shift[:, carriers] += [span.at.shift.real, 0, span.at.shift.imag]
         return rotations, shift
 
-    placed_spans = [place_frames(span, span.start, span.stop) for span in spans]
+    placed_spans = [place_span(span, span.start, span.stop) for span in spans]
     rotations, translations = (np.concatenate(each) for each in zip(*placed_spans, strict=True))
     for t, (a, b) in zip(find_jump_frames(spans), pairwise(spans), strict=True):
         # Blends of neighbouring jumps must not overlap, and need frames of both recordings.
         room = min(a.stop - a.start, b.stop - b.start) // 2
         n = min(half, room, motions[a.source].n_frames - a.stop, b.start)
         # Extend both spans by n frames across the jump, so that 2 n frames overlap.
-        before, before_shift = place_frames(a, a.stop - n, a.stop + n)
-        after, after_shift = place_frames(b, b.start - n, b.start + n)
+        before, before_shift = place_span(a, a.stop - n, a.stop + n)
+        after, after_shift = place_span(b, b.start - n, b.start + n)
         # Smoothstep weights at the frame centres; the new axes are joints and components.
         w = ((np.arange(2 * n) + 0.5) / max(2 * n, 1))[:, None, None]
         w = w * w * (3 - 2 * w)
