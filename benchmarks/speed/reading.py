@@ -71,9 +71,9 @@ def measure_hour() -> int:
     size, held, spent = map(float, done.stdout.split())
     print(f"an hour of BVH, {text:.0f} MB of text and {size:.2f} GB of positions and rotations")
     print(f"{spent:.1f} s of processor time; GB held {judge(held, MOST_GB)}: {held:.2f}")
-    record("reading.measure_hour.text", round(text), unit="MB")
-    record("reading.measure_hour.arrays", round(size, 2), unit="GB")
-    record("reading.measure_hour.held", round(held, 2), unit="GB")
+    record("reading.hour.text", round(text), unit="MB")
+    record("reading.hour.arrays", round(size, 2), unit="GB")
+    record("reading.hour.held", round(held, 2), unit="GB")
     return int(held > MOST_GB)
 
 

@@ -216,7 +216,7 @@ def measure_costs(**options: float) -> None:
     for name, recording in (("body", body), ("watch", read_watch())):
         each = measure_cost(recording, **options)
         print(f"cost, {name} at {recording.fps:g} Hz: {each:.2f} ms a row", flush=True)
-        record(f"stream.measure_cost.{name}", round(each, 2), unit="ms")
+        record(f"stream.cost.{name}", round(each, 2), unit="ms")
 
 
 if __name__ == "__main__":
