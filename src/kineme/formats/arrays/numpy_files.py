@@ -332,7 +332,7 @@ def find_rate(
     raise content.error(f"no {names[0]!r} in it: give fps= (--fps)")
 
 
-NPZ = Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz)
-
-
-NPY = Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy)
+FORMATS = (
+    Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy),
+    Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz),
+)

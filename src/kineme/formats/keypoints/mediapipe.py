@@ -385,10 +385,12 @@ def _find_column(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
     return next((i for i, name in enumerate(names) if pattern.fullmatch(name.strip())), None)
 
 
-WIDE = Dialect(
-    "MediaPipe",
-    lambda names, _: bool(_find_landmark_columns(names)),
-    read_landmarks,
-    motion=True,
+DIALECTS = (
+    Dialect(
+        "MediaPipe",
+        lambda names, _: bool(_find_landmark_columns(names)),
+        read_landmarks,
+        motion=True,
+    ),
+    Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True),
 )
-LONG = Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True)

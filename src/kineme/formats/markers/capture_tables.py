@@ -257,13 +257,15 @@ def _parse_rate(content: FileContent, table: Capture, requested: float | None) -
     return fps
 
 
-NEXUS = Dialect(
-    "Nexus", is_nexus, partial(read_capture, program="Nexus", look=_parse_nexus), motion=True
+DIALECTS = (
+    Dialect(
+        "Nexus", is_nexus, partial(read_capture, program="Nexus", look=_parse_nexus), motion=True
+    ),
+    Dialect(
+        "Motive",
+        is_motive,
+        partial(read_capture, program="Motive", look=_parse_motive, usual_up="y"),
+        motion=True,
+    ),
+    Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_parse_qtm), motion=True),
 )
-MOTIVE = Dialect(
-    "Motive",
-    is_motive,
-    partial(read_capture, program="Motive", look=_parse_motive, usual_up="y"),
-    motion=True,
-)
-QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_parse_qtm), motion=True)
