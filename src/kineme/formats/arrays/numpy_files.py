@@ -240,14 +240,7 @@ def _restore_motion(
     rotations = _read_numbers(content, arrays, "rotations") if "rotations" in arrays else None
     # Start and stop alternate.
     spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
-    return Motion(
-        skeleton,
-        positions,
-        fps,
-        rotations=rotations,
-        provenance=content.provenance(name, []),
-        gaps=spans,
-    )
+    return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
 
 
 def _read_integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:

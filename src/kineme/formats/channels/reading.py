@@ -188,9 +188,7 @@ def make_channel_table(
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
     channels = np.column_stack([values[name] for name in chosen])
-    return ChannelTable(
-        chosen, channels, timing=timing, rate=None, notes=tuple(notes), hint="".join(hints[:1])
-    )
+    return ChannelTable(chosen, channels, timing, notes=tuple(notes), hint="".join(hints[:1]))
 
 
 def _is_clock(values: Floats) -> bool:

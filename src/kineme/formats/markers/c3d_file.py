@@ -62,11 +62,11 @@ class C3D:
 
 def parse_c3d(content: FileContent) -> C3D:
     """Return the contents of a C3D file; raise ReadError if it is invalid or has no whole frame."""
-    parameters = read_parameters(content)
-    file = Layout(content, parameters, read_header(content, parameters))
+    file = Layout(content)
+    parameters = file.parameters
     # One row per frame: points first, then analog samples.
     raw = file.frames()
-    n = file.n_points
+    n, _ = file.counts
     analog = _scale_analog(file, raw[:, 4 * n :])
     events = _read_events(file)
     return C3D(
@@ -184,37 +184,35 @@ class Header:
     rate: float
 
 
-def read_header(content: FileContent, parameters: Parameters) -> Header:
-    """Return the header; the parameters name the processor whose number formats it uses."""
-    kind = parameters.processor
-    integers = np.frombuffer(content.data, get_number_type(kind, real=False), 12)
-    # Counts above 32767 need unsigned integers.
-    words = integers.view(integers.dtype.str.replace("i", "u")).tolist()
-    # A real takes two words.
-    reals = as_float32(np.frombuffer(content.data, get_number_type(kind, real=True), 6), kind)
-    return Header(  # the specification counts words from 1
-        points=words[1],
-        analog_per_frame=words[2],
-        first_frame=words[3],
-        last_frame=words[4],
-        scale=float(reals[3]),  # words 7 and 8; word 6 is the largest gap to interpolate
-        data_block=words[8],
-        samples_per_frame=words[9],
-        rate=float(reals[5]),  # words 11 and 12
-    )
-
-
 @dataclass(frozen=True)
 class Layout:
     """Positions and counts of the data in a file, see `kineme.formats.markers.c3d_file`."""
 
     content: FileContent
-    parameters: Parameters
-    header: Header
 
     @cached_property
-    def n_points(self) -> int:
-        return self.counts[0]
+    def parameters(self) -> Parameters:
+        return read_parameters(self.content)
+
+    @cached_property
+    def header(self) -> Header:
+        """Fields of the first block, in the number formats of the processor."""
+        data, kind = self.content.data, self.parameters.processor
+        integers = np.frombuffer(data, get_number_type(kind, real=False), 12)
+        # Counts above 32767 need unsigned integers.
+        words = integers.view(integers.dtype.str.replace("i", "u")).tolist()
+        # A real takes two words.
+        reals = as_float32(np.frombuffer(data, get_number_type(kind, real=True), 6), kind)
+        return Header(  # the specification counts words from 1
+            points=words[1],
+            analog_per_frame=words[2],
+            first_frame=words[3],
+            last_frame=words[4],
+            scale=float(reals[3]),  # words 7 and 8; word 6 is the largest gap to interpolate
+            data_block=words[8],
+            samples_per_frame=words[9],
+            rate=float(reals[5]),  # words 11 and 12
+        )
 
     @cached_property
     def counts(self) -> tuple[int, int]:
@@ -285,7 +283,8 @@ class Layout:
     def frames(self) -> Stored:
         """Return the stored data section (frames, numbers)."""
         start, kind = self.start, self._kind
-        width = 4 * self.n_points + self.counts[1]
+        n_points, per_frame = self.counts
+        width = 4 * n_points + per_frame
         if width == 0:
             raise self.content.error("the header states no position of the data, or no points")
         available = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
@@ -293,9 +292,8 @@ class Layout:
         # Use the largest declared count that fits, else all complete frames.
         n = max((frames for frames in declared if 0 < frames <= available), default=available)
         if n == 0:
-            raise self.content.error(
-                f"less than one frame of {self.n_points} points: the file is truncated"
-            )
+            reason = f"less than one frame of {n_points} points: the file is truncated"
+            raise self.content.error(reason)
         if n not in declared:
             self.content.warn(f"{max(declared)} frames declared, {n} found and kept")
         raw = np.frombuffer(self.content.data, kind, n * width, start).reshape(n, width)
