@@ -1,4 +1,4 @@
-"""Tables of Vicon's Nexus and OptiTrack's Motive, valid and invalid."""
+"""Tables of Vicon's Nexus, OptiTrack's Motive and Qualisys' QTM, valid and invalid."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import PLUG_IN_GAIT, make_walk
+from marker_samples import PLUG_IN_GAIT, make_walk, to_millimetres
 
 import kineme
 from kineme.errors import ReadError
@@ -23,7 +23,7 @@ def to_nexus(before: str = "", names: list[str] | None = None) -> str:
     """Millimetres, z up, frames from 101 on."""
     given = names or [f"Ann:{name}" for name in PLUG_IN_GAIT]
     head = f"{before}Trajectories\n100\n,,{',,,'.join(given)},,\nFrame,Sub Frame,{AXES}\n"
-    millimetres = (1000 * POINTS[..., [0, 2, 1]] * [1, -1, 1]).reshape(len(POINTS), -1)
+    millimetres = to_millimetres(POINTS).reshape(len(POINTS), -1)
     rows = [join_cells(101 + i, 0, *map(repr, line)) for i, line in enumerate(millimetres.tolist())]
     return head + join_cells("", "", *["mm"] * POINTS[0].size) + "".join(rows)
 
@@ -49,6 +49,24 @@ def to_motive(kinds: list[str] | None = None, *, told: bool = True) -> str:
     )
 
 
+def to_qtm(points: np.ndarray = POINTS, *, titled: bool) -> str:
+    """Millimetres, z up; ``titled`` adds a line of names, and columns of frame and time."""
+    head = [
+        f"NO_OF_FRAMES\t{len(points)}",
+        f"NO_OF_CAMERAS\t8\nNO_OF_MARKERS\t{len(PLUG_IN_GAIT)}\nFREQUENCY\t100\nDESCRIPTION\t--",
+        "TIME_STAMP\t2026-03-04, 10:20:33.123\t432.1\nDATA_INCLUDED\t3D",
+        "EVENT\tstart\t10\t0.1\nEVENT\tstop\t20\t0.2",
+        "\t".join(["MARKER_NAMES", *PLUG_IN_GAIT]),
+    ]
+    names = [f"{name} {axis}" for name in PLUG_IN_GAIT for axis in "XYZ"]
+    head += ["\t".join(["Frame", "Time", *names])] * titled
+    lines = [
+        "\t".join(map(str, [*([i + 1, i / 100] * titled), *frame.ravel().tolist()]))
+        for i, frame in enumerate(to_millimetres(points))
+    ]
+    return "\n".join([*head, *lines, ""])
+
+
 def read(folder: Path, text: str, **options: object) -> kineme.Motion:
     (folder / "a.csv").write_text(text, encoding="utf-8")
     return kineme.read(folder / "a.csv", **options)
@@ -63,8 +81,10 @@ def read(folder: Path, text: str, **options: object) -> kineme.Motion:
         (to_motive(), 120, "Motive"),
         (to_motive(told=False), 120, "Motive"),
         (to_motive(["Bone"] * len(PLUG_IN_GAIT)), 120, "Motive"),
+        (to_qtm(titled=False), 100, "QTM"),
+        (to_qtm(titled=True), 100, "QTM"),
     ],
-    ids=["nexus", "devices", "model outputs", "motive", "older motive", "bones"],
+    ids=["nexus", "devices", "model outputs", "motive", "older motive", "bones", "qtm", "titled"],
 )
 def test_markers_under_rows_of_names(tmp_path: Path, text: str, fps: float, program: str) -> None:
     motion = read(tmp_path, text)
@@ -74,6 +94,14 @@ def test_markers_under_rows_of_names(tmp_path: Path, text: str, fps: float, prog
     assert np.allclose(motion.positions[:, at], POINTS, atol=1e-6)
     assert "Wand" not in motion.skeleton.names
     assert motion.joint("left_ankle") >= 0
+
+
+def test_a_marker_of_qtm_at_the_origin_was_not_seen(tmp_path: Path) -> None:
+    points = POINTS.copy()
+    points[10:14, 0] = 0
+    motion = read(tmp_path, to_qtm(points, titled=True))
+    found = motion.positions[:, [motion.joint(name) for name in PLUG_IN_GAIT]]
+    assert np.linalg.norm(found - POINTS, axis=-1).max() < 0.05
 
 
 def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:

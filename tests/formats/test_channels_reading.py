@@ -17,7 +17,6 @@ from scipy.io import savemat
 
 from kineme import Motion, Signals, as_signals, bundled_recording, read
 from kineme.errors import FileError, KinemeWarning, ParameterError, ReadError
-from kineme.formats.channels.writing import write_signals
 from kineme.formats.dialects import hold_channels
 
 
@@ -25,44 +24,6 @@ def write(folder: Path, name: str, text: str) -> Path:
     path = folder / name
     path.write_text(text, encoding="utf-8")
     return path
-
-
-SPREADSHEET = "time;acc_x;acc_y\n" + "".join(f"{i / 50:.2f};{i % 7}.5;-0.25\n" for i in range(9))
-COMMAS = SPREADSHEET.replace(".", ",")
-
-
-@pytest.mark.parametrize(
-    ("text", "encoding", "notes"),
-    [
-        (COMMAS, "utf-8", ["numbers have a decimal comma"]),
-        (COMMAS.replace(";", "\t"), "utf-16", ["numbers have a decimal comma"]),
-        (f"sep=;\r\n{COMMAS}", "utf-8-sig", ["numbers have a decimal comma"]),
-        (
-            "Device;X 5;\nRate;50;\n\n" + SPREADSHEET,
-            "utf-8",
-            ["2 lines above the names skipped"],
-        ),
-        (
-            SPREADSHEET.replace("\n", "\ns;m/s2;m/s2\n", 1),
-            "utf-8",
-            ["line 2 has no numbers and was skipped: s;m/s2;m/s2"],
-        ),
-        (SPREADSHEET.replace("\n", "\n\n"), "utf-8", []),
-    ],
-    ids=["commas", "utf-16", "sep=", "preamble", "units", "blank lines"],
-)
-def test_tables_as_spreadsheets_and_loggers_write_them(tmp_path, text, encoding, notes) -> None:
-    path = tmp_path / "a.csv"
-    path.write_bytes(text.encode(encoding))
-    signals = read(path)
-    assert signals.names == ("acc_x", "acc_y")
-    assert signals.fps == pytest.approx(50)
-    assert signals.values.tolist() == [[i % 7 + 0.5, -0.25] for i in range(9)]
-    assert list(signals.provenance.notes) == notes
-    write_signals(signals[2:6], tmp_path / "clip.csv")
-    assert read(tmp_path / "clip.csv").values.tolist() == signals.values[2:6].tolist()
-    write_signals(signals, tmp_path / "all.tsv", columns=["acc_x"])
-    assert read(tmp_path / "all.tsv").values.tolist() == signals.values[:, :1].tolist()
 
 
 def test_decimal_commas_are_those_of_numbers_alone(tmp_path) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
+from marker_samples import to_c3d
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
@@ -114,17 +114,11 @@ def test_channels_and_rate_of_a_device_are_read_without_options(
     tmp_path: Path, device: str
 ) -> None:
     signals = read(tmp_path, FILES[device])
-    assert signals.fps == FPS
-    assert signals.gaps == ()
+    assert (signals.fps, signals.gaps) == (FPS, ())
     assert np.array_equal(signals.values, VALUES)
-
-
-@pytest.mark.parametrize("device", FILES)
-def test_columns_are_chosen_from_those_that_a_device_has(tmp_path: Path, device: str) -> None:
-    """The rate, the rows and the names are those of reading all of them."""
-    *_, last = read(tmp_path, FILES[device]).names
-    chosen = read(tmp_path, FILES[device], columns=[last])
-    assert (chosen.names, chosen.fps) == ((last,), FPS)
+    # Rate, rows and names of a chosen column are those of reading all of them.
+    chosen = read(tmp_path, FILES[device], columns=signals.names[-1:])
+    assert (chosen.names, chosen.fps) == (signals.names[-1:], FPS)
     assert np.array_equal(chosen.values, VALUES[:, 2:])
 
 
@@ -272,43 +266,6 @@ def test_one_day_beyond_the_twelfth_tells_the_order(tmp_path: Path) -> None:
     lines = [f"{at:%d/%m/%Y %H:%M:%S},{i % 7}" for i, at in enumerate(times)]
     signals = read(tmp_path, "Timestamp,X\n" + "\n".join(lines) + "\n")
     assert (signals.fps, signals.gaps, signals.provenance.notes) == (1, (), ())
-
-
-@pytest.mark.parametrize("titled", [False, True])
-def test_markers_of_qualisys(tmp_path: Path, titled: bool) -> None:
-    points = make_walk()
-    millimetres = np.round(to_millimetres(points), 3)
-    millimetres[10:14, 0] = 0
-    head = [
-        f"NO_OF_FRAMES\t{len(points)}",
-        "NO_OF_CAMERAS\t8",
-        f"NO_OF_MARKERS\t{len(PLUG_IN_GAIT)}",
-        "FREQUENCY\t100",
-        "DESCRIPTION\t--",
-        "TIME_STAMP\t2026-03-04, 10:20:33.123\t432.1",
-        "DATA_INCLUDED\t3D",
-        "EVENT\tstart\t10\t0.1",
-        "EVENT\tstop\t20\t0.2",
-        "MARKER_NAMES\t" + "\t".join(PLUG_IN_GAIT),
-    ]
-    names = [f"{name} {axis}" for name in PLUG_IN_GAIT for axis in "XYZ"]
-    head += ["\t".join(["Frame", "Time", *names])] * titled
-    lines = [
-        "\t".join(map(str, [*([i + 1, i / 100] * titled), *frame.ravel().tolist()]))
-        for i, frame in enumerate(millimetres)
-    ]
-    (tmp_path / "a.tsv").write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
-    motion = kineme.read(tmp_path / "a.tsv")
-    assert (motion.fps, motion.n_frames, motion.provenance.format) == (
-        100,
-        len(points),
-        "QTM table",
-    )
-    at = [motion.joint(name) for name in PLUG_IN_GAIT]
-    seen = np.ones(len(points), bool)
-    seen[10:14] = False
-    assert np.allclose(motion.positions[seen][:, at], points[seen], atol=1e-5)
-    assert np.linalg.norm(motion.positions[~seen][:, at] - points[~seen], axis=-1).max() < 0.05
 
 
 def test_a_c3d_without_points_holds_channels(tmp_path: Path) -> None:

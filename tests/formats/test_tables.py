@@ -188,29 +188,6 @@ def test_what_is_hidden_is_used(tmp_path: Path) -> None:
     assert any("20 positions below confidence 0.5" in note for note in notes)
 
 
-def test_deeplabcut(tmp_path: Path) -> None:
-    names = ["left_hip", "right_hip", "left_ankle", "right_ankle", "nose", "left_wrist"]
-    names += ["right_wrist"]
-    pixels = 200 * make_body()[:, [JOINTS.index(name) for name in names]]
-    pixels[:, :, 1] = 400 - pixels[:, :, 1]
-    head = ["scorer" + ",net" * 21, "bodyparts"]
-    head[1] += "".join(f",{name}" * 3 for name in names)
-    head.append("coords" + ",x,y,likelihood" * 7)
-    rows = [
-        ",".join([str(i), *(f"{x},{y},{0.99 if (i, k) != (4, 2) else 0.5}"
-                            for k, (x, y, _) in enumerate(frame))])
-        for i, frame in enumerate(pixels)
-    ]  # fmt: skip
-    motion = read(tmp_path, "a.csv", "\n".join([*head, *rows]), fps=30)
-    assert motion.provenance.format == "DeepLabCut"
-    assert (motion.n_frames, motion.fps) == (20, 30)
-    above = motion.positions[:, motion.joint("nose")] - motion.positions[:, motion.joint("pelvis")]
-    assert (above[:, 1] > 0.5).all()
-    assert (motion.positions[:, :, 2] == 0).all()
-    with pytest.raises(ReadError, match="no column 'time' or 'fps' found: give fps="):
-        read(tmp_path, "a.csv", "\n".join([*head, *rows]))
-
-
 def test_parquet(tmp_path: Path) -> None:
     pa = pytest.importorskip("pyarrow")
     from pyarrow import parquet

@@ -109,7 +109,6 @@ def write_csv(motion: Motion, path: Path) -> None:
 
 
 def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of the joints whose coordinates are in the columns."""
     table.refuse_interleaved()
     names, content = table.names, table.content
     remarks = list(table.remarks)

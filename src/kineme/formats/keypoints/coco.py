@@ -102,7 +102,6 @@ def _find_category_names(data: Mapping[str, Any]) -> list[str] | None:
 def _find_image_frames(
     content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]
 ) -> list[int]:
-    """Return the frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
         # Order images by frame, since ids may be arbitrary.

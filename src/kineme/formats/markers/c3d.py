@@ -106,7 +106,6 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 
 def _find_markers(file: C3D) -> list[int]:
-    """Return the indices of the points that are markers."""
     parameters = file.parameters
     # Each group lists its labels in a parameter of the same name.
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}

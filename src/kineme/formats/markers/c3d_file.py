@@ -106,7 +106,6 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
 def _repeat_per_channel(
     parameters: Parameters, name: str, channels: int, default: float, *, signed: bool = True
 ) -> Floats:
-    """Return a value for each channel, ``default`` where missing."""
     values = parameters.numbers("ANALOG", name, signed=signed)[:channels]
     return np.array(values + [default] * (channels - len(values)))
 
