@@ -94,8 +94,9 @@ FILES = {
     + join_rows(",", to_counts(0.02)),
     "SensorLog": "loggingTime(txt);loggingSample(N);X(G);Y(G);Z(G)\n"
     + join_rows(";", to_dates("%Y-%m-%dT%H:%M:%S.%3f+01:00"), to_counts(1)),
-    "a clock under its own name": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
+    "SensorLog of one sensor": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
     + join_rows(",", to_counts(0.02)),
+    "a clock under its own name": "deviceTime [ms],X,Y,Z\n" + join_rows(",", to_counts(20, 7e6)),
     "German dates": "Zeit\tX\tY\tZ\n" + join_rows("\t", to_dates("%d.%m.%Y %H:%M:%S.%3f")),
     "months by name": "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%d-%b-%Y %H:%M:%S.%3f")),
     "twelve hours": "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%m/%d/%Y %I:%M:%S.%3f %p")),

@@ -101,7 +101,7 @@ def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Mot
         poses = _find_poses(frame, world=world)
         people += [Person(numbers[-1], *_parse_landmarks(content, i, pose)) for pose in poses]
     head = data if isinstance(data, Mapping) else {}
-    fps = _find_value(head, ("fps", "framerate", "frame_rate"))
+    fps = _find_value(head, ("fps", "framerate"))
     size = [
         _find_value(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")
     ]
@@ -169,10 +169,10 @@ def _are_in_space(people: Sequence[Person]) -> bool:
 
     In image landmarks depth is measured from the hips and much smaller.
     """
+    if not people:
+        return False
     ends = [NAMES.index(name) for name in ("nose", "left_ankle", "right_ankle")]
     poses = np.array([[p.points[end] for end in ends] for p in people])
-    if poses.ndim != 3 or poses.shape[2] != 3:
-        return False
     # Vectors from the middle of the ankles to the nose.
     lengths = poses[:, 0] - poses[:, 1:].mean(axis=1)
     along = np.nanmedian(lengths / np.linalg.norm(lengths, axis=1, keepdims=True), axis=0)

@@ -94,8 +94,7 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
     values = raw.reshape(-1, channels)
     is_unsigned = "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT")
     if is_unsigned and values.dtype.kind == "i":
-        # Reinterpret the bytes as unsigned.
-        values = values.view(values.dtype.str.replace("i", "u"))
+        values = as_unsigned(values)
     scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
     # The offsets are stored like the samples.
@@ -197,9 +196,8 @@ class Layout:
     def header(self) -> Header:
         """Fields of the first block, in the number formats of the processor."""
         data, kind = self.content.data, self.parameters.processor
-        integers = np.frombuffer(data, get_number_type(kind, real=False), 12)
         # Counts above 32767 need unsigned integers.
-        words = integers.view(integers.dtype.str.replace("i", "u")).tolist()
+        words = as_unsigned(np.frombuffer(data, get_number_type(kind, real=False), 12)).tolist()
         # A real takes two words.
         reals = as_float32(np.frombuffer(data, get_number_type(kind, real=True), 6), kind)
         return Header(  # the specification counts words from 1
@@ -363,10 +361,7 @@ class Parameters:
             return []
         code = np.dtype("i1") if kind == 1 else get_number_type(self.processor, real=False)
         integers = np.frombuffer(data, code)
-        if not signed:
-            # Reinterpret the bytes as unsigned.
-            integers = integers.view(integers.dtype.str.replace("i", "u"))
-        return list(map(float, integers))
+        return list(map(float, integers if signed else as_unsigned(integers)))
 
     def strings(self, group: str, name: str) -> list[str]:
         """Return the values as text, none if they are numbers."""
@@ -432,6 +427,11 @@ def read_parameters(content: FileContent) -> Parameters:
 def get_number_type(processor: int, *, real: bool) -> np.dtype[Any]:
     """Return the stored type of a number; DEC's floats additionally need `as_float32`."""
     return np.dtype((">" if processor == MIPS else "<") + ("f4" if real else "i2"))
+
+
+def as_unsigned(integers: NDArray[Any]) -> NDArray[Any]:
+    """Return the same bytes as unsigned integers."""
+    return integers.view(integers.dtype.str.replace("i", "u"))
 
 
 def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:
