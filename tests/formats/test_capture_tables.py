@@ -136,3 +136,19 @@ def test_devices_alone_are_channels(tmp_path: Path) -> None:
 def test_channels_of_such_a_table_are_still_there(tmp_path: Path) -> None:
     signals = read(tmp_path, to_nexus(), fps=100, columns=["X"])
     assert isinstance(signals, kineme.Signals)
+
+
+def test_motive_strays_hide_no_rigid_bodies(tmp_path: Path) -> None:
+    columns = [("Rigid Body", name) for name in ("Hips", "Head")]
+    columns += [("Marker", "Hips:Marker1"), ("Marker", "Stray")]
+    head = ["Format Version,1.23,Export Frame Rate,60,Length Units,Meters", ""]
+    for label, cells in (
+        ("Type", [kind for kind, _ in columns]),
+        ("Name", [name for _, name in columns]),
+        ("", ["Position"] * 4),
+    ):
+        head.append(f",{label}," + ",".join(cell for cell in cells for _ in range(3)))
+    head.append("Frame,Time (Seconds)," + ",".join(["X,Y,Z"] * 4))
+    rows = [f"{i},{i / 60},0,0.9,0,0,1.6,0,0.1,0.9,0,,," for i in range(60)]
+    motion = read(tmp_path, "\n".join([*head, *rows]))
+    assert motion.skeleton.names == ("Hips", "Head")

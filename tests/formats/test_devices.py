@@ -299,3 +299,28 @@ def test_a_leap_second(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("time,acc_x\n" + rows)
     found = kineme.read(tmp_path / "a.csv")
     assert (found.fps, found.n_frames, found.gaps) == (2, 6, ())
+
+
+XSENS = "// Update Rate: 100.0Hz\nPacketCounter\tSampleTimeFine\tUTC_Second\tAcc_X\tGyr_X\n"
+
+
+@pytest.mark.parametrize("clock", ["\t", "{i}00\t5"])
+def test_xsens_takes_the_rate_of_its_header(tmp_path: Path, clock: str) -> None:
+    rows = (f"{i:05}\t{clock.format(i=i)}\t{i % 7}.5\t{i % 5}.5\n" for i in range(300))
+    text = XSENS + "".join(rows)
+    for options, names in (({}, ("Acc_X", "Gyr_X")), ({"columns": ["Gyr_X"]}, ("Gyr_X",))):
+        signals = read(tmp_path, text, **options)
+        assert (signals.fps, signals.names) == (100, names)
+
+
+@pytest.mark.parametrize(("order", "first"), [("dd/MM/yyyy", 1733875200), ("M/d/yyyy", 1731369600)])
+def test_actigraph_dates_are_in_the_order_of_its_header(
+    tmp_path: Path, order: str, first: int
+) -> None:
+    head = f"--- Data File Created By ActiGraph LEAP date format {order} at 32 Hz ---\nSerial: 1\n"
+    rows = (f"11/12/2024 00:00:{i / 32:06.3f},{i % 3}.5,{i % 5}.5\n" for i in range(320))
+    text = head + "Timestamp,Accelerometer X,Accelerometer Y\n" + "".join(rows)
+    signals = read(tmp_path, text, columns=["Accelerometer *"])
+    assert signals.fps == 32
+    assert signals.provenance.clock is not None
+    assert signals.provenance.clock.times[0] == first

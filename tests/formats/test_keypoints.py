@@ -569,3 +569,36 @@ def test_a_trc_without_a_head_has_a_body(tmp_path: Path, top: str) -> None:
     motion = kineme.read(write_trc(tmp_path / "a.trc", points, [*names, top], "m"))
     assert is_standing(motion)
     assert not kineme.segment(motion).provenance["notes"][0].startswith("no body")
+
+
+def test_ultralytics_people_by_frame(tmp_path: Path) -> None:
+    """A frame without anybody keeps its place."""
+    x = [100.0 + 10 * (i % 3) for i in range(17)]
+    y = [50.0 + 20 * i for i in range(17)]
+    box = {"x1": 0, "y1": 0, "x2": 1, "y2": 1}
+    keypoints = {"x": x, "y": y, "visible": [0.9] * 17}
+    person = {"name": "person", "box": box, "track_id": 1, "keypoints": keypoints}
+    frames = [[person] if i != 5 else [] for i in range(40)]
+    motion = read(tmp_path, "a.json", frames, fps=30)
+    assert motion.n_frames == 40
+    assert "left_knee" in motion.skeleton.names
+    # The same as fractions of the image, as with normalize=True.
+    keypoints.update(x=[value / 1280 for value in x], y=[value / 720 for value in y])
+    with pytest.warns(KinemeWarning, match="unknown size, assumed square"):
+        read(tmp_path, "a.json", [[person]] * 40, fps=30)
+
+
+def test_freemocap_counts_nanoseconds(tmp_path: Path) -> None:
+    joints = ("nose", "left_hip", "right_hip", "left_ankle", "right_ankle")
+    heights = (1600, 900, 900, 100, 100)
+    names = [f"body_{joint}_{axis}" for joint in joints for axis in "xyz"]
+    rows = (
+        ",".join(
+            [f"{1e11 + i * 1e9 / 30:.1f}", *(f"{i % 3},{10 * k},{heights[k]}" for k in range(5))]
+        )
+        for i in range(60)
+    )
+    motion = read(tmp_path, "a.csv", "\n".join([",".join(["timestamp", *names]), *rows]))
+    assert motion.fps == pytest.approx(30)
+    head = motion.positions[0, motion.joint("nose")]
+    assert head[1] == pytest.approx(1.6)

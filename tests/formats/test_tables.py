@@ -12,6 +12,7 @@ import pytest
 from format_samples import motions
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from keypoint_samples import write_trc
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
@@ -148,6 +149,16 @@ def test_columns_without_a_unit_are_in_that_of_the_others(tmp_path: Path) -> Non
     assert np.abs(found.positions - plain.positions).max() < 1e-12
 
 
+def test_columns_with_a_unit_behind_the_axis_are_read_in_it(tmp_path: Path) -> None:
+    """A head in mm beside a hip in metres without a unit."""
+    rows = (f"{i / 50},{0.1},{0.9},{0.2},{100},{1700},{200 + i % 3}\n" for i in range(40))
+    text = "time,hip_x,hip_y,hip_z,head_x_mm,head_y_mm,head_z_mm\n" + "".join(rows)
+    with pytest.warns(KinemeWarning, match="1 point state no unit; read in m"):
+        motion = read(tmp_path, "a.csv", text, up="y")
+    heights = dict(zip(motion.skeleton.names, motion.positions[0, :, 1], strict=True))
+    assert heights == pytest.approx({"hip": 0.9, "head": 1.7})
+
+
 def test_positions_beside_other_columns_of_joints(tmp_path: Path) -> None:
     plain = read(tmp_path, "a.csv", tabulate(make_body(), time=TIMES))
     more = {f"head_{what}_{axis}": [90.0] * 20 for what in ("rotation", "vel") for axis in "xyz"}
@@ -260,6 +271,17 @@ def test_bad_trc(tmp_path: Path, old: str, new: str, line: int, reason: str) -> 
     with pytest.raises(ReadError, match=reason) as caught:
         read(tmp_path, "a.trc", TRC.replace(old, new))
     assert caught.value.line == line
+
+
+@pytest.mark.parametrize("tabs", ["\t", "\t\t", "\t\t\t"])
+def test_trc_names_stand_any_number_of_tabs_apart(tmp_path: Path, tabs: str) -> None:
+    names = ["LELB", "RELB", "STRN"]
+    points = np.random.default_rng(4).normal(size=(40, 3, 3)).cumsum(axis=0) + 900
+    text = write_trc(tmp_path / "a.trc", points, names, fps=60).read_text()
+    text = text.replace("LELB\t\t\tRELB\t\t\tSTRN", tabs.join(names))
+    motion = read(tmp_path, "a.trc", text, up="y")
+    found = motion.positions[:, [motion.joint(name) for name in names]]
+    assert np.abs(found - points / 1000).max() < 1e-6
 
 
 def test_npz_of_poses(tmp_path: Path) -> None:
