@@ -10,6 +10,7 @@ from marker_samples import PLUG_IN_GAIT, make_walk, to_millimetres
 
 import kineme
 from kineme.errors import ReadError
+from reading import read
 
 POINTS = make_walk()
 AXES = ",".join("XYZ" * len(PLUG_IN_GAIT))
@@ -67,11 +68,6 @@ def to_qtm(points: np.ndarray = POINTS, *, titled: bool) -> str:
     return "\n".join([*head, *lines, ""])
 
 
-def read(folder: Path, text: str, **options: object) -> kineme.Motion:
-    (folder / "a.csv").write_text(text, encoding="utf-8")
-    return kineme.read(folder / "a.csv", **options)
-
-
 @pytest.mark.parametrize(
     ("text", "fps", "program"),
     [
@@ -87,7 +83,7 @@ def read(folder: Path, text: str, **options: object) -> kineme.Motion:
     ids=["nexus", "devices", "model outputs", "motive", "older motive", "bones", "qtm", "titled"],
 )
 def test_markers_under_rows_of_names(tmp_path: Path, text: str, fps: float, program: str) -> None:
-    motion = read(tmp_path, text)
+    motion = read(tmp_path, "a.csv", text)
     assert motion.fps == fps
     assert motion.provenance.format == f"{program} table"
     at = [motion.joint(name) for name in PLUG_IN_GAIT]
@@ -99,13 +95,14 @@ def test_markers_under_rows_of_names(tmp_path: Path, text: str, fps: float, prog
 def test_a_marker_of_qtm_at_the_origin_was_not_seen(tmp_path: Path) -> None:
     points = POINTS.copy()
     points[10:14, 0] = 0
-    motion = read(tmp_path, to_qtm(points, titled=True))
+    motion = read(tmp_path, "a.csv", to_qtm(points, titled=True))
     found = motion.positions[:, [motion.joint(name) for name in PLUG_IN_GAIT]]
     assert np.linalg.norm(found - POINTS, axis=-1).max() < 0.05
 
 
 def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
-    motion = read(tmp_path, to_nexus(names=[*(f"Ann:{name}" for name in PLUG_IN_GAIT[:-1]), "*12"]))
+    names = [*(f"Ann:{name}" for name in PLUG_IN_GAIT[:-1]), "*12"]
+    motion = read(tmp_path, "a.csv", to_nexus(names=names))
     assert PLUG_IN_GAIT[-1] not in motion.skeleton.names
     assert "1 point without a name left out" in motion.provenance.notes
 
@@ -125,16 +122,16 @@ def test_markers_that_nobody_named_are_left_out(tmp_path: Path) -> None:
 )
 def test_bad_tables(tmp_path: Path, text: str, reason: str) -> None:
     with pytest.raises(ReadError, match=reason):
-        read(tmp_path, text)
+        read(tmp_path, "a.csv", text)
 
 
 def test_devices_alone_are_channels(tmp_path: Path) -> None:
-    signals = read(tmp_path, to_nexus().replace("Trajectories", "Devices"), fps=100)
+    signals = read(tmp_path, "a.csv", to_nexus().replace("Trajectories", "Devices"), fps=100)
     assert isinstance(signals, kineme.Signals)
 
 
 def test_channels_of_such_a_table_are_still_there(tmp_path: Path) -> None:
-    signals = read(tmp_path, to_nexus(), fps=100, columns=["X"])
+    signals = read(tmp_path, "a.csv", to_nexus(), fps=100, columns=["X"])
     assert isinstance(signals, kineme.Signals)
 
 
@@ -150,5 +147,5 @@ def test_motive_strays_hide_no_rigid_bodies(tmp_path: Path) -> None:
         head.append(f",{label}," + ",".join(cell for cell in cells for _ in range(3)))
     head.append("Frame,Time (Seconds)," + ",".join(["X,Y,Z"] * 4))
     rows = [f"{i},{i / 60},0,0.9,0,0,1.6,0,0.1,0.9,0,,," for i in range(60)]
-    motion = read(tmp_path, "\n".join([*head, *rows]))
+    motion = read(tmp_path, "a.csv", "\n".join([*head, *rows]))
     assert motion.skeleton.names == ("Hips", "Head")

@@ -18,6 +18,7 @@ import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read_motion
 from kineme.formats.arrays.numpy_files import make_smpl_skeleton
+from reading import read
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
 JOINTS += ["right_wrist", "nose"]
@@ -38,12 +39,6 @@ def tabulate(points: np.ndarray, pattern: str = "{joint}_{axis}", sep: str = ","
     cells = [[*map(str, [c[i] for c in columns.values()]), *map(repr, row.tolist())]
              for i, row in enumerate(rows)]  # fmt: skip
     return "\n".join([sep.join([*columns, *names]), *map(sep.join, cells)]) + "\n"
-
-
-def read(folder: Path, name: str, content: str | bytes, **options):
-    path = folder / name
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return kineme.read(path, **options)
 
 
 TIMES = [f"{i / 25:.3f}" for i in range(20)]
