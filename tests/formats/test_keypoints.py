@@ -331,10 +331,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         ('[{"people": [3]}]', "a person without keypoints"),
         ('[{"people": [{}]}]', "a person without pose_keypoints_3d, pose_keypoints_2d"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
-        (
-            '[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]',
-            "keypoints: 15, 17, 18",
-        ),
+        ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "keypoints: 15, 17, 18"),
         ('[{"people": []}]', "no person found in any frame"),
         (
             '{"0": {"people": []}, "99999999999": {"people": []}}',

@@ -48,11 +48,7 @@ def write_c3d(path: Path, points: np.ndarray, names: list[str], up: str = "") ->
     return path
 
 
-WRITERS = {
-    ".c3d": write_c3d,
-    ".trc": write_millimetres,
-    ".csv": write_csv,
-}
+WRITERS = {".c3d": write_c3d, ".trc": write_millimetres, ".csv": write_csv}
 
 
 def measure_height(motion: Any, upper: str) -> float:

@@ -12,14 +12,7 @@ import pytest
 
 import kineme
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.formats import (
-    Format,
-    ReadOptions,
-    read_quietly,
-    register,
-    registry,
-    supported_formats,
-)
+from kineme.formats import Format, ReadOptions, read_quietly, register, registry, supported_formats
 
 CUT_SHORT = kineme.bundled_recording().read_text(encoding="utf-8").replace("Frames: ", "Frames: 9")
 
@@ -67,11 +60,7 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [
-        ("a.qtm", "export BVH or C3D"),
-        ("a.xlsx", "save it as CSV"),
-        ("a.csv.gz", "unpack it first"),
-    ],
+    [("a.qtm", "export BVH or C3D"), ("a.xlsx", "save it as CSV"), ("a.csv.gz", "unpack it first")],
 )
 def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
     (tmp_path / name).write_bytes(b"PK\x03\x04")

@@ -209,8 +209,7 @@ def recognise(content: FileContent) -> Format:
         return candidate
     suffixes = sorted({s for candidate in formats for s in candidate.suffixes})
     raise ReadError(
-        content.path,
-        f"unknown content and suffix {suffix!r}: kineme reads {', '.join(suffixes)}",
+        content.path, f"unknown content and suffix {suffix!r}: kineme reads {', '.join(suffixes)}"
     )
 
 

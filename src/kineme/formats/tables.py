@@ -138,13 +138,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 TABLE = Format(
-    "table",
-    (".csv", ".tsv"),
-    lambda _: False,
-    read_table,
-    write_csv,
-    write_signals,
-    channels=True,
+    "table", (".csv", ".tsv"), lambda _: False, read_table, write_csv, write_signals, channels=True
 )
 TEXT = replace(TABLE, name="text table", suffixes=(".txt", ".dat"), write=None)
 OPENSIM = Format(

@@ -124,11 +124,7 @@ def estimate_height(skeleton: Skeleton, means: Floats) -> float:
 
 
 def infer_scale(
-    unit: str | float | None,
-    positions: Floats,
-    *,
-    stated: str | None = None,
-    is_body: bool = False,
+    unit: str | float | None, positions: Floats, *, stated: str | None = None, is_body: bool = False
 ) -> tuple[float, list[str]]:
     """Return the metres in one unit of the positions, and notes on what was inferred.
 

@@ -282,13 +282,9 @@ def poses_to_motion(content: FileContent, arrays: Arrays, options: ReadOptions) 
     notes = [f"{kind} poses on a skeleton of average lengths, 1.70 m tall; hands and face left out"]
     if options.up is None:
         notes.append("up axis z, as in AMASS, assumed")
-    return Motion.from_rotations(
-        make_smpl_skeleton(),
-        rotations,
-        find_rate(content, arrays, _AMASS_RATES, options.fps),
-        path,
-        provenance=content.provenance("AMASS", notes),
-    )
+    fps = find_rate(content, arrays, _AMASS_RATES, options.fps)
+    provenance = content.provenance("AMASS", notes)
+    return Motion.from_rotations(make_smpl_skeleton(), rotations, fps, path, provenance=provenance)
 
 
 def make_smpl_skeleton() -> Skeleton:

@@ -48,11 +48,7 @@ DIALECTS = (
         "SensorLog",
         begins_with(rf"(?:logging(?:Time|Sample)\(\w+\)|{_SENSORLOG_CLOCK})[,;\t]"),
         layout=Layout(
-            clocks={
-                r"loggingTime\(txt\)": "",
-                r"\w+_sinceReboot\(s\)": "s",
-                _SENSORLOG_CLOCK: "s",
-            },
+            clocks={r"loggingTime\(txt\)": "", r"\w+_sinceReboot\(s\)": "s", _SENSORLOG_CLOCK: "s"},
             hidden=rf"loggingSample\(N\)|\w+\(txt\)|{_SENSORLOG_CLOCK}",
         ),
     ),

@@ -34,11 +34,7 @@ _MOMENTUM = 0.8  # share of the previous velocity in the smoothed one
 
 
 def select_person(
-    path: Path,
-    frames: Rows,
-    points: Floats,
-    detected: Sequence[str | None],
-    person: str | None,
+    path: Path, frames: Rows, points: Floats, detected: Sequence[str | None], person: str | None
 ) -> tuple[Rows, str, tuple[str, ...], list[str]]:
     """Return the rows and the name of the requested or only person, all people, and notes.
 
