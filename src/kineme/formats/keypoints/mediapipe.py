@@ -103,11 +103,12 @@ def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Mot
     head = data if isinstance(data, Mapping) else {}
     fps = _find_value(head, ("fps", "framerate"))
     size = [
-        _find_value(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")
+        _to_positive(_find_value(head, (side, f"image{side}", f"frame{side}")))
+        for side in ("width", "height")
     ]
     return landmarks_to_motion(
         content, people, options, world=world or None, fps=_to_positive(fps),
-        size=tuple(map(_to_positive, size)), frames=numbers,
+        size=size, frames=numbers,
     )  # fmt: skip
 
 
@@ -133,23 +134,22 @@ def landmarks_to_motion(
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     unit: str | None = "pixel"
     up: str | None = "-y"
+    remarks = [*notes]
     if world:
         unit = "m"
-        remark = (
+        remarks.append(
             "world landmarks: metres from the middle of the hips, without the position in the room"
         )
-        notes = [*notes, remark]
     elif _are_in_space(people):
         unit = up = None
-        remark = (
+        remarks.append(
             "landmarks in space, since the body does not stand along the vertical axis of images"
         )
-        notes = [*notes, remark]
     else:
         people = _scale_to_image(people, size)
     return video_to_motion(
         content, options, "MediaPipe", NAMES, people, limit=LIMIT,
-        fps=fps, frames=frames, unit=unit, up=up, notes=notes,
+        fps=fps, frames=frames, unit=unit, up=up, notes=remarks,
     )  # fmt: skip
 
 
