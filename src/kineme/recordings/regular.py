@@ -186,10 +186,9 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     notes += _describe_timing(np.diff(moments), len(at) - len(moments), rate, exact=exact)
     # The limit on frames bounds memory: fewer frames for more channels.
     channels = 1 if taken is None else max(1, taken.shape[1])
-    timing = Timing(rate, rows, frames, notes=tuple(notes))
-    return _add_clock_and_gaps(
-        timing, at, ahead, was_set, _MOST_FRAMES_PER_ROW * len(at) + _VALUES // channels
-    )
+    most = _MOST_FRAMES_PER_ROW * len(at) + _VALUES // channels
+    timing = Timing(rate, rows, notes=tuple(notes))
+    return _add_frames_and_clock(timing, frames, at, ahead, was_set, most)
 
 
 def _is_even(times: Floats, steps: Floats) -> bool:
@@ -360,17 +359,16 @@ def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) ->
     return [f"times are uneven ({', '.join(parts) or 'jitter'}): resampled to {fps:g} Hz"]
 
 
-def _add_clock_and_gaps(
-    timing: Timing, at: Floats, ahead: Floats, was_set: Masks, most: int
+def _add_frames_and_clock(
+    timing: Timing, frames: Floats, at: Floats, ahead: Floats, was_set: Masks, most: int
 ) -> Timing:
-    """Return the timing with its clock and gaps; pauses are cut to fit into ``most`` frames.
+    """Return the timing with the frames of its rows, gaps, and clock.
 
-    ``at`` are the seconds of the rows in time order, ``ahead`` the clock's offset from them;
-    ``was_set`` marks the row after the clock went back.
+    Pauses are cut to fit into ``most`` frames. ``at`` are the seconds of the rows in time order,
+    ``ahead`` the clock's offset from them; ``was_set`` marks the row after the clock went back.
     """
-    assert timing.at is not None  # noqa: S101 (for mypy)
     rate, notes = timing.fps, list(timing.notes)
-    frames, cut = _shorten_pauses(timing.at, most)
+    frames, cut = _shorten_pauses(frames, most)
     if cut.any():
         k = int(cut.argmax())
         text = (
