@@ -24,9 +24,9 @@ from kineme.formats.channels.parquet import (
     refuse_interleaved,
 )
 from kineme.formats.channels.reading import (
-    choose_channels,
     describe_header_rate,
     read_text_channels,
+    select_columns,
     to_signals,
 )
 from kineme.formats.channels.writing import write_signals
@@ -55,7 +55,9 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
         if not options.channels:
             return recording
         if isinstance(recording, Signals):
-            return choose_channels(content, recording, options.columns or None)
+            names = recording.names
+            chosen = select_columns(content, names, options.columns or None, names)
+            return recording.select(chosen or names)
     elif not options.channels and not hold_channels(table.names):
         return _read_joints(table, options)
     channels = read_text_channels(table, options.columns or None)
