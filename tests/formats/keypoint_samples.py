@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+import kineme
 from kineme.formats.keypoints.coco import NAMES as COCO
 from kineme.formats.keypoints.mediapipe import NAMES as MEDIAPIPE
 from kineme.formats.keypoints.openpose import NAMES as OPENPOSE
@@ -157,3 +158,23 @@ def write_trc(
     )
     path.write_text("\n".join([*head, *rows]))
     return path
+
+
+def measure_wave(motion: kineme.Motion, wrist: str = "left_wrist") -> float:
+    """Metres that the wrist goes up and down: 0.8 in every sample."""
+    return float(np.ptp(motion.positions[:, motion.joint(wrist), 1]))
+
+
+def is_standing(motion: kineme.Motion) -> bool:
+    """Upright, of human height, with the left on the left; pose features can be had."""
+    at = dict(zip(motion.skeleton.names, motion.positions[0], strict=True))
+    upright = at["head"][1] - at["left_ankle"][1]
+    kineme.pose_features(motion)
+    return bool(1.0 < upright < 1.9 and at["left_hip"][0] > at["right_hip"][0])
+
+
+def check_sample(motion: kineme.Motion, program: str) -> None:
+    """It is the whole sample: 30 frames of a standing body that waves."""
+    assert (motion.provenance.format, motion.n_frames) == (program, 30)
+    assert is_standing(motion)
+    assert 0.6 < measure_wave(motion) < 1.0

@@ -9,6 +9,7 @@ import pytest
 from test_capture_tables import to_nexus
 
 import kineme
+from kineme.formats.channels.writing import write_signals
 
 ROWS = [(i / 50, i * 0.25, 1.5 - i * 0.125, i * 0.5) for i in range(12)]
 
@@ -19,15 +20,23 @@ def join_rows(*head: str, separator: str = ",", comma: bool = False) -> str:
     return "\n".join([*head, *rows, ""])
 
 
+COMMAS = ("numbers have a decimal comma",)
+SKIPPED = ("2 lines above the names skipped",)
+WORDS = ("line 2 has no numbers and was skipped: s;m;m;m",)
 LAYOUTS = {
-    "commas": (",", False, []),
-    "tabs": ("\t", False, []),
-    "blanks": (" ", False, []),
-    "semicolons": (";", True, []),
-    "sep": (";", False, ["sep=;"]),
-    "logger": (",", False, ["Logger 3", "Date,2026-01-31"]),
-    "comment": (",", False, ["# made by hand, twice"]),
+    "commas": (",", False, ["{}"], ()),
+    "tabs": ("\t", False, ["{}"], ()),
+    "tabs and decimal commas": ("\t", True, ["{}"], COMMAS),
+    "blanks": (" ", False, ["{}"], ()),
+    "blank lines": (",", False, ["{}"], ()),
+    "semicolons": (";", True, ["{}"], COMMAS),
+    "sep": (";", False, ["sep=;", "{}"], ()),
+    "logger": (",", False, ["Logger 3", "Date,2026-01-31", "", "{}"], SKIPPED),
+    "padded logger": (";", False, ["Device;X 5;", "Rate;50;", "", "{}"], SKIPPED),
+    "comment": (",", False, ["# made by hand, twice", "{}"], ()),
+    "units": (";", False, ["{}", "s;m;m;m"], WORDS),
 }
+"""Separator, decimal comma, lines above the rows, of which ``{}`` is that of names, and notes."""
 
 
 @pytest.mark.parametrize("name", ["device", "note"])
@@ -46,19 +55,28 @@ def test_a_quote_without_an_end_is_named_with_its_line(tmp_path: Path, name: str
 def test_joints_and_channels_may_stand_in_the_same_layouts(
     tmp_path: Path, layout: str, encoding: str, joint: str
 ) -> None:
-    separator, comma, above = LAYOUTS[layout]
+    separator, comma, head, notes = LAYOUTS[layout]
     names = separator.join(["time", *(f"{joint}_{axis}" for axis in "xyz")])
+    head = [line.format(names) for line in head]
     path = tmp_path / "a.csv"
-    path.write_text(join_rows(*above, names, separator=separator, comma=comma), encoding=encoding)
+    text = join_rows(*head, separator=separator, comma=comma)
+    text = text.replace("\n", "\n\n") if layout == "blank lines" else text
+    path.write_text(text, encoding=encoding)
     found = kineme.read(path, **({} if joint == "acc" else {"unit": "m", "up": "y"}))
     expected = np.array(ROWS)[:, 1:]
-    if isinstance(found, kineme.Signals):
-        assert (joint, found.names) == ("acc", ("acc_x", "acc_y", "acc_z"))
-        np.testing.assert_array_equal(found.values, expected)
-    else:
+    assert found.fps == 50
+    assert {*notes} <= {*found.provenance.notes}
+    if not isinstance(found, kineme.Signals):
         assert (joint, found.skeleton.names) == ("hüfte", ("hüfte",))
         np.testing.assert_allclose(found.positions[:, 0], expected)
-    assert found.fps == 50
+        return
+    assert (joint, found.names) == ("acc", ("acc_x", "acc_y", "acc_z"))
+    assert found.provenance.notes == notes
+    np.testing.assert_array_equal(found.values, expected)
+    kineme.write(found[2:6], tmp_path / "clip.csv")
+    np.testing.assert_array_equal(kineme.read(tmp_path / "clip.csv").values, expected[2:6])
+    write_signals(found, tmp_path / "all.tsv", columns=["acc_y"])
+    np.testing.assert_array_equal(kineme.read(tmp_path / "all.tsv").values, expected[:, 1:2])
 
 
 def test_a_separator_between_quotes_is_part_of_a_name(tmp_path: Path) -> None:
@@ -68,16 +86,6 @@ def test_a_separator_between_quotes_is_part_of_a_name(tmp_path: Path) -> None:
     assert signals.names == ("force, left", "b", "c")
     kineme.write(signals, tmp_path / "b.tsv")
     assert kineme.read(tmp_path / "b.tsv").names == signals.names
-
-
-@pytest.mark.parametrize("separator", [",", ";", "\t"])
-def test_keypoints_of_deeplabcut_may_stand_between_anything(tmp_path: Path, separator: str) -> None:
-    head = ["scorer,net,net,net", "bodyparts,tail,tail,tail", "coords,x,y,likelihood"]
-    rows = [f"{i},{i * 2.0},{100 - i},0.9" for i in range(12)]
-    path = tmp_path / "a.csv"
-    path.write_text("\n".join([*head, *rows]).replace(",", separator))
-    motion = kineme.read(path, fps=30)
-    assert (motion.provenance.format, motion.skeleton.names) == ("DeepLabCut", ("tail",))
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])

@@ -9,12 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from marker_samples import PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
+from marker_samples import to_c3d
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats.dialects import DIALECTS, Dialect
 from kineme.recordings.times import parse_date
+from reading import read
 
 N, FPS = 300, 50
 VALUES = np.round(np.sin(np.arange(N)[:, None] / [7, 5, 3]), 4)
@@ -94,8 +95,9 @@ FILES = {
     + join_rows(",", to_counts(0.02)),
     "SensorLog": "loggingTime(txt);loggingSample(N);X(G);Y(G);Z(G)\n"
     + join_rows(";", to_dates("%Y-%m-%dT%H:%M:%S.%3f+01:00"), to_counts(1)),
-    "a clock under its own name": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
+    "SensorLog of one sensor": "sensorTimestamp_sinceReboot(s),X,Y,Z\n"
     + join_rows(",", to_counts(0.02)),
+    "a clock under its own name": "deviceTime [ms],X,Y,Z\n" + join_rows(",", to_counts(20, 7e6)),
     "German dates": "Zeit\tX\tY\tZ\n" + join_rows("\t", to_dates("%d.%m.%Y %H:%M:%S.%3f")),
     "months by name": "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%d-%b-%Y %H:%M:%S.%3f")),
     "twelve hours": "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%m/%d/%Y %I:%M:%S.%3f %p")),
@@ -103,28 +105,16 @@ FILES = {
 }
 
 
-def read(folder: Path, text: str, **options: object) -> kineme.Motion | kineme.Signals:
-    path = folder / "a.csv"
-    path.write_text(text, encoding="utf-8")
-    return kineme.read(path, **options)
-
-
 @pytest.mark.parametrize("device", FILES)
 def test_channels_and_rate_of_a_device_are_read_without_options(
     tmp_path: Path, device: str
 ) -> None:
-    signals = read(tmp_path, FILES[device])
-    assert signals.fps == FPS
-    assert signals.gaps == ()
+    signals = read(tmp_path, "a.csv", FILES[device])
+    assert (signals.fps, signals.gaps) == (FPS, ())
     assert np.array_equal(signals.values, VALUES)
-
-
-@pytest.mark.parametrize("device", FILES)
-def test_columns_are_chosen_from_those_that_a_device_has(tmp_path: Path, device: str) -> None:
-    """The rate, the rows and the names are those of reading all of them."""
-    *_, last = read(tmp_path, FILES[device]).names
-    chosen = read(tmp_path, FILES[device], columns=[last])
-    assert (chosen.names, chosen.fps) == ((last,), FPS)
+    # Rate, rows and names of a chosen column are those of reading all of them.
+    chosen = read(tmp_path, "a.csv", FILES[device], columns=signals.names[-1:])
+    assert (chosen.names, chosen.fps) == (signals.names[-1:], FPS)
     assert np.array_equal(chosen.values, VALUES[:, 2:])
 
 
@@ -140,16 +130,16 @@ def test_columns_are_chosen_from_those_that_a_device_has(tmp_path: Path, device:
 def test_a_device_names_the_columns_of_rows_without_names(
     tmp_path: Path, device: str, names: list[str]
 ) -> None:
-    signals = read(tmp_path, FILES[device])
+    signals = read(tmp_path, "a.csv", FILES[device])
     assert list(signals.names) == names
     assert f"read as {device.split()[0]} writes it" in signals.provenance.notes
 
 
 def test_counters_and_clocks_of_a_device_are_channels_only_where_asked_for(tmp_path: Path) -> None:
-    counted = read(tmp_path, FILES["Movella DOT"], columns=["PacketCounter", "X"])
+    counted = read(tmp_path, "a.csv", FILES["Movella DOT"], columns=["PacketCounter", "X"])
     assert (counted.names, counted.fps) == (("PacketCounter", "X"), FPS)
     with pytest.raises(ReadError, match="no column '1'; there are nSeq, I1, A1 EMG, A2, A3"):
-        read(tmp_path, FILES["OpenSignals"], columns=["1"])
+        read(tmp_path, "a.csv", FILES["OpenSignals"], columns=["1"])
 
 
 def test_two_devices_of_opensignals_keep_their_sensors(tmp_path: Path) -> None:
@@ -161,14 +151,14 @@ def test_two_devices_of_opensignals_keep_their_sensors(tmp_path: Path) -> None:
         + "\n# EndOfHeader\n"
         + "".join(f"{i % 16}\t{i % 7}\t{i % 16}\t{-(i % 5)}\n" for i in range(200))
     )
-    signals = read(tmp_path, text)
+    signals = read(tmp_path, "a.csv", text)
     assert signals.names == ("A1 EMG", "A1 EDA")
     assert signals.values[9].tolist() == [2, -4]
 
 
 def test_counts_of_actigraph_have_the_rate_of_their_epochs(tmp_path: Path) -> None:
     header = ACTIGRAPH.replace("00:00:00\n--", "00:00:05\n--")
-    assert read(tmp_path, header + "Axis1,Axis2,Axis3\n" + join_rows(",")).fps == 0.2
+    assert read(tmp_path, "a.csv", header + "Axis1,Axis2,Axis3\n" + join_rows(",")).fps == 0.2
 
 
 def test_signals_of_two_shimmers_are_told_apart(tmp_path: Path) -> None:
@@ -177,7 +167,7 @@ def test_signals_of_two_shimmers_are_told_apart(tmp_path: Path) -> None:
         "CAL\tCAL\tCAL\tCAL\nms\tg\tms\tg\n"
     )
     lines = "".join(f"{20 * i}\t{i % 7}\t{20 * i}\t{i % 5}\n" for i in range(N))
-    signals = read(tmp_path, text + lines)
+    signals = read(tmp_path, "a.csv", text + lines)
     assert (signals.names, signals.fps) == (("Shimmer 1 X", "Shimmer 2 X"), FPS)
 
 
@@ -194,14 +184,14 @@ def test_channels_of_delsys_have_rates_of_their_own(tmp_path: Path) -> None:
         f"{i / 50},{a},{f'{i / 10},{i}' if i < N // 5 else ','},{i / 50},{b}\n"
         for i, (a, b, _) in enumerate(VALUES.tolist())
     ]
-    signals = read(tmp_path, DISCOVER + "".join(lines))
+    signals = read(tmp_path, "a.csv", DISCOVER + "".join(lines))
     muscles = ("biceps EMG 1 (mV)", "triceps EMG 1 (mV)")
     assert (signals.names, signals.fps) == ((muscles[0], "biceps ACC X (G)", muscles[1]), FPS)
     assert np.array_equal(signals.values[:, [0, 2]], VALUES[:, :2])
     assert signals.values[:296, 1] == pytest.approx(np.arange(296) / 5)  # a fifth of the rate
     assert "1 slower channel interpolated" in signals.provenance.notes
-    assert read(tmp_path, DISCOVER + "".join(lines), emg=True).names == muscles
-    (slow,) = read(tmp_path, DISCOVER + "".join(lines), columns=["*acc*"]).names
+    assert read(tmp_path, "a.csv", DISCOVER + "".join(lines), emg=True).names == muscles
+    (slow,) = read(tmp_path, "a.csv", DISCOVER + "".join(lines), columns=["*acc*"]).names
     assert slow == "biceps ACC X (G)"
 
 
@@ -225,17 +215,17 @@ def my_watch() -> Iterator[None]:
 @pytest.mark.usefixtures("my_watch")
 def test_columns_are_chosen_from_signals_that_a_dialect_reads(tmp_path: Path) -> None:
     text = "MyWatch,3\nhalves,of\n2,4\n6,8\n"
-    assert read(tmp_path, text).values.tolist() == [[1, 2], [3, 4]]
-    assert read(tmp_path, text, emg=True).names == ("x", "y")
+    assert read(tmp_path, "a.csv", text).values.tolist() == [[1, 2], [3, 4]]
+    assert read(tmp_path, "a.csv", text, emg=True).names == ("x", "y")
     for columns in (["y"], ["Y*"]):
-        chosen = read(tmp_path, text, columns=columns, fps=10)
+        chosen = read(tmp_path, "a.csv", text, columns=columns, fps=10)
         assert (chosen.names, chosen.fps, chosen.values.tolist()) == (("y",), 10, [[2], [4]])
     with pytest.raises(ReadError, match="no column 'z'; there are x, y"):
-        read(tmp_path, text, columns=["z"])
+        read(tmp_path, "a.csv", text, columns=["z"])
 
 
 def test_a_rate_that_the_header_tells_is_said(tmp_path: Path) -> None:
-    signals = read(tmp_path, FILES["ActiGraph"])
+    signals = read(tmp_path, "a.csv", FILES["ActiGraph"])
     assert "50 Hz, from a line above the columns" in signals.provenance.notes
     assert "5 lines above the names skipped" in signals.provenance.notes
 
@@ -250,18 +240,18 @@ def test_the_file_of_a_wristband_tells_what_its_columns_are(tmp_path: Path) -> N
 
 def test_a_rate_is_not_guessed_from_several(tmp_path: Path) -> None:
     with pytest.raises(ReadError, match="it does not state its frame rate"):
-        read(tmp_path, "EMG rate: 2000 Hz\nAcc rate: 100 Hz\nX,Y,Z\n" + join_rows(","))
+        read(tmp_path, "a.csv", "EMG rate: 2000 Hz\nAcc rate: 100 Hz\nX,Y,Z\n" + join_rows(","))
 
 
 def test_the_frequency_of_a_filter_is_no_rate(tmp_path: Path) -> None:
     text = "Low-pass: 6 Hz\nSampling frequency (Hz): 50\nX,Y,Z\n" + join_rows(",")
-    assert read(tmp_path, text).fps == FPS
+    assert read(tmp_path, "a.csv", text).fps == FPS
 
 
 def test_a_day_that_could_be_a_month_is_said(tmp_path: Path) -> None:
     text = "Timestamp,X,Y,Z\n" + join_rows(",", to_dates("%d/%m/%Y %H:%M:%S.%3f"))
     with pytest.warns(KinemeWarning, match="1 pause, the first of 2.592e"):  # a month, so read
-        signals = read(tmp_path, text)
+        signals = read(tmp_path, "a.csv", text)
     (said,) = [note for note in signals.provenance.notes if "taken for" in note]
     assert said == "'07/05/2026 23:59:57.000' is taken for 5 July 2026"
 
@@ -270,45 +260,8 @@ def test_one_day_beyond_the_twelfth_tells_the_order(tmp_path: Path) -> None:
     """A night from the 12th to the 13th goes on, without a jump of months."""
     times = [datetime(2026, 5, 12, 23, 59, 0, tzinfo=UTC) + timedelta(seconds=i) for i in range(90)]
     lines = [f"{at:%d/%m/%Y %H:%M:%S},{i % 7}" for i, at in enumerate(times)]
-    signals = read(tmp_path, "Timestamp,X\n" + "\n".join(lines) + "\n")
+    signals = read(tmp_path, "a.csv", "Timestamp,X\n" + "\n".join(lines) + "\n")
     assert (signals.fps, signals.gaps, signals.provenance.notes) == (1, (), ())
-
-
-@pytest.mark.parametrize("titled", [False, True])
-def test_markers_of_qualisys(tmp_path: Path, titled: bool) -> None:
-    points = make_walk()
-    millimetres = np.round(to_millimetres(points), 3)
-    millimetres[10:14, 0] = 0
-    head = [
-        f"NO_OF_FRAMES\t{len(points)}",
-        "NO_OF_CAMERAS\t8",
-        f"NO_OF_MARKERS\t{len(PLUG_IN_GAIT)}",
-        "FREQUENCY\t100",
-        "DESCRIPTION\t--",
-        "TIME_STAMP\t2026-03-04, 10:20:33.123\t432.1",
-        "DATA_INCLUDED\t3D",
-        "EVENT\tstart\t10\t0.1",
-        "EVENT\tstop\t20\t0.2",
-        "MARKER_NAMES\t" + "\t".join(PLUG_IN_GAIT),
-    ]
-    names = [f"{name} {axis}" for name in PLUG_IN_GAIT for axis in "XYZ"]
-    head += ["\t".join(["Frame", "Time", *names])] * titled
-    lines = [
-        "\t".join(map(str, [*([i + 1, i / 100] * titled), *frame.ravel().tolist()]))
-        for i, frame in enumerate(millimetres)
-    ]
-    (tmp_path / "a.tsv").write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
-    motion = kineme.read(tmp_path / "a.tsv")
-    assert (motion.fps, motion.n_frames, motion.provenance.format) == (
-        100,
-        len(points),
-        "QTM table",
-    )
-    at = [motion.joint(name) for name in PLUG_IN_GAIT]
-    seen = np.ones(len(points), bool)
-    seen[10:14] = False
-    assert np.allclose(motion.positions[seen][:, at], points[seen], atol=1e-5)
-    assert np.linalg.norm(motion.positions[~seen][:, at] - points[~seen], axis=-1).max() < 0.05
 
 
 def test_a_c3d_without_points_holds_channels(tmp_path: Path) -> None:
@@ -323,10 +276,10 @@ def test_a_c3d_without_points_holds_channels(tmp_path: Path) -> None:
 def test_names_in_two_lines(tmp_path: Path) -> None:
     """As pandas writes columns of two levels."""
     lines = "".join(f"{i},{i % 7 + 1},{i % 5},{i % 3}\n" for i in range(N))
-    signals = read(tmp_path, ",left,left,right\n,acc_x,gyr_x,acc_x\n" + lines, fps=FPS)
+    signals = read(tmp_path, "a.csv", ",left,left,right\n,acc_x,gyr_x,acc_x\n" + lines, fps=FPS)
     assert signals.names == ("left_acc_x", "left_gyr_x", "right_acc_x")
     assert signals.provenance.notes == ("columns that are not channels: (no name)",)
-    toes = read(tmp_path, "frame,L_TOE,L_TOE,L_TOE\n,x,y,z\n" + lines, fps=FPS, unit="mm")
+    toes = read(tmp_path, "a.csv", "frame,L_TOE,L_TOE,L_TOE\n,x,y,z\n" + lines, fps=FPS, unit="mm")
     assert "L_TOE" in toes.skeleton.names
 
 
@@ -341,3 +294,28 @@ def test_a_leap_second(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("time,acc_x\n" + rows)
     found = kineme.read(tmp_path / "a.csv")
     assert (found.fps, found.n_frames, found.gaps) == (2, 6, ())
+
+
+XSENS = "// Update Rate: 100.0Hz\nPacketCounter\tSampleTimeFine\tUTC_Second\tAcc_X\tGyr_X\n"
+
+
+@pytest.mark.parametrize("clock", ["\t", "{i}00\t5"])
+def test_xsens_takes_the_rate_of_its_header(tmp_path: Path, clock: str) -> None:
+    rows = (f"{i:05}\t{clock.format(i=i)}\t{i % 7}.5\t{i % 5}.5\n" for i in range(300))
+    text = XSENS + "".join(rows)
+    for options, names in (({}, ("Acc_X", "Gyr_X")), ({"columns": ["Gyr_X"]}, ("Gyr_X",))):
+        signals = read(tmp_path, "a.csv", text, **options)
+        assert (signals.fps, signals.names) == (100, names)
+
+
+@pytest.mark.parametrize(("order", "first"), [("dd/MM/yyyy", 1733875200), ("M/d/yyyy", 1731369600)])
+def test_actigraph_dates_are_in_the_order_of_its_header(
+    tmp_path: Path, order: str, first: int
+) -> None:
+    head = f"--- Data File Created By ActiGraph LEAP date format {order} at 32 Hz ---\nSerial: 1\n"
+    rows = (f"11/12/2024 00:00:{i / 32:06.3f},{i % 3}.5,{i % 5}.5\n" for i in range(320))
+    text = head + "Timestamp,Accelerometer X,Accelerometer Y\n" + "".join(rows)
+    signals = read(tmp_path, "a.csv", text, columns=["Accelerometer *"])
+    assert signals.fps == 32
+    assert signals.provenance.clock is not None
+    assert signals.provenance.clock.times[0] == first

@@ -1,27 +1,25 @@
-"""Keypoints of pose estimators: layouts, choice of person, low confidences, invalid files."""
+"""Keypoints of detectors and trackers: layouts, choice of person, confidences, invalid files."""
 
 from __future__ import annotations
 
 import json
-import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
 from keypoint_samples import (
     COCO,
-    MEDIAPIPE,
     OPENPOSE,
     as_json,
+    check_sample,
+    is_standing,
     make_coco,
     make_frame,
-    make_image_landmarks,
     make_mmpose,
     make_openpose,
     make_person,
-    make_world_landmarks,
+    measure_wave,
     project,
-    to_marks,
     to_sleap_csv,
     to_sleap_h5,
     write_trc,
@@ -29,31 +27,13 @@ from keypoint_samples import (
 from typer.testing import CliRunner
 
 import kineme
+from growth import measure_peak
 from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, list_people
 from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
 from kineme.formats.keypoints.people import track_people
-
-
-def read(folder: Path, name: str, content: str | bytes | list | dict, **options):
-    path = folder / name
-    data = as_json(content) if isinstance(content, list | dict) else content
-    path.write_bytes(data.encode() if isinstance(data, str) else data)
-    return kineme.read(path, **options)
-
-
-def measure_wave(motion: kineme.Motion, wrist: str = "left_wrist") -> float:
-    """Metres that the wrist goes up and down: 0.8 in every sample."""
-    return float(np.ptp(motion.positions[:, motion.joint(wrist), 1]))
-
-
-def is_standing(motion: kineme.Motion) -> bool:
-    """Upright, of human height, with the left on the left; pose features can be had."""
-    at = dict(zip(motion.skeleton.names, motion.positions[0], strict=True))
-    upright = at["head"][1] - at["left_ankle"][1]
-    kineme.pose_features(motion)
-    return bool(1.0 < upright < 1.9 and at["left_hip"][0] > at["right_hip"][0])
+from reading import read
 
 
 @pytest.mark.parametrize("count", [25, 18, 17, 26])
@@ -62,9 +42,8 @@ def test_openpose_in_a_folder(tmp_path: Path, count: int) -> None:
         (tmp_path / f"walk_{i:012d}_keypoints.json").write_text(json.dumps(frame))
     (tmp_path / "notes.txt").write_text("x")
     motion = kineme.read(tmp_path, fps=25)
-    assert (motion.provenance.format, motion.n_frames, motion.fps) == ("OpenPose", 30, 25)
-    assert is_standing(motion)
-    assert 0.6 < measure_wave(motion) < 1.0
+    check_sample(motion, "OpenPose")
+    assert motion.fps == 25
     assert (motion.positions[:, :, 2] == 0).all()
     with pytest.raises(
         ReadError, match="keypoints have no frame rate: give that of the video with fps="
@@ -211,9 +190,7 @@ def test_keypoints_that_are_not_sure_are_gaps(tmp_path: Path) -> None:
 @pytest.mark.parametrize("results", [False, True])
 def test_coco(tmp_path: Path, results: bool) -> None:
     motion = read(tmp_path, "a.json", make_coco(results=results), fps=30)
-    assert (motion.provenance.format, motion.n_frames) == ("COCO", 30)
-    assert is_standing(motion)
-    assert 0.6 < measure_wave(motion) < 1.0
+    check_sample(motion, "COCO")
     if not results:
         data = make_coco()
         data["annotations"] = data["annotations"][4:]
@@ -246,10 +223,8 @@ def test_a_number_that_two_people_share_is_ignored(tmp_path: Path) -> None:
 @pytest.mark.parametrize("count", [17, 26])
 def test_mmpose(tmp_path: Path, named: bool, count: int) -> None:
     motion = read(tmp_path, "a.json", make_mmpose(MMPOSE[count], named=named), fps=30)
-    assert (motion.provenance.format, motion.n_frames) == ("MMPose", 30)
+    check_sample(motion, "MMPose")
     assert set(MMPOSE[count]) <= set(motion.skeleton.names)
-    assert is_standing(motion)
-    assert 0.6 < measure_wave(motion) < 1.0
 
 
 def test_mmpose_of_whole_bodies_people_and_lifters(tmp_path: Path) -> None:
@@ -272,130 +247,12 @@ def test_mmpose_of_whole_bodies_people_and_lifters(tmp_path: Path) -> None:
     assert is_standing(read(tmp_path, "a.json", lifted, fps=30))
 
 
-LAYOUTS = {
-    "list": lambda poses: [to_marks(pose) for pose in poses],
-    "rows": lambda poses: [[[*p, 0.9] for p in pose.tolist()] for pose in poses],
-    "keys": lambda poses: [{"frame": i, "landmarks": to_marks(p)} for i, p in enumerate(poses)],
-    "tasks": lambda poses: [{"landmarks": [to_marks(p)]} for p in poses],
-    "camel": lambda poses: {
-        "fps": 25,
-        "frames": [{"poseWorldLandmarks": to_marks(p)} for p in poses],
-    },
-    "solutions": lambda poses: [{"pose_landmarks": {"landmark": to_marks(p)}} for p in poses],
-    "numbered": lambda poses: {str(i): to_marks(p) for i, p in enumerate(poses)},
-    "named": lambda poses: [
-        {"pose": dict(zip(map(str.upper, MEDIAPIPE), to_marks(p)))} for p in poses
-    ],
-}
-
-
-@pytest.mark.parametrize("layout", LAYOUTS)
-def test_mediapipe_json(tmp_path: Path, layout: str) -> None:
-    motion = read(tmp_path, "a.json", LAYOUTS[layout](make_world_landmarks()), fps=25)
-    assert (motion.provenance.format, motion.n_frames) == ("MediaPipe", 30)
-    assert any("world landmarks" in note for note in motion.provenance.notes)
-    assert is_standing(motion)
-    assert measure_wave(motion) == pytest.approx(0.8, abs=0.05)
-
-
-def test_mediapipe_takes_world_landmarks_where_there_are_both(tmp_path: Path) -> None:
-    frames = [
-        {"pose_landmarks": to_marks(image), "pose_world_landmarks": to_marks(world)}
-        for image, world in zip(make_image_landmarks(), make_world_landmarks())
-    ]
-    frames[4] = {"pose_landmarks": None, "pose_world_landmarks": None}
-    motion = read(tmp_path, "a.json", {"frame_rate": 50, "frames": frames})
-    assert (motion.fps, motion.n_frames) == (50, 30)
-    assert measure_wave(motion) == pytest.approx(0.8, abs=0.05)
-
-
-def test_mediapipe_landmarks_of_the_image(tmp_path: Path) -> None:
-    frames = [{"landmarks": to_marks(pose)} for pose in make_image_landmarks()]
-    with pytest.warns(KinemeWarning, match="unknown size, assumed square"):
-        motion = read(tmp_path, "a.json", frames, fps=25)
-    assert is_standing(motion)
-    wide = {"width": 2000, "height": 1000, "frames": frames}
-    ratio = np.ptp(read(tmp_path, "a.json", wide, fps=25).positions[0], axis=0)
-    assert ratio[0] / ratio[1] == pytest.approx(2 * np.divide(*np.ptp(motion.positions[0], 0)[:2]))
-
-
-def _to_csv(pattern: str, first: int = 0, **more: list) -> str:
-    names = [pattern.format(f=f, i=i + first, name=MEDIAPIPE[i]) for i in range(33) for f in "xyzv"]
-    lines = [",".join([*more, *names])]
-    for row, pose in enumerate(make_world_landmarks()):
-        cells = np.column_stack([pose, np.full(33, 0.9)]).ravel()
-        lines.append(",".join([*(str(c[row]) for c in more.values()), *map(str, cells)]))
-    return "\n".join(lines) + "\n"
-
-
-def test_mediapipe_frames_without_anybody_keep_their_time(tmp_path: Path) -> None:
-    poses = make_world_landmarks(40)
-    there = {str(i): to_marks(pose) for i, pose in enumerate(poses) if not 10 <= i < 20}
-    with pytest.warns(KinemeWarning, match="frames 10 to 19"):
-        numbered = read(tmp_path, "a.json", there, fps=25)
-    assert (numbered.n_frames, numbered.gaps) == (40, ((10, 20),))
-    lines = _to_csv("{f}{i}").splitlines()
-    nobody = [lines[0], *["," * 131] * 10, *lines[1:]]
-    with pytest.warns(KinemeWarning, match="frames 0 to 9"):
-        empty = read(tmp_path, "a.csv", "\n".join(f"{i},{x}" for i, x in enumerate(nobody)), fps=25)
-    assert (empty.n_frames, empty.gaps) == (40, ((0, 10),))
-
-
-def test_mediapipe_at_uneven_times_says_so(tmp_path: Path) -> None:
-    times = [i / 25 + 0.012 * (i % 3) for i in range(30)]
-    motion = read(tmp_path, "a.csv", _to_csv("{f}{i}", time=times))
-    assert (motion.n_frames, motion.duration) == (30, pytest.approx(times[-1], abs=0.05))
-    assert motion.provenance.notes[0].startswith("times are uneven")
-
-
-@pytest.mark.parametrize(
-    ("pattern", "first"),
-    [
-        ("{f}{i}", 0),
-        ("{f}{i}", 1),
-        ("landmark_{i}_{f}", 0),
-        ("{f}_{i}", 0),
-        ("{name}_{f}", 0),
-        ("lm{i}.{f}", 0),
-    ],
-)
-def test_mediapipe_csv(tmp_path: Path, pattern: str, first: int) -> None:
-    text = _to_csv(pattern, first, time=[i / 25 for i in range(30)], **{"class": ["wave"] * 30})
-    motion = read(tmp_path, "a.csv", text)
-    assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)
-    assert is_standing(motion)
-    assert measure_wave(motion) == pytest.approx(0.8, abs=0.05)
-    head, rows = text.split("\n", 1)
-    german = f"{head}\n{rows.replace(',', ';').replace('.', ',')}".replace(
-        ",", ";", head.count(",")
-    )
-    assert np.array_equal(read(tmp_path, "b.csv", german).positions, motion.positions)
-    text = _to_csv(pattern, first, frame=[*range(20), *range(22, 32)])
-    assert read(tmp_path, "a.csv", text, fps=25).n_frames == 32
-
-
-@pytest.mark.parametrize("names", ["number", "float", "name"])
-def test_mediapipe_csv_with_a_row_for_each_landmark(tmp_path: Path, names: str) -> None:
-    lines = ["frame,timestamp,landmark,x,y,z,visibility"]
-    for i, pose in enumerate(make_world_landmarks()):
-        for k, (x, y, z) in enumerate(pose.tolist()):
-            label = f"PoseLandmark.{MEDIAPIPE[k].upper()}"
-            name = {"number": k, "float": float(k)}.get(names, label)
-            lines.append(f"{i},{i / 25},{name},{x},{y},{z},0.9")
-    motion = read(tmp_path, "a.csv", "\n".join(lines))
-    assert (motion.provenance.format, motion.fps, motion.n_frames) == ("MediaPipe", 25, 30)
-    assert measure_wave(motion) == pytest.approx(0.8, abs=0.05)
-    with pytest.raises(ReadError, match="'99' is none of MediaPipe's 33 landmarks"):
-        read(tmp_path, "a.csv", "\n".join([*lines, "30,1.2,99,0,0,0,1"]))
-
-
 def test_sleap_csv(tmp_path: Path) -> None:
     tracks = {"ann": project(make_person(COCO)), "bob": project(make_person(COCO), 1200)}
     with pytest.raises(ReadError, match=r"2 people .*: ann \(30 frames from 0 on\), bob"):
         read(tmp_path, "a.csv", to_sleap_csv(tracks, COCO), fps=30)
     motion = read(tmp_path, "a.csv", to_sleap_csv(tracks, COCO), fps=30, person="bob")
-    assert (motion.provenance.format, motion.n_frames) == ("SLEAP", 30)
-    assert is_standing(motion)
+    check_sample(motion, "SLEAP")
     one = read(tmp_path, "a.csv", to_sleap_csv({"": tracks["ann"]}, COCO), fps=30)
     assert is_standing(one)
 
@@ -409,9 +266,7 @@ def test_sleap_analysis_files(tmp_path: Path, new: bool) -> None:
     with pytest.raises(ReadError, match="2 people"):
         read(tmp_path, "a.analysis.h5", data, fps=30)
     motion = read(tmp_path, "a.h5", data, fps=30, person="bob")
-    assert (motion.provenance.format, motion.n_frames) == ("SLEAP", 30)
-    assert is_standing(motion)
-    assert 0.6 < measure_wave(motion) < 1.0
+    check_sample(motion, "SLEAP")
 
 
 def test_hdf5_of_anything_else(tmp_path: Path) -> None:
@@ -426,19 +281,39 @@ def test_hdf5_of_anything_else(tmp_path: Path) -> None:
         kineme.read(tmp_path / "b.h5", fps=30)
 
 
+def to_deeplabcut(*people: np.ndarray, individuals: str = "", separator: str = ",") -> str:
+    """A table of the keypoints of COCO, (frames, 17, 2) of each person."""
+    names = [name for _ in people for name in COCO for _ in range(3)]
+    head = [
+        ["scorer", *["net"] * len(names)],
+        ["bodyparts", *names],
+        ["coords", *["x", "y", "likelihood"] * (len(names) // 3)],
+    ]
+    if individuals:
+        head.insert(1, ["individuals", *(name for name in individuals.split() for _ in COCO * 3)])
+    rows = [
+        [i, *(cell for row in rows for x, y in row.tolist() for cell in (x, y, 0.9))]
+        for i, rows in enumerate(zip(*people, strict=True))
+    ]
+    return "\n".join(separator.join(map(str, row)) for row in [*head, *rows])
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_deeplabcut(tmp_path: Path, separator: str) -> None:
+    points = project(make_person(COCO))
+    text = to_deeplabcut(points, separator=separator)
+    check_sample(read(tmp_path, "a.csv", text, fps=30), "DeepLabCut")
+    with pytest.raises(ReadError, match="no column 'time' or 'fps' found: give fps="):
+        read(tmp_path, "a.csv", text)
+    unsure = text.replace(f"{separator}0.9", f"{separator}0.5", 1)
+    motion = read(tmp_path, "a.csv", unsure, fps=30)
+    assert "1 position below confidence 0.6 not used" in motion.provenance.notes
+    assert (motion.positions[:, :, 2] == 0).all()
+
+
 def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
     points = project(make_person(COCO))
-    head = [
-        "scorer" + ",net" * 102,
-        "individuals" + ",ann" * 51 + ",bob" * 51,
-        "bodyparts" + "".join(f",{name}" * 3 for name in COCO) * 2,
-        "coords" + ",x,y,likelihood" * 34,
-    ]
-    rows = [
-        ",".join([str(i), *(f"{x},{y},0.9" for x, y in [*row, *(row + 700)])])
-        for i, row in enumerate(points)
-    ]
-    text = "\n".join([*head, *rows])
+    text = to_deeplabcut(points, points + 700, individuals="ann bob")
     with pytest.raises(ReadError, match=r"2 individuals .*\(--person\): ann, bob"):
         read(tmp_path, "a.csv", text, fps=30)
     assert is_standing(read(tmp_path, "a.csv", text, fps=30, person="bob"))
@@ -456,10 +331,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         ('[{"people": [3]}]', "a person without keypoints"),
         ('[{"people": [{}]}]', "a person without pose_keypoints_3d, pose_keypoints_2d"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
-        (
-            '[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]',
-            "keypoints: 15, 17, 18",
-        ),
+        ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "keypoints: 15, 17, 18"),
         ('[{"people": []}]', "no person found in any frame"),
         (
             '{"0": {"people": []}, "99999999999": {"people": []}}',
@@ -476,12 +348,12 @@ def test_bad_json(tmp_path: Path, content: str, reason: str) -> None:
 def test_memory_follows_the_file_and_not_its_numbers(tmp_path: Path) -> None:
     frames = dict(zip(("0", "1", "900000000"), make_openpose(frames=3)))
     (tmp_path / "a.json").write_bytes(as_json(frames))
-    tracemalloc.start()
-    with pytest.raises(ReadError, match="these cannot be frame numbers"):
-        kineme.read(tmp_path / "a.json", fps=30)
-    _, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert peak < 2_000_000
+
+    def refuse() -> None:
+        with pytest.raises(ReadError, match="these cannot be frame numbers"):
+            kineme.read(tmp_path / "a.json", fps=30)
+
+    assert measure_peak(refuse) < 2_000_000
 
 
 def test_openpose_of_a_whole_body(tmp_path: Path) -> None:
@@ -490,46 +362,6 @@ def test_openpose_of_a_whole_body(tmp_path: Path) -> None:
     motion = read(tmp_path, "a.json", frames, fps=25)
     assert is_standing(motion)
     assert not any(name.startswith("nose_") for name in motion.skeleton.names)
-
-
-@pytest.mark.parametrize("world", [True, False])
-def test_a_body_seen_from_the_side_is_read(tmp_path: Path, world: bool) -> None:
-    """MediaPipe hides the far side: its places are estimated all the same."""
-    poses = make_world_landmarks() if world else make_image_landmarks()
-    key = "pose_world_landmarks" if world else "pose_landmarks"
-    far = [i for i, name in enumerate(MEDIAPIPE) if name.startswith("right")]
-    frames = [to_marks(pose) for pose in poses]
-    for frame in frames:
-        for i in far:
-            frame[i]["visibility"] = 0.15
-    data = {"fps": 30, "width": 1000, "height": 1000, "frames": [{key: f} for f in frames]}
-    motion = read(tmp_path, "a.json", data)
-    assert not motion.gaps
-    assert is_standing(motion)
-    sure = read(tmp_path, "a.json", data, confidence=0.5)
-    assert any("below confidence 0.5" in note for note in sure.provenance.notes)
-
-
-def test_frames_of_zeros_are_no_poses(tmp_path: Path) -> None:
-    poses = 1000 * make_image_landmarks(60)
-    poses[20:40] = 0
-    with pytest.warns(KinemeWarning, match="20 frames with zeros only"):
-        motion = read(tmp_path, "a.json", {"fps": 30, "frames": [to_marks(pose) for pose in poses]})
-    assert motion.gaps == ((20, 40),)
-    assert is_standing(motion)
-
-
-def test_landmarks_of_freemocap_are_in_space(tmp_path: Path) -> None:
-    """Without a clock, millimetres, z up: as ``mediapipe_body_3d_xyz.csv``."""
-    points = 1000 * make_person(MEDIAPIPE)[:, :, [0, 2, 1]] * (1, -1, 1) + (300, 2000, 50)
-    head = ",".join(f"{name}_{axis}" for name in MEDIAPIPE for axis in "xyz")
-    rows = [",".join(f"{v:.2f}" for v in frame.ravel()) for frame in points]
-    motion = read(tmp_path, "a.csv", "\n".join([head, *rows]), fps=30)
-    assert is_standing(motion)
-    assert 0.75 < measure_wave(motion) < 0.82
-    notes = " ".join(motion.provenance.notes)
-    assert "unit mm inferred" in notes
-    assert "up axis z inferred" in notes
 
 
 @pytest.mark.parametrize("sign", [1, -1], ids=["y up", "y down"])
@@ -552,3 +384,20 @@ def test_a_trc_without_a_head_has_a_body(tmp_path: Path, top: str) -> None:
     motion = kineme.read(write_trc(tmp_path / "a.trc", points, [*names, top], "m"))
     assert is_standing(motion)
     assert not kineme.segment(motion).provenance["notes"][0].startswith("no body")
+
+
+def test_ultralytics_people_by_frame(tmp_path: Path) -> None:
+    """A frame without anybody keeps its place."""
+    x = [100.0 + 10 * (i % 3) for i in range(17)]
+    y = [50.0 + 20 * i for i in range(17)]
+    box = {"x1": 0, "y1": 0, "x2": 1, "y2": 1}
+    keypoints = {"x": x, "y": y, "visible": [0.9] * 17}
+    person = {"name": "person", "box": box, "track_id": 1, "keypoints": keypoints}
+    frames = [[person] if i != 5 else [] for i in range(40)]
+    motion = read(tmp_path, "a.json", frames, fps=30)
+    assert motion.n_frames == 40
+    assert "left_knee" in motion.skeleton.names
+    # The same as fractions of the image, as with normalize=True.
+    keypoints.update(x=[value / 1280 for value in x], y=[value / 720 for value in y])
+    with pytest.warns(KinemeWarning, match="unknown size, assumed square"):
+        read(tmp_path, "a.json", [[person]] * 40, fps=30)

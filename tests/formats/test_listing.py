@@ -163,3 +163,25 @@ def test_archives_that_are_none_are_not_listed_as_zip(tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as file:
         file.writestr("poses.npy", b"")
     assert holds_recording(tmp_path / "a.npz")
+
+
+ELAN = "Sport\t\t00:00:01.200\t1.2\t00:00:05.900\t5.9\tsquat\n"
+WIDE = "Begin Time - msec\tEnd Time - msec\tSport\n1200\t5900\tsquat\n"
+BORIS = (
+    "Observation id,Behavior,Behavior type,Start (s),Stop (s)\n"
+    "o,squat,STATE,1.2,5.9\no,clap,POINT,7.0,7.0\n"
+)
+
+
+@pytest.mark.filterwarnings("ignore:.*point events")
+@pytest.mark.parametrize(
+    ("name", "text"), [("a.txt", ELAN), ("b.txt", WIDE), ("c.tsv", WIDE), ("d.csv", BORIS)]
+)
+def test_labels_are_no_recording(tmp_path: Path, name: str, text: str) -> None:
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(kineme.ReadError, match="holds labels of"):
+        kineme.read(path)
+    found = kineme.read_segments(path, fps=10).activities
+    spans = [(a.start_s, a.stop_s) for a in found if a.label == "squat"]
+    assert spans == [(1.2, 5.9)]

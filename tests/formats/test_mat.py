@@ -16,18 +16,13 @@ import kineme
 from kineme.errors import ReadError
 from kineme.formats.arrays.mat import parse_mat
 from kineme.formats.files import FileContent
+from reading import read
 
 
 def to_mat(compressed: bool = True, **variables: object) -> bytes:
     file = io.BytesIO()
     savemat(file, variables, do_compression=compressed)
     return file.getvalue()
-
-
-def read(folder: Path, data: bytes, **options):
-    path = folder / "a.mat"
-    path.write_bytes(data)
-    return kineme.read(path, **options)
 
 
 def to_cells(names: list[str]) -> np.ndarray:
@@ -49,25 +44,25 @@ def has_the_walk(motion: kineme.Motion) -> bool:
 def test_positions_by_variables(tmp_path: Path, compressed: bool) -> None:
     names = to_cells(PLUG_IN_GAIT)
     data = to_mat(compressed, positions=MARKERS, names=names, fps=100)
-    assert has_the_walk(read(tmp_path, data))
+    assert has_the_walk(read(tmp_path, "a.mat", data))
     inside = to_mat(compressed, take={"positions": MARKERS, "names": names, "fps": 100})
-    assert has_the_walk(read(tmp_path, inside))
+    assert has_the_walk(read(tmp_path, "a.mat", inside))
     rows = to_mat(compressed, positions=MARKERS, names=np.array(PLUG_IN_GAIT), fps=100)
-    assert has_the_walk(read(tmp_path, rows))  # a matrix of characters
+    assert has_the_walk(read(tmp_path, "a.mat", rows))  # a matrix of characters
 
 
 def test_a_variable_for_each_marker(tmp_path: Path) -> None:
     tracks = {name: MARKERS[:, i] for i, name in enumerate(PLUG_IN_GAIT)}
-    assert has_the_walk(read(tmp_path, to_mat(fps=100.0, **tracks)))
-    assert has_the_walk(read(tmp_path, to_mat(markers=tracks, fps=100.0, info="a take")))
+    assert has_the_walk(read(tmp_path, "a.mat", to_mat(fps=100.0, **tracks)))
+    assert has_the_walk(read(tmp_path, "a.mat", to_mat(markers=tracks, fps=100.0, info="a take")))
     time = np.arange(60) / 100
-    assert has_the_walk(read(tmp_path, to_mat(markers={**tracks, "time": time})))
+    assert has_the_walk(read(tmp_path, "a.mat", to_mat(markers={**tracks, "time": time})))
     columns = {
         f"{n}_{a}": MARKERS[:, i, k]
         for i, n in enumerate(PLUG_IN_GAIT)
         for k, a in enumerate("xyz")
     }
-    assert has_the_walk(read(tmp_path, to_mat(**columns, time=time)))
+    assert has_the_walk(read(tmp_path, "a.mat", to_mat(**columns, time=time)))
 
 
 def to_qtm(points: np.ndarray) -> dict:
@@ -79,12 +74,12 @@ def to_qtm(points: np.ndarray) -> dict:
 
 def test_exports_of_qtm(tmp_path: Path) -> None:
     points = to_millimetres(MARKERS)
-    motion = read(tmp_path, to_mat(take_01=to_qtm(points)))
+    motion = read(tmp_path, "a.mat", to_mat(take_01=to_qtm(points)))
     assert motion.provenance.format == "MAT of QTM"
     assert has_the_walk(motion)
     wrong = to_qtm(points[:, :5])
     with pytest.raises(ReadError, match=r"18 Labels for Data of shape \(5, 4, 60\)"):
-        read(tmp_path, to_mat(take=wrong))
+        read(tmp_path, "a.mat", to_mat(take=wrong))
 
 
 def as_hdf5(variables: dict, folder: Path) -> bytes:
@@ -125,14 +120,14 @@ def as_hdf5(variables: dict, folder: Path) -> bytes:
 def test_version_73(tmp_path: Path) -> None:
     names = to_cells(PLUG_IN_GAIT)
     data = as_hdf5({"positions": MARKERS, "names": names, "fps": 100}, tmp_path)
-    assert has_the_walk(read(tmp_path, data))
+    assert has_the_walk(read(tmp_path, "a.mat", data))
     rows = {"positions": MARKERS, "names": "\n".join(PLUG_IN_GAIT), "fps": 100}
-    assert has_the_walk(read(tmp_path, as_hdf5(rows, tmp_path)))
-    motion = read(tmp_path, as_hdf5({"take": to_qtm(to_millimetres(MARKERS))}, tmp_path))
+    assert has_the_walk(read(tmp_path, "a.mat", as_hdf5(rows, tmp_path)))
+    motion = read(tmp_path, "a.mat", as_hdf5({"take": to_qtm(to_millimetres(MARKERS))}, tmp_path))
     assert motion.provenance.format == "MAT of QTM"
     assert has_the_walk(motion)
     with pytest.raises(ReadError, match="is not a complete HDF5 file"):
-        read(tmp_path, data[: len(data) // 2])
+        read(tmp_path, "a.mat", data[: len(data) // 2])
 
 
 def test_channels_are_signals(tmp_path: Path) -> None:
@@ -168,7 +163,7 @@ def test_channels_are_signals(tmp_path: Path) -> None:
 )
 def test_bad_files(tmp_path: Path, data: bytes, reason: str) -> None:
     with pytest.raises(ReadError, match=reason):
-        read(tmp_path, data)
+        read(tmp_path, "a.mat", data)
 
 
 VALUES = st.one_of(

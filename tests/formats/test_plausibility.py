@@ -27,14 +27,9 @@ def make_walker(*, head: bool = True) -> np.ndarray:
 
 
 def write_csv(path: Path, points: np.ndarray, names: list[str], up: str = "") -> Path:
-    columns = [f"{name}_{axis}" for name in names for axis in "xyz"]
-    rows = [",".join(f"{v:.5f}" for v in row.ravel()) for row in points]
-    times = [f"{i / FPS:.4f}" for i in range(len(points))]
-    lines = [
-        ",".join(["time_s", *columns]),
-        *(f"{t},{r}" for t, r in zip(times, rows, strict=True)),
-    ]
-    path.write_text("\n".join(lines))
+    head = ["time_s", *(f"{name}_{axis}" for name in names for axis in "xyz")]
+    rows = np.column_stack([np.arange(len(points)) / FPS, points.reshape(len(points), -1)])
+    np.savetxt(path, rows, "%.5f", delimiter=",", header=",".join(head), comments="")
     return path
 
 
@@ -48,22 +43,13 @@ def write_c3d(path: Path, points: np.ndarray, names: list[str], up: str = "") ->
     return path
 
 
-WRITERS = {
-    ".c3d": write_c3d,
-    ".trc": write_millimetres,
-    ".csv": write_csv,
-}
+WRITERS = {".c3d": write_c3d, ".trc": write_millimetres, ".csv": write_csv}
 
 
 def measure_height(motion: Any, upper: str) -> float:
-    """Return how far a marker is above the ankles, in the middle of the recording."""
-    names = motion.skeleton.names
-    marker = upper if upper in names else next(n for n in names if n.startswith(upper))
-    gap = (
-        motion.positions[:, names.index(marker), 1]
-        - motion.positions[:, names.index("left_ankle"), 1]
-    )
-    return float(np.median(gap))
+    """Return how far a joint is above the left ankle, the median over frames."""
+    joint, ankle = motion.joint(upper), motion.joint("left_ankle")
+    return float(np.median(motion.positions[:, joint, 1] - motion.positions[:, ankle, 1]))
 
 
 @pytest.mark.parametrize("head", [True, False], ids=["head", "no head"])

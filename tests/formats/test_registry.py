@@ -1,7 +1,8 @@
-"""Reading through the registry, notes on what was inferred, and formats of other packages."""
+"""Formats of the registry and of other packages, notes on what was inferred, and any error."""
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Iterator
 from dataclasses import replace
@@ -9,17 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from format_samples import BVH
 
 import kineme
-from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.formats import (
-    Format,
-    ReadOptions,
-    read_quietly,
-    register,
-    registry,
-    supported_formats,
-)
+from kineme.errors import KinemeWarning, MotionError, ParameterError, ReadError, WriteError
+from kineme.formats import Format, ReadOptions, read_quietly, register, registry, supported_formats
+from kineme.formats.listing import scan_folder
+from kineme.labels import registry as labels
 
 CUT_SHORT = kineme.bundled_recording().read_text(encoding="utf-8").replace("Frames: ", "Frames: 9")
 
@@ -67,11 +64,7 @@ def test_what_is_worth_a_warning_is_warned_of_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [
-        ("a.qtm", "export BVH or C3D"),
-        ("a.xlsx", "save it as CSV"),
-        ("a.csv.gz", "unpack it first"),
-    ],
+    [("a.qtm", "export BVH or C3D"), ("a.xlsx", "save it as CSV"), ("a.csv.gz", "unpack it first")],
 )
 def test_files_that_people_try(tmp_path: Path, name: str, what: str) -> None:
     (tmp_path / name).write_bytes(b"PK\x03\x04")
@@ -143,3 +136,65 @@ def test_options_are_checked_where_they_are_given() -> None:
             ReadOptions(**wrong)
         with pytest.raises(ParameterError, match=said):
             kineme.read("a.bvh", **wrong)
+
+
+class SurprisingError(Exception):
+    pass
+
+
+def surprise(*_: object) -> None:
+    raise SurprisingError("deep inside")
+
+
+@pytest.mark.parametrize(
+    ("known", "odd", "read"),
+    [
+        (registry, registry.Format("odd", (".odd",), lambda _: False, surprise), kineme.read),
+        (labels, labels.LabelFormat("odd", "", (".odd",), "all", surprise), kineme.read_segments),
+    ],
+)
+def test_surprises_of_a_reader(tmp_path: Path, request, known, odd, read) -> None:
+    path = tmp_path / "a.odd"
+    path.write_text("anything")
+    known.register(odd)
+    request.addfinalizer(lambda: known.FORMATS.remove("odd"))
+    with pytest.raises(ReadError, match=r"a\.odd: cannot be read, .*deep inside") as caught:
+        read(path)
+    assert isinstance(caught.value.__cause__, SurprisingError)
+
+
+@pytest.mark.parametrize("shape", ["()", "(" + "1, " * 70 + ")", "(-1, 3, 3)"])
+def test_headers_of_arrays(tmp_path: Path, shape: str) -> None:
+    text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}".ljust(501) + "\n"
+    head = b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode()
+    (tmp_path / "a.npy").write_bytes(head + bytes(800))
+    with pytest.raises(ReadError, match=r"a\.npy"):
+        kineme.read(tmp_path / "a.npy", fps=30)
+
+
+def test_values_that_no_body_or_clock_has(tmp_path: Path) -> None:
+    path = tmp_path / "a.bvh"
+    path.write_text(BVH.replace("1 91 1 11", "1 1e28 1 11"))
+    with (
+        warnings.catch_warnings(action="error", category=RuntimeWarning),
+        pytest.raises(ReadError, match="positions reach 1e.* m, too far for a body"),
+    ):
+        kineme.read(path, unit="m")
+    with pytest.raises(ReadError, match=r"1e\+300 Hz, which is too high or too low"):
+        kineme.read(kineme.bundled_recording(), fps=1e300)
+    body = kineme.Skeleton(("a",), (-1,), [[0.0, 0.0, 0.0]])
+    with pytest.raises(MotionError, match="too high or too low"):
+        kineme.Motion(body, np.zeros((3, 1, 3)), 1e-300)
+    with pytest.raises(ParameterError, match="too large for a sensor"):
+        kineme.Signals([[1e300], [0.0]], 50)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+@pytest.mark.parametrize("suffix", [".bvh", ".csv", ".json", ".npz"])
+def test_a_pipe_is_not_waited_for(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"a{suffix}"
+    os.mkfifo(path)
+    for reader in (kineme.read, kineme.read_segments, kineme.KnowledgeBase.load):
+        with pytest.raises(ReadError, match="is a pipe|are stored as"):
+            reader(path)
+    assert scan_folder(tmp_path).recordings == []

@@ -12,11 +12,13 @@ import pytest
 from format_samples import motions
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from keypoint_samples import write_trc
 
 import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read_motion
 from kineme.formats.arrays.numpy_files import make_smpl_skeleton
+from reading import read
 
 JOINTS = ["pelvis", "left_hip", "right_hip", "left_ankle", "right_ankle", "head", "left_wrist"]
 JOINTS += ["right_wrist", "nose"]
@@ -37,12 +39,6 @@ def tabulate(points: np.ndarray, pattern: str = "{joint}_{axis}", sep: str = ","
     cells = [[*map(str, [c[i] for c in columns.values()]), *map(repr, row.tolist())]
              for i, row in enumerate(rows)]  # fmt: skip
     return "\n".join([sep.join([*columns, *names]), *map(sep.join, cells)]) + "\n"
-
-
-def read(folder: Path, name: str, content: str | bytes, **options):
-    path = folder / name
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return kineme.read(path, **options)
 
 
 TIMES = [f"{i / 25:.3f}" for i in range(20)]
@@ -148,6 +144,16 @@ def test_columns_without_a_unit_are_in_that_of_the_others(tmp_path: Path) -> Non
     assert np.abs(found.positions - plain.positions).max() < 1e-12
 
 
+def test_columns_with_a_unit_behind_the_axis_are_read_in_it(tmp_path: Path) -> None:
+    """A head in mm beside a hip in metres without a unit."""
+    rows = (f"{i / 50},{0.1},{0.9},{0.2},{100},{1700},{200 + i % 3}\n" for i in range(40))
+    text = "time,hip_x,hip_y,hip_z,head_x_mm,head_y_mm,head_z_mm\n" + "".join(rows)
+    with pytest.warns(KinemeWarning, match="1 point state no unit; read in m"):
+        motion = read(tmp_path, "a.csv", text, up="y")
+    heights = dict(zip(motion.skeleton.names, motion.positions[0, :, 1], strict=True))
+    assert heights == pytest.approx({"hip": 0.9, "head": 1.7})
+
+
 def test_positions_beside_other_columns_of_joints(tmp_path: Path) -> None:
     plain = read(tmp_path, "a.csv", tabulate(make_body(), time=TIMES))
     more = {f"head_{what}_{axis}": [90.0] * 20 for what in ("rotation", "vel") for axis in "xyz"}
@@ -186,29 +192,6 @@ def test_what_is_hidden_is_used(tmp_path: Path) -> None:
     assert np.allclose(read(tmp_path, "a.csv", text).positions[:, 0], make_body()[:, 0])
     notes = read(tmp_path, "a.csv", text, confidence=0.5).provenance.notes
     assert any("20 positions below confidence 0.5" in note for note in notes)
-
-
-def test_deeplabcut(tmp_path: Path) -> None:
-    names = ["left_hip", "right_hip", "left_ankle", "right_ankle", "nose", "left_wrist"]
-    names += ["right_wrist"]
-    pixels = 200 * make_body()[:, [JOINTS.index(name) for name in names]]
-    pixels[:, :, 1] = 400 - pixels[:, :, 1]
-    head = ["scorer" + ",net" * 21, "bodyparts"]
-    head[1] += "".join(f",{name}" * 3 for name in names)
-    head.append("coords" + ",x,y,likelihood" * 7)
-    rows = [
-        ",".join([str(i), *(f"{x},{y},{0.99 if (i, k) != (4, 2) else 0.5}"
-                            for k, (x, y, _) in enumerate(frame))])
-        for i, frame in enumerate(pixels)
-    ]  # fmt: skip
-    motion = read(tmp_path, "a.csv", "\n".join([*head, *rows]), fps=30)
-    assert motion.provenance.format == "DeepLabCut"
-    assert (motion.n_frames, motion.fps) == (20, 30)
-    above = motion.positions[:, motion.joint("nose")] - motion.positions[:, motion.joint("pelvis")]
-    assert (above[:, 1] > 0.5).all()
-    assert (motion.positions[:, :, 2] == 0).all()
-    with pytest.raises(ReadError, match="no column 'time' or 'fps' found: give fps="):
-        read(tmp_path, "a.csv", "\n".join([*head, *rows]))
 
 
 def test_parquet(tmp_path: Path) -> None:
@@ -283,6 +266,17 @@ def test_bad_trc(tmp_path: Path, old: str, new: str, line: int, reason: str) -> 
     with pytest.raises(ReadError, match=reason) as caught:
         read(tmp_path, "a.trc", TRC.replace(old, new))
     assert caught.value.line == line
+
+
+@pytest.mark.parametrize("tabs", ["\t", "\t\t", "\t\t\t"])
+def test_trc_names_stand_any_number_of_tabs_apart(tmp_path: Path, tabs: str) -> None:
+    names = ["LELB", "RELB", "STRN"]
+    points = np.random.default_rng(4).normal(size=(40, 3, 3)).cumsum(axis=0) + 900
+    text = write_trc(tmp_path / "a.trc", points, names, fps=60).read_text()
+    text = text.replace("LELB\t\t\tRELB\t\t\tSTRN", tabs.join(names))
+    motion = read(tmp_path, "a.trc", text, up="y")
+    found = motion.positions[:, [motion.joint(name) for name in names]]
+    assert np.abs(found - points / 1000).max() < 1e-6
 
 
 def test_npz_of_poses(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from kineme import Signals
 from kineme.clips.split import write_clips
 from kineme.errors import WriteError
 from kineme.formats import write
+from reading import read
 from segmentations import make_activities
 
 VALUES = np.random.default_rng(0).normal(size=(30, 2))
@@ -43,8 +44,7 @@ FILES = {
 def test_the_rate_that_was_given_is_in_what_is_written(
     tmp_path: Path, name: str, fps: float, suffix: str
 ) -> None:
-    (tmp_path / name).write_text(FILES[name])
-    given = kineme.read(tmp_path / name, fps=fps)
+    given = read(tmp_path, name, FILES[name], fps=fps)
     write(given, tmp_path / f"new{suffix}")
     found = kineme.read(tmp_path / f"new{suffix}")
     assert (found.fps, found.names) == (fps, given.names)
@@ -52,8 +52,7 @@ def test_the_rate_that_was_given_is_in_what_is_written(
 
 
 def test_rows_whose_times_are_right_stay_as_they_are(tmp_path: Path) -> None:
-    (tmp_path / "units.csv").write_text(FILES["units.csv"])
-    write(kineme.read(tmp_path / "units.csv"), tmp_path / "new.csv")
+    write(read(tmp_path, "units.csv", FILES["units.csv"]), tmp_path / "new.csv")
     assert (tmp_path / "new.csv").read_text() == FILES["units.csv"]
 
 
@@ -64,9 +63,9 @@ def test_parquet_at_another_rate(tmp_path: Path) -> None:
 
 
 def test_a_mot_whose_times_are_of_another_rate_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "a.mot").write_text(FILES["angles.mot"])
+    given = read(tmp_path, "a.mot", FILES["angles.mot"], fps=25)
     with pytest.raises(WriteError, match="its own times have another rate"):
-        write(kineme.read(tmp_path / "a.mot", fps=25), tmp_path / "b.mot")
+        write(given, tmp_path / "b.mot")
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
@@ -84,8 +83,7 @@ def test_few_rows(tmp_path: Path, n: int, suffix: str, names: list[str]) -> None
 
 @pytest.mark.parametrize("name", ["times.csv", "no_times.csv", "angles.mot"])
 def test_a_clip_of_one_row(tmp_path: Path, name: str) -> None:
-    (tmp_path / name).write_text(FILES[name])
-    signals = kineme.read(tmp_path / name, fps=50)
+    signals = read(tmp_path, name, FILES[name], fps=50)
     rows = list(make_activities(5, 6, 30, fps=50))
     for row, clip in zip(rows, write_clips([(signals, rows)], tmp_path / "clips"), strict=True):
         found = kineme.read(clip)

@@ -1,7 +1,8 @@
-"""Measure how processor time grows with the size of the input."""
+"""Measure how processor time grows with the size of the input, and the memory of work."""
 
 from __future__ import annotations
 
+import tracemalloc
 from collections.abc import Callable
 from time import process_time
 from timeit import repeat
@@ -20,3 +21,13 @@ def times_longer(work: Callable[[int], object], n: int) -> float:
         return min(repeat(lambda: work(n), timer=process_time, repeat=2, number=1))
 
     return spent(n) / max(spent(n // PARTS), LEAST)
+
+
+def measure_peak(work: Callable[[], object]) -> int:
+    """Return the largest number of bytes that Python held during the work."""
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()

@@ -16,7 +16,7 @@ from kineme.cycles import foot_events
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, ReadError, WriteError
 from kineme.formats.files import FileContent, load
-from kineme.formats.markers.c3d_file import BLOCK, MIPS, Layout, parse_c3d, read_header
+from kineme.formats.markers.c3d_file import BLOCK, MIPS, Layout, parse_c3d
 from kineme.labels import read_segments, write_segments
 from kineme.labels.c3d_events import read_events, write_events
 
@@ -114,9 +114,7 @@ FILES = ["Dec_real.c3d", "Eb015pi.c3d", "Eb015pr.c3d", "Eb015si.c3d", "sample_pr
 
 
 def read_layout(path: Path) -> Layout:
-    content = load(path)
-    parameters = parse_c3d(content).parameters
-    return Layout(content, parameters, read_header(content, parameters))
+    return Layout(load(path))
 
 
 def read_other_parameters(path: Path) -> dict[tuple[str, str], object]:

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kineme.recordings.joint_names import (
-    find_body,
-    find_joints,
-    find_rig_joints,
-    mentions,
-)
+from kineme.recordings.joint_names import find_body, find_joints, find_rig_joints, mentions
 
 
 @pytest.mark.parametrize("usual", ["LeftFoot", "foot.L", "lfoot", "leftfoot", "FOOT_LEFT"])

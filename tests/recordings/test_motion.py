@@ -9,9 +9,7 @@ from scipy.spatial.transform import Rotation
 from kineme._util import rotations as rot
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings import Motion, Skeleton
-from kineme.recordings.kinematics import (
-    compute_local_translations,
-)
+from kineme.recordings.kinematics import compute_local_translations
 
 ARM = Skeleton(
     ("shoulder", "elbow", "hand"), (-1, 0, 1), np.array([[0, 0, 0], [1, 0, 0], [1, 0, 0]]), {2}

@@ -270,9 +270,9 @@ def _parse_cells(content: FileContent, cells: list[str], line: int) -> list[floa
         # Only rows with empty cells or errors take this slower path.
         empty = [cell.strip().lower() in EMPTY for cell in cells]
     try:
-        rest = iter(
-            parse_numbers([cell for cell, hole in zip(cells, empty, strict=True) if not hole])
+        numbers = parse_numbers(
+            ["0" if hole else cell for cell, hole in zip(cells, empty, strict=True)]
         )
     except ValueError as error:
         raise content.error(str(error), line) from None
-    return [nan if hole else next(rest) for hole in empty]
+    return [nan if hole else number for number, hole in zip(numbers, empty, strict=True)]

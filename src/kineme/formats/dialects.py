@@ -2,18 +2,16 @@
 
 A table with named columns, including a time, needs no dialect. A dialect is recognised by the
 column names or the first lines. It has a ``layout``, which locates the table and its columns, or
-its own reader. Each dialect is a module that defines a `Dialect`. Other packages register theirs as
-entry points of the group ``kineme.table_dialects``.
+its own reader. Other packages register theirs as entry points of the group
+``kineme.table_dialects``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from pkgutil import iter_modules
 
 from kineme._util.checks import Registry
-from kineme.formats import devices
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
@@ -60,15 +58,17 @@ DIALECTS: Registry[Dialect] = Registry(
     "kineme.table_dialects",
     home="kineme.formats",
     builtins=(
-        # one of each module in the folder
-        *(f"devices.{module.name}:DIALECT" for module in iter_modules(devices.__path__)),
-        "markers.capture_tables:NEXUS",
-        "markers.capture_tables:MOTIVE",
-        "markers.capture_tables:QTM",
-        "keypoints.deeplabcut:DIALECT",
-        "keypoints.sleap:DIALECT",
-        "keypoints.mediapipe:WIDE",
-        "keypoints.mediapipe:LONG",
+        "devices.layouts:DIALECTS",
+        "devices.actigraph:DIALECT",
+        "devices.delsys:DIALECT",
+        "devices.empatica:DIALECT",
+        "devices.freemocap:DIALECT",
+        "devices.geneactiv:DIALECT",
+        "devices.opensignals:DIALECT",
+        "devices.shimmer:DIALECT",
+        "markers.capture_tables:DIALECTS",
+        "keypoints.animals:DIALECTS",
+        "keypoints.mediapipe:DIALECTS",
     ),
     newest_first=True,
 )

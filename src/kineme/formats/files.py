@@ -148,7 +148,6 @@ def load(path: str | PathLike[str]) -> FileContent:
 
 @contextmanager
 def _translate_open_errors(path: str | PathLike[str]) -> Iterator[None]:
-    """Turn errors of opening a file into ReadError."""
     try:
         refuse_pipe(path)
         yield

@@ -175,14 +175,8 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
             for joint, joint_points in body.items()
         )
         notes.append(f"{BODY}: {', '.join(used)}")
-    return Motion(
-        skeleton,
-        positions,
-        points.fps,
-        rotations=None,
-        provenance=provenance.noted(*notes),
-        gaps=missing,
-    )
+    provenance = provenance.noted(*notes)
+    return Motion(skeleton, positions, points.fps, provenance=provenance, gaps=missing)
 
 
 def select_subject(

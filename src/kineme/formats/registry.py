@@ -112,15 +112,10 @@ FORMATS: Registry[Format] = Registry(
     "kineme.formats",
     home="kineme.formats",
     builtins=(
-        "keypoints.pose_json:OPENPOSE",
-        "keypoints.pose_json:MMPOSE",
-        "keypoints.pose_json:COCO",
-        "keypoints.pose_json:MEDIAPIPE",
-        "keypoints.pose_json:ULTRALYTICS",
-        "keypoints.sleap:FORMAT",
+        "keypoints.pose_json:FORMATS",
+        "keypoints.animals:FORMAT",
         "arrays.mat:FORMAT",
-        "arrays.numpy_files:NPY",
-        "arrays.numpy_files:NPZ",
+        "arrays.numpy_files:FORMATS",
         "tables:FORMATS",
         "markers.trc:FORMAT",
         "markers.c3d:FORMAT",
@@ -214,8 +209,7 @@ def recognise(content: FileContent) -> Format:
         return candidate
     suffixes = sorted({s for candidate in formats for s in candidate.suffixes})
     raise ReadError(
-        content.path,
-        f"unknown content and suffix {suffix!r}: kineme reads {', '.join(suffixes)}",
+        content.path, f"unknown content and suffix {suffix!r}: kineme reads {', '.join(suffixes)}"
     )
 
 

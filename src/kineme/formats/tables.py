@@ -24,9 +24,9 @@ from kineme.formats.channels.parquet import (
     refuse_interleaved,
 )
 from kineme.formats.channels.reading import (
-    choose_channels,
     describe_header_rate,
     read_text_channels,
+    select_columns,
     to_signals,
 )
 from kineme.formats.channels.writing import write_signals
@@ -55,7 +55,9 @@ def read_table(content: FileContent, options: ReadOptions) -> Motion | Signals:
         if not options.channels:
             return recording
         if isinstance(recording, Signals):
-            return choose_channels(content, recording, options.columns or None)
+            names = recording.names
+            chosen = select_columns(content, names, options.columns or None, names)
+            return recording.select(chosen or names)
     elif not options.channels and not hold_channels(table.names):
         return _read_joints(table, options)
     channels = read_text_channels(table, options.columns or None)
@@ -109,7 +111,6 @@ def write_csv(motion: Motion, path: Path) -> None:
 
 
 def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of the joints whose coordinates are in the columns."""
     table.refuse_interleaved()
     names, content = table.names, table.content
     remarks = list(table.remarks)
@@ -139,13 +140,7 @@ def _read_joints(table: DelimitedText, options: ReadOptions) -> Motion:
 
 
 TABLE = Format(
-    "table",
-    (".csv", ".tsv"),
-    lambda _: False,
-    read_table,
-    write_csv,
-    write_signals,
-    channels=True,
+    "table", (".csv", ".tsv"), lambda _: False, read_table, write_csv, write_signals, channels=True
 )
 TEXT = replace(TABLE, name="text table", suffixes=(".txt", ".dat"), write=None)
 OPENSIM = Format(

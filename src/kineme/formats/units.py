@@ -61,7 +61,7 @@ METRIC = ("m", "cm", "mm")
 """Units of markers and of most files."""
 
 _METRES = re.compile("(centi|milli)?met(?:er|re)s?")
-_HEIGHT = 1.7  # metres assumed for a body measured in pixels
+_HEIGHT = 1.7  # metres of a usual body, assumed for one measured in pixels
 
 
 def to_metres(unit: str | float) -> float:
@@ -85,16 +85,13 @@ def infer_unit(skeleton: Skeleton, means: Floats) -> tuple[str, Note]:
     head to toes. If no unit fits, the nearest is used and the note is a warning.
     """
     height = estimate_height(skeleton, means)
-    fits = {
-        name: CERTAIN_HEIGHTS[0] <= height * size <= CERTAIN_HEIGHTS[1]
-        for name, size in UNITS.items()
-    }
-    if any(fits.values()):
-        unit = next(name for name, fit in fits.items() if fit)
-        metres = height * UNITS[unit]
-        return unit, Note(f"unit {unit} inferred: the skeleton is then about {metres:.2f} m tall")
-    # Compare ratios to 1.7 m on a logarithmic scale.
-    errors = np.log([max(height, 1e-9) * size / 1.7 for size in UNITS.values()])
+    low, high = CERTAIN_HEIGHTS
+    for unit, size in UNITS.items():
+        if low <= height * size <= high:
+            remark = f"the skeleton is then about {height * size:.2f} m tall"
+            return unit, Note(f"unit {unit} inferred: {remark}")
+    # Compare ratios to the usual height on a logarithmic scale.
+    errors = np.log([max(height, 1e-9) * size / _HEIGHT for size in UNITS.values()])
     unit = list(UNITS)[int(np.abs(errors).argmin())]
     remark = (
         f"this skeleton, about {height:.3g} units tall, is not of human size in any unit: "
@@ -124,11 +121,7 @@ def estimate_height(skeleton: Skeleton, means: Floats) -> float:
 
 
 def infer_scale(
-    unit: str | float | None,
-    positions: Floats,
-    *,
-    stated: str | None = None,
-    is_body: bool = False,
+    unit: str | float | None, positions: Floats, *, stated: str | None = None, is_body: bool = False
 ) -> tuple[float, list[str]]:
     """Return the metres in one unit of the positions, and notes on what was inferred.
 
@@ -181,8 +174,6 @@ def _find_human_unit(spread: float) -> str | None:
 def infer_up(skeleton: Skeleton, positions: Floats) -> str:
     """Return the axis along which the body stands at rest and most of the time, else "y"."""
     feet, head = find_feet_and_head(skeleton)
-    if not head or not feet:
-        return "y"
     axis = _find_body_axis(place_at_rest(skeleton)[None], feet, head, 0.9)
     return axis if axis and axis == _find_body_axis(positions, feet, head, 0.7) else "y"
 
@@ -196,7 +187,7 @@ def infer_up_axis(
     """
     upper = list(body.get("head", ()) or body.get("pelvis", ()))
     feet = [i for joint in ("left_ankle", "right_ankle") for i in body.get(joint, ())]
-    up = _find_body_axis(positions, feet, upper, 0.7) if upper and feet else None
+    up = _find_body_axis(positions, feet, upper, 0.7)
     if is_stated and up in (None, default):
         return default, []
     if up is None:
@@ -210,8 +201,7 @@ def infer_up_axis(
 
 def find_lying_axis(skeleton: Skeleton, positions: Floats) -> str | None:
     """Return the axis along which a body lies most of the time, or None if it does not lie."""
-    feet, head = find_feet_and_head(skeleton)
-    axis = _find_body_axis(positions, feet, head, 0.7) if head and feet else None
+    axis = _find_body_axis(positions, *find_feet_and_head(skeleton), 0.7)
     return None if axis == "y" else axis
 
 
@@ -231,6 +221,8 @@ def _find_body_axis(
 
     ``least`` is the minimum component of the median direction along that axis.
     """
+    if not feet or not head:
+        return None
     vectors = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     # The median is robust to frames in which the body bends or lies.

@@ -136,13 +136,10 @@ class Motion(Recording):
         return self.skeleton.joint(name)
 
     def _sliced(self, start: int, stop: int, gaps: Spans, provenance: Provenance) -> Motion:
+        positions = self.positions[start:stop]
         rotations = None if self.rotations is None else self.rotations[start:stop]
         return replace(
-            self,
-            positions=self.positions[start:stop],
-            rotations=rotations,
-            gaps=gaps,
-            provenance=provenance,
+            self, positions=positions, rotations=rotations, gaps=gaps, provenance=provenance
         )
 
     def _facts(self) -> list[tuple[str, str]]:

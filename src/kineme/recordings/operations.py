@@ -85,14 +85,8 @@ def resample(motion: Motion, fps: float) -> Motion:
             skeleton, rotations, translations=interpolate_frames(translations, at)
         )
     provenance = motion.provenance.noted(f"resampled from {motion.fps:g} to {fps:g} Hz")
-    return Motion(
-        skeleton,
-        positions,
-        fps,
-        rotations=rotations,
-        provenance=provenance,
-        gaps=_move_gaps(motion, ratio, n),
-    )
+    gaps = _move_gaps(motion, ratio, n)
+    return Motion(skeleton, positions, fps, rotations, provenance, gaps)
 
 
 def cut(recording: AnyRecording, start: int, stop: int) -> AnyRecording:

@@ -159,7 +159,7 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
         # A stable sort keeps the file order of rows with equal times.
         sequence = np.argsort(at, kind="stable")
         rows, at, shown = rows[sequence], at[sequence], shown[sequence]
-        was_set = None if was_set is None else was_set[sequence]
+        was_set = was_set[sequence]
         taken = None if taken is None else taken[sequence]
     ahead = shown - at  # constant unless the clock was reset
     if not at[-1] > at[0]:
@@ -186,10 +186,9 @@ def place_rows(times: ArrayLike, values: ArrayLike | None = None, *, fps: float 
     notes += _describe_timing(np.diff(moments), len(at) - len(moments), rate, exact=exact)
     # The limit on frames bounds memory: fewer frames for more channels.
     channels = 1 if taken is None else max(1, taken.shape[1])
-    timing = Timing(rate, rows, frames, notes=tuple(notes))
-    return _add_clock_and_gaps(
-        timing, at, ahead, was_set, _MOST_FRAMES_PER_ROW * len(at) + _VALUES // channels
-    )
+    most = _MOST_FRAMES_PER_ROW * len(at) + _VALUES // channels
+    timing = Timing(rate, rows, notes=tuple(notes))
+    return _add_frames_and_clock(timing, frames, at, ahead, was_set, most)
 
 
 def _is_even(times: Floats, steps: Floats) -> bool:
@@ -204,17 +203,15 @@ def _is_even(times: Floats, steps: Floats) -> bool:
     )
 
 
-def _correct_clock(
-    shown: Floats, values: Floats | None
-) -> tuple[Floats, Masks | None, list[Note | str]]:
+def _correct_clock(shown: Floats, values: Floats | None) -> tuple[Floats, Masks, list[Note | str]]:
     """Return times without jumps of the clock, a mask of rows after a reset, and notes."""
-    steps = np.diff(shown)
+    steps, no_resets = np.diff(shown), np.zeros(len(shown), np.bool_)
     back = steps < 0
     rising = steps[steps > 0]
     usual = float(np.median(rising)) if len(rising) else 0.0
     if back.sum() > max(1, _FEW * len(steps)):  # rows are shuffled; the clock was not reset
         remark = "rows are not in order of time: sorted by their times"
-        return shown, None, [Note(remark, "warning")]
+        return shown, no_resets, [Note(remark, "warning")]
 
     tolerance = max(2 * usual, LONGEST_S)
 
@@ -236,9 +233,9 @@ def _correct_clock(
     if not reset.any():
         if n_back := int((steps < 0).sum()):
             notes.append("1 step back in time" if n_back == 1 else "steps back in time")
-        return at, None, notes
+        return at, no_resets, notes
     if not _was_clock_set(at, usual, values):
-        return at, None, [*notes, Note("rows are not in order of time: sorted", "warning")]
+        return at, no_resets, [*notes, Note("rows are not in order of time: sorted", "warning")]
     # leave a gap of one frame: the true length is unknown
     at = at + np.append(0.0, np.cumsum(np.where(reset, 2 * usual - steps, 0.0)))
     times = format_count(int(reset.sum()), "time")
@@ -362,17 +359,16 @@ def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) ->
     return [f"times are uneven ({', '.join(parts) or 'jitter'}): resampled to {fps:g} Hz"]
 
 
-def _add_clock_and_gaps(
-    timing: Timing, at: Floats, ahead: Floats, was_set: Masks | None, most: int
+def _add_frames_and_clock(
+    timing: Timing, frames: Floats, at: Floats, ahead: Floats, was_set: Masks, most: int
 ) -> Timing:
-    """Return the timing with its clock and gaps; pauses are cut to fit into ``most`` frames.
+    """Return the timing with the frames of its rows, gaps, and clock.
 
-    ``at`` are the seconds of the rows in time order, ``ahead`` the clock's offset from them;
-    ``was_set`` marks the row after the clock went back.
+    Pauses are cut to fit into ``most`` frames. ``at`` are the seconds of the rows in time order,
+    ``ahead`` the clock's offset from them; ``was_set`` marks the row after the clock went back.
     """
-    assert timing.at is not None  # noqa: S101 (for mypy)
     rate, notes = timing.fps, list(timing.notes)
-    frames, cut = _shorten_pauses(timing.at, most)
+    frames, cut = _shorten_pauses(frames, most)
     if cut.any():
         k = int(cut.argmax())
         text = (
@@ -387,8 +383,8 @@ def _add_clock_and_gaps(
     begins, shown = frames[starts] / rate, (at + ahead)[starts]
     if len(starts) > 1 or abs(shown[0]) > 0.5 / rate:
         clock = Clock(begins.tolist(), shown.tolist())
-    split = cut if was_set is None else cut | was_set[1:]
-    ends = ((frames[k], frames[k + 1]) for k in np.flatnonzero(split).tolist())
+    splits = np.flatnonzero(cut | was_set[1:])
+    ends = ((frames[k], frames[k + 1]) for k in splits.tolist())
     # Whole frames strictly between the two rows at a split.
     gaps = ((int(np.floor(a)) + 1, int(np.ceil(b))) for a, b in ends)
     return replace(

@@ -229,7 +229,6 @@ def is_ambiguous(text: str) -> bool:
 
 
 def _format_iso(date: re.Match[str], day_first: bool | None) -> str:
-    """Return a date in ISO 8601 format."""
     first, second, third = date["first"], date["second"].lower(), date["third"]
     if len(first) == 4:
         year, month, day = first, second, third

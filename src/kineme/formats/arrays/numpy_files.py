@@ -240,14 +240,7 @@ def _restore_motion(
     rotations = _read_numbers(content, arrays, "rotations") if "rotations" in arrays else None
     # Start and stop alternate.
     spans = tuple(zip(gaps[::2], gaps[1::2], strict=False))
-    return Motion(
-        skeleton,
-        positions,
-        fps,
-        rotations=rotations,
-        provenance=content.provenance(name, []),
-        gaps=spans,
-    )
+    return Motion(skeleton, positions, fps, rotations, content.provenance(name, []), spans)
 
 
 def _read_integers(content: FileContent, arrays: Arrays, name: str) -> list[int]:
@@ -289,13 +282,9 @@ def poses_to_motion(content: FileContent, arrays: Arrays, options: ReadOptions) 
     notes = [f"{kind} poses on a skeleton of average lengths, 1.70 m tall; hands and face left out"]
     if options.up is None:
         notes.append("up axis z, as in AMASS, assumed")
-    return Motion.from_rotations(
-        make_smpl_skeleton(),
-        rotations,
-        find_rate(content, arrays, _AMASS_RATES, options.fps),
-        path,
-        provenance=content.provenance("AMASS", notes),
-    )
+    fps = find_rate(content, arrays, _AMASS_RATES, options.fps)
+    provenance = content.provenance("AMASS", notes)
+    return Motion.from_rotations(make_smpl_skeleton(), rotations, fps, path, provenance=provenance)
 
 
 def make_smpl_skeleton() -> Skeleton:
@@ -332,7 +321,7 @@ def find_rate(
     raise content.error(f"no {names[0]!r} in it: give fps= (--fps)")
 
 
-NPZ = Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz)
-
-
-NPY = Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy)
+FORMATS = (
+    Format("npy", (".npy",), lambda head: head.startswith(b"\x93NUMPY"), read_npy),
+    Format("npz", (".npz",), lambda head: head.startswith(b"PK\x03\x04"), read_npz, write_npz),
+)

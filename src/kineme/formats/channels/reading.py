@@ -94,14 +94,6 @@ def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> Ch
     return replace(table, rate=text.rate, notes=(*notes, describe_header_rate(text.rate)))
 
 
-def choose_channels(
-    content: FileContent, signals: Signals, columns: Sequence[str] | None
-) -> Signals:
-    """Return the requested signals of a file in this order, or all if ``columns`` is None."""
-    names = select_columns(content, signals.names, columns, signals.names)
-    return signals if names is None else signals.select(names)
-
-
 def describe_header_rate(rate: float) -> str:
     """Return a note on a rate in a line above the table."""
     return f"{rate:g} Hz, from a line above the columns"
@@ -142,7 +134,7 @@ def select_columns(
 
 
 def list_needed_columns(
-    names: Sequence[str] | None, numeric: Iterable[str], times: Container[str] = ()
+    names: Sequence[str] | None, numeric: Iterable[str], times: Container[str]
 ) -> list[str]:
     """Return the columns to read: those requested, or all of numbers, plus the columns of times."""
     timing = [name for name in numeric if name in times]
@@ -188,9 +180,7 @@ def make_channel_table(
     if not chosen:
         raise content.error(f"none of its columns is a channel ({', '.join(names)})")
     channels = np.column_stack([values[name] for name in chosen])
-    return ChannelTable(
-        chosen, channels, timing=timing, rate=None, notes=tuple(notes), hint="".join(hints[:1])
-    )
+    return ChannelTable(chosen, channels, timing, notes=tuple(notes), hint="".join(hints[:1]))
 
 
 def _is_clock(values: Floats) -> bool:

@@ -1,7 +1,8 @@
 """Describe the layout of a device's table: line of names, clock, rate, counters.
 
-Each device is a module of this folder that defines a `Dialect` named ``DIALECT``. Its ``layout`` is
-a `Layout`, or a function from table to table if patterns are not sufficient.
+`kineme.formats.devices.layouts` holds the devices that a `Layout` describes. Others have a module
+with a function from table to table, or their own reader. Both are listed in
+`kineme.formats.dialects`.
 """
 
 from __future__ import annotations

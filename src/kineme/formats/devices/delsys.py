@@ -52,10 +52,8 @@ def read(text: DelimitedText, options: ReadOptions) -> Signals:
         values.append(np.interp(times, sample_times, samples, left=np.nan, right=np.nan))
     slower = sum(lengths[i] < len(times) for i in chosen)
     notes = (f"{format_count(slower, 'slower channel')} interpolated",) if slower else ()
-    timing = {"time (s)": times}
-    channels = ChannelTable(
-        [names[i] for i in chosen], np.stack(values, 1), timing=timing, rate=None, notes=notes
-    )
+    chosen_names, timing = [names[i] for i in chosen], {"time (s)": times}
+    channels = ChannelTable(chosen_names, np.stack(values, 1), timing, notes=notes)
     return to_signals(content, "Delsys table", channels, options.fps)
 
 

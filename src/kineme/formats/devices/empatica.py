@@ -36,14 +36,7 @@ def lay_out(text: DelimitedText) -> DelimitedText:
     names = [sensor] if width == 1 else [f"{sensor}_{axis}" for axis in axes]
     rate = float(split_cells(text.lines[second], ",")[0])
     return DelimitedText(
-        text.content,
-        text.lines,
-        names=names,
-        head=below,
-        first_row=below,
-        separator=",",
-        rate=rate,
-        clocks={},
+        text.content, text.lines, names, below, below, separator=",", rate=rate, clocks={}
     )
 
 

@@ -1,1 +1,1 @@
-"""Formats of pose estimates: OpenPose, COCO, MediaPipe, SLEAP, DeepLabCut."""
+"""Formats of pose estimates: OpenPose, COCO, MediaPipe, SLEAP, DeepLabCut and others."""

@@ -1,15 +1,28 @@
-"""Read COCO keypoints in JSON: a data set with ``annotations``, or a list of detection results.
+"""Read JSON of detectors with COCO's keypoints: COCO itself, MMPose and Ultralytics.
 
-Each entry has ``image_id`` and ``keypoints``: x, y and a third number for each of the 17 keypoints
-below, or of those named in ``categories``. In a data set the third number is 0 for keypoints that
-are not labelled, 1 for hidden and 2 for visible ones; in results it is a confidence. People are
-identified by ``track_id``, ``person_id``, ``instance_id`` or ``idx`` (AlphaPose) if all entries
-have one.
+People are identified by the number of their track if all entries have one. Keypoints with a
+confidence below 0.3 count as not seen.
 
-Frames are the ``images`` of a data set ordered by number or name, else the numbers in ``image_id``.
-Keypoints with a confidence below 0.3 count as not seen.
+*COCO*: a data set with ``annotations``, or a list of detection results. Each entry has ``image_id``
+and ``keypoints``: x, y and a third number for each of the 17 keypoints below, or of those named in
+``categories``. In a data set the third number is 0 for keypoints that are not labelled, 1 for
+hidden and 2 for visible ones; in results it is a confidence. The track is ``track_id``,
+``person_id``, ``instance_id`` or ``idx`` (AlphaPose). Frames are the ``images`` of a data set
+ordered by number or name, else the numbers in ``image_id``.
 
-Source: T.-Y. Lin et al., "Microsoft COCO", ECCV 2014, and its page on formats.
+*MMPose*: predictions that its inferencers and demos write. ``instance_info``, or the file itself,
+is a list of frames with ``frame_id`` and ``instances``. Each instance has ``keypoints``, two or
+three numbers each, ``keypoint_scores`` and perhaps ``track_id``. ``meta_info`` holds the names;
+without them those of COCO (17 keypoints), Halpe (26) or the first of COCO-WholeBody (133) are used.
+Hands and face of whole bodies are left out. Three-dimensional keypoints, as its lifters produce,
+have z up and an unknown unit.
+
+*Ultralytics*: results of a pose model, a list of frames with lists of people. Each person has
+``keypoints`` with lists ``x``, ``y`` and confidences ``visible``, and perhaps ``track_id``.
+
+Sources: T.-Y. Lin et al., "Microsoft COCO", ECCV 2014, and its page on formats; MMPose's guide on
+inference, and its demos ``topdown_demo_with_mmdet`` and ``body3d_pose_lifter_demo``; Ultralytics'
+reference of ``Results.summary`` and ``Results.to_json``.
 """
 
 from __future__ import annotations
@@ -20,12 +33,7 @@ from typing import Any
 
 from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.video import (
-    Person,
-    name_people,
-    split_groups,
-    video_to_motion,
-)
+from kineme.formats.keypoints.video import Person, name_people, split_groups, video_to_motion
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Motion
 
@@ -65,9 +73,9 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
         for entry in (data["annotations"] if is_set else data)
         if isinstance(entry, Mapping) and entry.get("keypoints")
     ]
-    names = _find_names(data) if is_set else None
+    names = _find_category_names(data) if is_set else None
     images = data.get("images") if is_set else None
-    frames = _find_frames(content, images, entries)
+    frames = _find_image_frames(content, images, entries)
     people = []
     for entry, frame, person in zip(entries, frames, name_people(entries, *_IDS), strict=True):
         groups = split_groups(content, entry["keypoints"], 3)
@@ -81,7 +89,7 @@ def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     return video_to_motion(content, options, "COCO", names, people, limit=LIMIT, frames=numbers)
 
 
-def _find_names(data: Mapping[str, Any]) -> list[str] | None:
+def _find_category_names(data: Mapping[str, Any]) -> list[str] | None:
     """Return the keypoint names of the first category that has any."""
     categories = data.get("categories")
     for category in categories if isinstance(categories, list) else []:
@@ -91,10 +99,9 @@ def _find_names(data: Mapping[str, Any]) -> list[str] | None:
     return None
 
 
-def _find_frames(
+def _find_image_frames(
     content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]
 ) -> list[int]:
-    """Return the frame of each entry."""
     if isinstance(images, list) and images:
         usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
         # Order images by frame, since ids may be arbitrary.
@@ -123,3 +130,107 @@ def _parse_frame_number(content: FileContent, image: Any) -> int:
     if not numbers:
         raise content.error(f"image_id {str(image)[:40]!r} has no frame number in it")
     return numbers[-1]
+
+
+def is_mmpose(data: Any) -> bool:
+    """Return whether JSON data is MMPose's."""
+    return any(
+        isinstance(frame, Mapping) and "instances" in frame for frame in _list_mmpose_frames(data)
+    )
+
+
+def read_mmpose(content: FileContent, data: Any, options: ReadOptions) -> Motion:
+    """Return the motion of one person in MMPose's predictions."""
+    instances_found: list[tuple[int, Mapping[str, Any]]] = []
+    numbers = []
+    for index, frame in enumerate(_list_mmpose_frames(data)):
+        instances = frame.get("instances") if isinstance(frame, Mapping) else None
+        if not isinstance(instances, list):
+            raise content.error(f"frame {index} has no list of 'instances'")
+        number = frame.get("frame_id")
+        numbers.append(number if isinstance(number, int) else index)
+        instances_found += [
+            (numbers[-1], instance) for instance in instances if isinstance(instance, Mapping)
+        ]
+    if not instances_found:
+        raise content.error("no person found in any frame")
+    width = max(len(_get_points(instance)) for _, instance in instances_found)
+    names = _find_mmpose_names(data, width)
+    if not names:
+        raise content.error(f"a person has {width} keypoints, and 'meta_info' does not name them")
+    ids = name_people([instance for _, instance in instances_found], "track_id")
+    people = []
+    for (number, instance), person in zip(instances_found, ids, strict=True):
+        scores = instance.get("keypoint_scores")
+        # Anything that is no list of numbers is refused by `video_to_motion`.
+        confidence: list[Any] = scores[: len(names)] if isinstance(scores, list) else ["none"]
+        people.append(Person(number, _get_points(instance)[: len(names)], confidence, person))
+    first = next((person.points[0] for person in people if person.points), None)
+    is_flat = isinstance(first, list) and len(first) == 2
+    unit, up = ("pixel", "-y") if is_flat else (None, "z")
+    return video_to_motion(
+        content, options, "MMPose", names, people, limit=LIMIT, frames=numbers, unit=unit, up=up
+    )
+
+
+def _list_mmpose_frames(data: Any) -> Sequence[Any]:
+    frames = data.get("instance_info") if isinstance(data, Mapping) else data
+    return frames if isinstance(frames, list) else []
+
+
+def _get_points(instance: Mapping[str, Any]) -> Sequence[Any]:
+    points = instance.get("keypoints")
+    return points if isinstance(points, list) else []
+
+
+def _find_mmpose_names(data: Any, count: int) -> Sequence[str]:
+    """Return the names in the file, else the usual ones for this count; empty if unknown."""
+    metadata = data.get("meta_info") if isinstance(data, Mapping) else None
+    named = metadata.get("keypoint_id2name") if isinstance(metadata, Mapping) else None
+    if isinstance(named, Mapping) and count in (len(named), 133):
+        listed = make_unique(str(named.get(str(i), i)) for i in range(count))
+        return listed[: len(LAYOUTS[133])] if count == 133 else listed
+    return LAYOUTS.get(count, ())
+
+
+def is_ultralytics(data: Any) -> bool:
+    """Return whether JSON data is a list of Ultralytics' frames."""
+    return isinstance(data, list) and any(_list_ultralytics_people(frame) for frame in data)
+
+
+def read_ultralytics(content: FileContent, data: Any, options: ReadOptions) -> Motion:
+    """Return the motion of one person in Ultralytics' results."""
+    people_found = [
+        (number, detection)
+        for number, frame in enumerate(data)
+        for detection in _list_ultralytics_people(frame)
+    ]
+    width = max(len(detection["keypoints"]["x"]) for _, detection in people_found)
+    names = NAMES if width == len(NAMES) else tuple(f"point{i + 1}" for i in range(width))
+    ids = name_people([detection for _, detection in people_found], "track_id")
+    people = []
+    for (number, detection), person in zip(people_found, ids, strict=True):
+        points = detection["keypoints"]
+        x, y = points["x"], points["y"]
+        if len(x) != len(y):
+            raise content.error(f"frame {number} has {len(x)} x and {len(y)} y of keypoints")
+        pairs = list(zip(x, y, strict=True))
+        # Keypoints that were not found are at the corner of the image.
+        confidence = points.get("visible") or [float(any(pair)) for pair in pairs]
+        people.append(Person(number, pairs, confidence, person))
+    frames = range(len(data))
+    return video_to_motion(
+        content, options, "Ultralytics", names, people, limit=LIMIT, frames=frames
+    )
+
+
+def _list_ultralytics_people(frame: Any) -> list[Mapping[str, Any]]:
+    """Return the people of a frame that have keypoints."""
+    return [
+        person
+        for person in (frame if isinstance(frame, list) else [])
+        if isinstance(person, Mapping)
+        and isinstance(person.get("keypoints"), Mapping)
+        and all(isinstance(person["keypoints"].get(axis), list) for axis in "xy")
+        and person["keypoints"]["x"]
+    ]

@@ -101,13 +101,14 @@ def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Mot
         poses = _find_poses(frame, world=world)
         people += [Person(numbers[-1], *_parse_landmarks(content, i, pose)) for pose in poses]
     head = data if isinstance(data, Mapping) else {}
-    fps = _find_value(head, ("fps", "framerate", "frame_rate"))
+    fps = _find_value(head, ("fps", "framerate"))
     size = [
-        _find_value(head, (side, f"image{side}", f"frame{side}")) for side in ("width", "height")
+        _to_positive(_find_value(head, (side, f"image{side}", f"frame{side}")))
+        for side in ("width", "height")
     ]
     return landmarks_to_motion(
         content, people, options, world=world or None, fps=_to_positive(fps),
-        size=tuple(map(_to_positive, size)), frames=numbers,
+        size=size, frames=numbers,
     )  # fmt: skip
 
 
@@ -133,23 +134,22 @@ def landmarks_to_motion(
         world = bool(np.nanmax(np.abs(middles), initial=0.0) < 1e-3)
     unit: str | None = "pixel"
     up: str | None = "-y"
+    remarks = [*notes]
     if world:
         unit = "m"
-        remark = (
+        remarks.append(
             "world landmarks: metres from the middle of the hips, without the position in the room"
         )
-        notes = [*notes, remark]
     elif _are_in_space(people):
         unit = up = None
-        remark = (
+        remarks.append(
             "landmarks in space, since the body does not stand along the vertical axis of images"
         )
-        notes = [*notes, remark]
     else:
         people = _scale_to_image(people, size)
     return video_to_motion(
         content, options, "MediaPipe", NAMES, people, limit=LIMIT,
-        fps=fps, frames=frames, unit=unit, up=up, notes=notes,
+        fps=fps, frames=frames, unit=unit, up=up, notes=remarks,
     )  # fmt: skip
 
 
@@ -169,10 +169,10 @@ def _are_in_space(people: Sequence[Person]) -> bool:
 
     In image landmarks depth is measured from the hips and much smaller.
     """
+    if not people:
+        return False
     ends = [NAMES.index(name) for name in ("nose", "left_ankle", "right_ankle")]
     poses = np.array([[p.points[end] for end in ends] for p in people])
-    if poses.ndim != 3 or poses.shape[2] != 3:
-        return False
     # Vectors from the middle of the ankles to the nose.
     lengths = poses[:, 0] - poses[:, 1:].mean(axis=1)
     along = np.nanmedian(lengths / np.linalg.norm(lengths, axis=1, keepdims=True), axis=0)
@@ -385,10 +385,12 @@ def _find_column(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
     return next((i for i, name in enumerate(names) if pattern.fullmatch(name.strip())), None)
 
 
-WIDE = Dialect(
-    "MediaPipe",
-    lambda names, _: bool(_find_landmark_columns(names)),
-    read_landmarks,
-    motion=True,
+DIALECTS = (
+    Dialect(
+        "MediaPipe",
+        lambda names, _: bool(_find_landmark_columns(names)),
+        read_landmarks,
+        motion=True,
+    ),
+    Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True),
 )
-LONG = Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True)

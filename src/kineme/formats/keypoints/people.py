@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme.formats.files import FileContent
 from kineme.formats.options import choose_person
 
 Rows = NDArray[np.intp]
@@ -34,11 +34,7 @@ _MOMENTUM = 0.8  # share of the previous velocity in the smoothed one
 
 
 def select_person(
-    content: FileContent,
-    frames: Rows,
-    points: Floats,
-    detected: Sequence[str | None],
-    person: str | None,
+    path: Path, frames: Rows, points: Floats, detected: Sequence[str | None], person: str | None
 ) -> tuple[Rows, str, tuple[str, ...], list[str]]:
     """Return the rows and the name of the requested or only person, all people, and notes.
 
@@ -47,8 +43,6 @@ def select_person(
     does not exist, or several exist and none is requested.
     """
     people = _group_by_person(frames, points, detected)
-    if not people:
-        raise content.error("no person found in any frame")
     max_frames = max(map(len, people.values()))
     # People seen only briefly are candidates only if requested.
     staying = {name: rows for name, rows in people.items() if len(rows) >= PASSING * max_frames}
@@ -57,7 +51,7 @@ def select_person(
         f"{name} ({len(rows)} frames from {frames[rows[0]]} on)"
         for name, rows in candidates.items()
     ]
-    name = choose_person(content.path, candidates, person, shown=shown)
+    name = choose_person(path, candidates, person, shown=shown)
     all_people = tuple(other for other in people if other in staying or other == name)
     note = f"person {name} of {len(people)}"
     if person is None:

@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints.coco import is_coco, read_coco
-from kineme.formats.keypoints.mediapipe import is_mediapipe, read_mediapipe
-from kineme.formats.keypoints.mmpose import is_mmpose, read_mmpose
-from kineme.formats.keypoints.openpose import (
-    is_openpose,
-    read_openpose,
-    read_openpose_folder,
-)
-from kineme.formats.keypoints.ultralytics import is_ultralytics, read_ultralytics
+from kineme.formats.keypoints import coco, mediapipe, openpose
 from kineme.formats.keypoints.video import parse_json
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -22,11 +15,11 @@ from kineme.recordings import Motion
 _SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
 _FRAMES = re.compile(rb"\s*\[\s*\[")
 _READERS = (
-    (is_openpose, read_openpose),
-    (is_coco, read_coco),
-    (is_mmpose, read_mmpose),
-    (is_mediapipe, read_mediapipe),
-    (is_ultralytics, read_ultralytics),
+    (openpose.is_openpose, openpose.read_openpose),
+    (coco.is_coco, coco.read_coco),
+    (coco.is_mmpose, coco.read_mmpose),
+    (mediapipe.is_mediapipe, mediapipe.read_mediapipe),
+    (coco.is_ultralytics, coco.read_ultralytics),
 )
 """Test and reader of each program, in the order in which they are tried."""
 
@@ -62,25 +55,26 @@ def begins_coco(head: bytes) -> bool:
     return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
 
 
-OPENPOSE = Format(
-    "OpenPose", (".json",), begins_openpose, read_pose_json, read_folder=read_openpose_folder
-)
-COCO = Format("COCO", (".json",), begins_coco, read_pose_json)
-MMPOSE = Format(
-    "MMPose",
-    (".json",),
-    lambda head: b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head),
-    read_pose_json,
-)
-MEDIAPIPE = Format(
-    "MediaPipe",
-    (".json",),
-    lambda head: b'landmarks":' in head.lower().replace(b" ", b""),
-    read_pose_json,
-)
-ULTRALYTICS = Format(
-    "Ultralytics",
-    (".json",),
-    lambda head: b'"box"' in head and _FRAMES.match(head) is not None,  # lists of people with boxes
-    read_pose_json,
+def begins_mmpose(head: bytes) -> bool:
+    """Return whether JSON starts like MMPose's predictions, with or without their metadata."""
+    return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
+
+
+def begins_mediapipe(head: bytes) -> bool:
+    """Return whether JSON starts like a list of MediaPipe's landmarks."""
+    return b'landmarks":' in head.lower().replace(b" ", b"")
+
+
+def begins_ultralytics(head: bytes) -> bool:
+    """Return whether JSON starts like Ultralytics' lists of people with boxes."""
+    return b'"box"' in head and _FRAMES.match(head) is not None
+
+
+_JSON = Format("OpenPose", (".json",), begins_openpose, read_pose_json)
+FORMATS = (
+    replace(_JSON, read_folder=openpose.read_openpose_folder),
+    replace(_JSON, name="MMPose", recognises=begins_mmpose),
+    replace(_JSON, name="COCO", recognises=begins_coco),
+    replace(_JSON, name="MediaPipe", recognises=begins_mediapipe),
+    replace(_JSON, name="Ultralytics", recognises=begins_ultralytics),
 )

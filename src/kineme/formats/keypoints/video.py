@@ -84,7 +84,7 @@ def video_to_motion(
     points[~np.isfinite(points).all(axis=2)] = np.nan
     detected = [person.who for person in people]
     rows, name, all_people, remarks = select_person(
-        content, rows_frames, points, detected, options.person
+        content.path, rows_frames, points, detected, options.person
     )
     positions = np.full((n_frames, len(names), 3), np.nan)
     positions[rows_frames[rows]] = points[rows]

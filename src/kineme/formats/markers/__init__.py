@@ -1,1 +1,1 @@
-"""Formats of markers and analog channels: C3D, TRC, MOT."""
+"""Formats of markers and analog channels: C3D, TRC, tables of capture programs."""

@@ -21,12 +21,7 @@ import re
 from dataclasses import replace
 
 from kineme._util.checks import make_unique
-from kineme.formats.channels.reading import (
-    ChannelTable,
-    list_needed_columns,
-    select_columns,
-    to_signals,
-)
+from kineme.formats.channels.reading import ChannelTable, select_columns, to_signals
 from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
 from kineme.formats.options import ReadOptions
@@ -106,7 +101,6 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
 
 
 def _find_markers(file: C3D) -> list[int]:
-    """Return the indices of the points that are markers."""
     parameters = file.parameters
     # Each group lists its labels in a parameter of the same name.
     groups = {*_MODELLED, *parameters.strings("POINT", "TYPE_GROUPS")} - {"MARKERS"}
@@ -125,7 +119,7 @@ def _read_channels(content: FileContent, file: C3D, options: ReadOptions) -> Sig
     if not file.analog.size:
         raise content.error("holds no analog channels")
     names = make_unique(file.analog_labels)
-    chosen = list_needed_columns(select_columns(content, names, columns, numeric=names), names)
+    chosen = select_columns(content, names, columns, names) or names
     values = file.analog[:, [names.index(name) for name in chosen]]
     table = ChannelTable(chosen, values, {}, file.analog_rate or None, tuple(notes))
     return to_signals(content, "C3D", table, options.fps)

@@ -62,11 +62,11 @@ class C3D:
 
 def parse_c3d(content: FileContent) -> C3D:
     """Return the contents of a C3D file; raise ReadError if it is invalid or has no whole frame."""
-    parameters = read_parameters(content)
-    file = Layout(content, parameters, read_header(content, parameters))
+    file = Layout(content)
+    parameters = file.parameters
     # One row per frame: points first, then analog samples.
     raw = file.frames()
-    n = file.n_points
+    n, _ = file.counts
     analog = _scale_analog(file, raw[:, 4 * n :])
     events = _read_events(file)
     return C3D(
@@ -94,8 +94,7 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
     values = raw.reshape(-1, channels)
     is_unsigned = "UNSIGNED" in file.parameters.strings("ANALOG", "FORMAT")
     if is_unsigned and values.dtype.kind == "i":
-        # Reinterpret the bytes as unsigned.
-        values = values.view(values.dtype.str.replace("i", "u"))
+        values = as_unsigned(values)
     scale = _repeat_per_channel(file.parameters, "SCALE", channels, 1.0)
     scale *= file.parameters.number("ANALOG", "GEN_SCALE", 1.0)
     # The offsets are stored like the samples.
@@ -106,7 +105,6 @@ def _scale_analog(file: Layout, raw: Stored) -> Floats:
 def _repeat_per_channel(
     parameters: Parameters, name: str, channels: int, default: float, *, signed: bool = True
 ) -> Floats:
-    """Return a value for each channel, ``default`` where missing."""
     values = parameters.numbers("ANALOG", name, signed=signed)[:channels]
     return np.array(values + [default] * (channels - len(values)))
 
@@ -184,37 +182,34 @@ class Header:
     rate: float
 
 
-def read_header(content: FileContent, parameters: Parameters) -> Header:
-    """Return the header; the parameters name the processor whose number formats it uses."""
-    kind = parameters.processor
-    integers = np.frombuffer(content.data, get_number_type(kind, real=False), 12)
-    # Counts above 32767 need unsigned integers.
-    words = integers.view(integers.dtype.str.replace("i", "u")).tolist()
-    # A real takes two words.
-    reals = as_float32(np.frombuffer(content.data, get_number_type(kind, real=True), 6), kind)
-    return Header(  # the specification counts words from 1
-        points=words[1],
-        analog_per_frame=words[2],
-        first_frame=words[3],
-        last_frame=words[4],
-        scale=float(reals[3]),  # words 7 and 8; word 6 is the largest gap to interpolate
-        data_block=words[8],
-        samples_per_frame=words[9],
-        rate=float(reals[5]),  # words 11 and 12
-    )
-
-
 @dataclass(frozen=True)
 class Layout:
     """Positions and counts of the data in a file, see `kineme.formats.markers.c3d_file`."""
 
     content: FileContent
-    parameters: Parameters
-    header: Header
 
     @cached_property
-    def n_points(self) -> int:
-        return self.counts[0]
+    def parameters(self) -> Parameters:
+        return read_parameters(self.content)
+
+    @cached_property
+    def header(self) -> Header:
+        """Fields of the first block, in the number formats of the processor."""
+        data, kind = self.content.data, self.parameters.processor
+        # Counts above 32767 need unsigned integers.
+        words = as_unsigned(np.frombuffer(data, get_number_type(kind, real=False), 12)).tolist()
+        # A real takes two words.
+        reals = as_float32(np.frombuffer(data, get_number_type(kind, real=True), 6), kind)
+        return Header(  # the specification counts words from 1
+            points=words[1],
+            analog_per_frame=words[2],
+            first_frame=words[3],
+            last_frame=words[4],
+            scale=float(reals[3]),  # words 7 and 8; word 6 is the largest gap to interpolate
+            data_block=words[8],
+            samples_per_frame=words[9],
+            rate=float(reals[5]),  # words 11 and 12
+        )
 
     @cached_property
     def counts(self) -> tuple[int, int]:
@@ -285,7 +280,8 @@ class Layout:
     def frames(self) -> Stored:
         """Return the stored data section (frames, numbers)."""
         start, kind = self.start, self._kind
-        width = 4 * self.n_points + self.counts[1]
+        n_points, per_frame = self.counts
+        width = 4 * n_points + per_frame
         if width == 0:
             raise self.content.error("the header states no position of the data, or no points")
         available = max(len(self.content.data) - start, 0) // (width * kind.itemsize)
@@ -293,9 +289,8 @@ class Layout:
         # Use the largest declared count that fits, else all complete frames.
         n = max((frames for frames in declared if 0 < frames <= available), default=available)
         if n == 0:
-            raise self.content.error(
-                f"less than one frame of {self.n_points} points: the file is truncated"
-            )
+            reason = f"less than one frame of {n_points} points: the file is truncated"
+            raise self.content.error(reason)
         if n not in declared:
             self.content.warn(f"{max(declared)} frames declared, {n} found and kept")
         raw = np.frombuffer(self.content.data, kind, n * width, start).reshape(n, width)
@@ -366,10 +361,7 @@ class Parameters:
             return []
         code = np.dtype("i1") if kind == 1 else get_number_type(self.processor, real=False)
         integers = np.frombuffer(data, code)
-        if not signed:
-            # Reinterpret the bytes as unsigned.
-            integers = integers.view(integers.dtype.str.replace("i", "u"))
-        return list(map(float, integers))
+        return list(map(float, integers if signed else as_unsigned(integers)))
 
     def strings(self, group: str, name: str) -> list[str]:
         """Return the values as text, none if they are numbers."""
@@ -435,6 +427,11 @@ def read_parameters(content: FileContent) -> Parameters:
 def get_number_type(processor: int, *, real: bool) -> np.dtype[Any]:
     """Return the stored type of a number; DEC's floats additionally need `as_float32`."""
     return np.dtype((">" if processor == MIPS else "<") + ("f4" if real else "i2"))
+
+
+def as_unsigned(integers: NDArray[Any]) -> NDArray[Any]:
+    """Return the same bytes as unsigned integers."""
+    return integers.view(integers.dtype.str.replace("i", "u"))
 
 
 def as_float32(values: NDArray[Any], processor: int) -> NDArray[np.float32]:

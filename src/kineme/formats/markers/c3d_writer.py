@@ -34,7 +34,6 @@ from kineme.formats.markers.c3d_file import (
     Parameters,
     as_float32,
     get_number_type,
-    read_header,
     read_header_events,
     read_parameters,
 )
@@ -75,8 +74,7 @@ class C3DEvent:
 
 def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
     """Return the bytes of a C3D file with these events in addition to its own."""
-    parameters = read_parameters(content)
-    layout = Layout(content, parameters, read_header(content, parameters))
+    layout = Layout(content)
     layout.frames()  # raises ReadError if the data are missing
     if not layout.rate:
         raise content.error("has no frame rate, so the times of events are unknown")
@@ -89,7 +87,7 @@ def add_events(content: FileContent, events: Sequence[C3DEvent]) -> bytes:
     if not events:
         return content.data
     data = _replace_section(layout, _replace_event_records(layout, table))
-    if not _is_kept(parameters, read_parameters(FileContent(content.path, data)), table):
+    if not _is_kept(layout.parameters, read_parameters(FileContent(content.path, data)), table):
         raise content.error("has overlapping parameter records: it is damaged")
     return data
 

@@ -84,16 +84,12 @@ def read_capture(
     columns = capture.columns
     names = [name for name in columns if not is_nameless(name)] or [*columns]
     chosen = [columns[name] + axis for name in names for axis in range(3)]
-    rows_below = range(capture.first_row, len(lines))
+    first_row = capture.first_row
     # A blank line ends the section.
+    rows_below = range(first_row, len(lines))
     end = next((i for i in rows_below if not lines[i].strip(" ,;\t")), None)
     rows = DelimitedText(
-        content,
-        lines[:end],
-        names=capture.cells,
-        head=capture.first_row - 1,
-        first_row=capture.first_row,
-        separator=capture.separator,
+        content, lines[:end], capture.cells, first_row - 1, first_row, capture.separator
     )
     # Axes: frames, markers, coordinates.
     values = rows.numbers(chosen).reshape(-1, len(names), 3)
@@ -135,15 +131,8 @@ def _parse_nexus(content: FileContent, lines: Sequence[str]) -> Capture:
     if len(set(units)) > 1:
         listed = " and ".join(sorted(set(units)))
         raise content.error(f"markers are in {listed}: export all of them in one unit", axes + 2)
-    rate = split_cells(lines[at + 1], separator)[0]
-    return Capture(
-        cells,
-        separator,
-        first_row=axes + 2,
-        columns=columns,
-        rate=rate,
-        unit=units[0] if units else "",
-    )
+    rate, unit = split_cells(lines[at + 1], separator)[0], units[0] if units else ""
+    return Capture(cells, separator, first_row=axes + 2, columns=columns, rate=rate, unit=unit)
 
 
 def _parse_motive(content: FileContent, lines: Sequence[str]) -> Capture:
@@ -205,14 +194,8 @@ def _parse_qtm(content: FileContent, lines: Sequence[str]) -> Capture:
     if len(cells) < 3 * len(names):
         raise content.error(f"{len(cells)} columns for {len(names)} markers", below + 1)
     numbered = [str(i) for i in range(3 * len(names) + 2 * has_times)]
-    return Capture(
-        numbered,
-        "\t",
-        first_row=below,
-        columns=columns,
-        rate="".join(metadata.get("FREQUENCY", [])),
-        unit="mm",
-    )
+    rate = "".join(metadata.get("FREQUENCY", []))
+    return Capture(numbered, "\t", first_row=below, columns=columns, rate=rate, unit="mm")
 
 
 def _parse_header(lines: Sequence[str]) -> dict[str, list[str]]:
@@ -257,13 +240,15 @@ def _parse_rate(content: FileContent, table: Capture, requested: float | None) -
     return fps
 
 
-NEXUS = Dialect(
-    "Nexus", is_nexus, partial(read_capture, program="Nexus", look=_parse_nexus), motion=True
+DIALECTS = (
+    Dialect(
+        "Nexus", is_nexus, partial(read_capture, program="Nexus", look=_parse_nexus), motion=True
+    ),
+    Dialect(
+        "Motive",
+        is_motive,
+        partial(read_capture, program="Motive", look=_parse_motive, usual_up="y"),
+        motion=True,
+    ),
+    Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_parse_qtm), motion=True),
 )
-MOTIVE = Dialect(
-    "Motive",
-    is_motive,
-    partial(read_capture, program="Motive", look=_parse_motive, usual_up="y"),
-    motion=True,
-)
-QTM = Dialect("QTM", is_qtm, partial(read_capture, program="QTM", look=_parse_qtm), motion=True)

@@ -1,32 +1,38 @@
-"""Read SLEAP: its analysis files in HDF5, and its tables, but not its projects.
+"""Read trackers of animals: SLEAP's analysis files and tables, and DeepLabCut's tables.
 
-``tracks`` (tracks, 2, nodes, frames), or (frames, tracks, nodes, 2) in newer files, are pixels;
-``node_names``, ``track_names`` and ``point_scores`` accompany them. Nodes with a score below 0.2,
-SLEAP's limit for peaks, count as not seen. ``person`` selects one of several tracks. The file has
-no frame rate: ``fps`` is required.
+Their files have no frame rate: ``fps`` is required. ``person`` selects one of several animals.
 
-Tables have ``track``, ``frame_idx``, ``instance.score`` and ``NODE.x NODE.y NODE.score``, with a
-row for each animal in a frame.
+*SLEAP*: analysis files in HDF5, but not its projects. ``tracks`` (tracks, 2, nodes, frames), or
+(frames, tracks, nodes, 2) in newer files, are pixels; ``node_names``, ``track_names`` and
+``point_scores`` accompany them. Nodes with a score below 0.2, SLEAP's limit for peaks, count as not
+seen. Tables have ``track``, ``frame_idx``, ``instance.score`` and ``NODE.x NODE.y NODE.score``,
+with a row for each animal in a frame.
+
+*DeepLabCut*: tables below several rows of names: ``scorer``, ``individuals`` (if there are
+several), ``bodyparts`` and ``coords`` (x, y, optionally z, likelihood). A row per frame follows.
+Keypoints with a likelihood below 0.6, DeepLabCut's limit for plots, count as not seen.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme.formats.arrays.mat import SIGNATURE, collect_texts, parse_hdf5
-from kineme.formats.delimited import DelimitedText
+from kineme.formats.delimited import DelimitedText, split_cells
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import Person, to_frame_numbers, video_to_motion
-from kineme.formats.options import ReadOptions
+from kineme.formats.options import ReadOptions, choose_person
+from kineme.formats.points import columns_to_motion
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
-LIMIT = 0.2
-"""SLEAP's own limit for peaks."""
+LEAST_SCORE, LEAST_LIKELIHOOD = 0.2, 0.6
+"""Limits of SLEAP for peaks, and of DeepLabCut for plots."""
 
 
 def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
@@ -56,7 +62,9 @@ def read_sleap(content: FileContent, options: ReadOptions) -> Motion:
         for track, frame in np.argwhere(visible).tolist()
     ]
     frames = range(positions.shape[1])
-    return video_to_motion(content, options, "SLEAP", nodes, people, limit=LIMIT, frames=frames)
+    return video_to_motion(
+        content, options, "SLEAP", nodes, people, limit=LEAST_SCORE, frames=frames
+    )
 
 
 def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
@@ -79,7 +87,9 @@ def read_sleap_table(table: DelimitedText, options: ReadOptions) -> Motion:
         for i, frame in enumerate(frames)
     ]
     start = [0] if 0 <= min(frames) < len(frames) else []  # include the start of the video
-    return video_to_motion(content, options, "SLEAP", nodes, people, limit=LIMIT, frames=start)
+    return video_to_motion(
+        content, options, "SLEAP", nodes, people, limit=LEAST_SCORE, frames=start
+    )
 
 
 def _arrange(content: FileContent, tracks: Any, scores: Any, *, old: bool) -> tuple[Floats, Floats]:
@@ -95,10 +105,47 @@ def _arrange(content: FileContent, tracks: Any, scores: Any, *, old: bool) -> tu
     return np.asarray(positions, np.float64), confidence
 
 
+def read_deeplabcut(table: DelimitedText, options: ReadOptions) -> Motion:
+    """Return the motion of the keypoints of one individual."""
+    content, line = table.content, table.head + 2
+    labels: dict[str, list[str]] = {}
+    for row in table.lines[table.head : table.head + 4]:
+        kind, *cells = split_cells(row, table.separator)
+        if kind.lower() in ("scorer", "individuals", "bodyparts", "coords"):
+            labels[kind.lower()] = cells
+    if not {"bodyparts", "coords"} <= labels.keys():
+        raise content.error("rows 'bodyparts' and 'coords' expected under 'scorer'", line)
+    parts, coords = labels["bodyparts"], labels["coords"]
+    individuals = labels.get("individuals", [""] * len(parts))
+    if len({len(parts), len(coords), len(individuals)}) > 1:
+        raise content.error("the rows of names differ in length", line)
+    unique_individuals = list(dict.fromkeys(individuals))
+    individual = choose_person(content.path, unique_individuals, options.person, "individuals")
+    names = ["frame", *(f"{part}_{coord}" for part, coord in zip(parts, coords, strict=True))]
+    values = replace(table, names=names, first_row=table.head + len(labels)).numbers()[:, 1:]
+    columns = {
+        name: column
+        for name, owner, column in zip(names[1:], individuals, values.T, strict=True)
+        if owner == individual
+    }
+    motion = columns_to_motion(content, "DeepLabCut", columns, options, limit=LEAST_LIKELIHOOD)
+    provenance = motion.provenance.of_person(individual, unique_individuals)
+    return replace(motion, provenance=provenance)
+
+
 FORMAT = Format("SLEAP", (".h5", ".hdf5"), lambda head: head.startswith(SIGNATURE), read_sleap)
-DIALECT = Dialect(
-    "SLEAP",
-    lambda names, _: "frame_idx" in names and any(name.endswith(".score") for name in names),
-    read_sleap_table,
-    motion=True,
+DIALECTS = (
+    Dialect(
+        "DeepLabCut",
+        lambda names, _: len(names) > 1 and names[0].lower() == "scorer",
+        read_deeplabcut,
+        channels=False,
+        motion=True,
+    ),
+    Dialect(
+        "SLEAP",
+        lambda names, _: "frame_idx" in names and any(name.endswith(".score") for name in names),
+        read_sleap_table,
+        motion=True,
+    ),
 )
