@@ -2,20 +2,25 @@
 
 The recent past is segmented like a file. A cluster takes the number of the cluster of the last look
 with which it shares most seconds. A cluster that shares none is compared with examples of older
-clusters: the examples are put before the recent past, and both are segmented together.
+clusters, by the mean distance of their samples, and takes the number of the nearest one.
 """
 
 from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, field, replace
+from typing import cast
 
 import numpy as np
 
-from kineme._util.arrays import Floats, Ints, Masks
+from kineme._util.arrays import Float32s, Floats, Ints, Masks
 from kineme.errors import KinemeWarning
+from kineme.features.channels import choose_frames
 from kineme.live.events import Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
+from kineme.methods.kineme.tree import compute_mean_distances, compute_median_distance
+from kineme.methods.kineme.views import compute_views
+from kineme.methods.prepare import prepare_motion, prepare_signals
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import find_spans
@@ -25,8 +30,11 @@ from kineme.transfer.clusters import keep_numbers, list_spans
 
 EXAMPLE_S = 8.0
 """Seconds of an activity that are kept as the example of its cluster."""
-MOST_EXAMPLES = 12
+MOST_EXAMPLES = 40
 """Number of examples that are kept: those of the latest clusters."""
+SAME_MOVEMENT = 0.3
+"""Distance of a new cluster and an example up to which they are one movement, in units of the
+typical distance of samples that are near in time."""
 LEAST_S = 1.0
 """Seconds that must be recorded before the recent past is segmented."""
 
@@ -201,31 +209,60 @@ class RecentPast:
         return np.concatenate([np.array(final, np.int64).reshape(-1, 3), coming])
 
     def _recognise(self, found: Segmentation, unseen: list[int], taken: set[int]) -> dict[int, int]:
-        """Return the numbers of clusters that are one cluster with an older example."""
-        examples = {k: rows for k, rows in self.examples.items() if k not in taken}
-        if not examples:
-            return {}
-        parts, missing, spans, first = [], [], {}, 0
-        for number, rows in examples.items():
-            spans[number] = slice(first, first + len(rows))
-            # A missing frame separates two examples.
-            parts += [rows, rows[-1:]]
-            missing += [np.zeros(len(rows), np.bool_), np.ones(1, np.bool_)]
-            first += len(rows) + 1
-        together = self._segment(
-            np.concatenate([*parts, self.values]), np.concatenate([*missing, self.missing])
-        ).per_frame(level="activity")
-        here = found.per_frame(level="activity")
-        owners = {_find_mode(together[span]): number for number, span in spans.items()}
-        recognised: dict[int, int] = {}
-        for local in unseen:
-            owner = owners.pop(_find_mode(together[first:][here == local]), None)
-            if owner is not None:
-                recognised[local] = owner
-        return recognised
+        """Return the numbers of clusters that are near an example of an older cluster."""
+        older = {number: rows for number, rows in self.examples.items() if number not in taken}
+        values = np.concatenate([*older.values(), self.values])
+        first = len(values) - len(self.values)  # frame at which the recent past begins
+        view, frames, unit = self._compute_view(values)
+        owner = np.repeat([*older], [len(rows) for rows in older.values()])[frames[frames < first]]
+        here = np.where(self.missing, -1, found.per_frame(level="activity"))
+        local = here[frames[frames >= first] - first]
+        examples = {number: np.flatnonzero(owner == number) for number in older}
+        clusters = {k: len(owner) + np.flatnonzero(local == k) for k in unseen}
+        return _match_nearest(view, unit, examples, clusters)
+
+    def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float]:
+        """Return the view of frames, the frame of each of its samples, and its typical distance."""
+        is_signals = self.layout.skeleton is None
+        preset = self.options.resolved(signals=is_signals)
+        if not isinstance(preset, KinemeConstants):  # other methods have no views
+            preset = cast(KinemeConstants, SegmentOptions().resolved(signals=is_signals))
+        preset = preset.select_view(0).at_most(self.layout.fps)
+        recording = self.layout.make_recording(values, np.zeros(len(values), np.bool_))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KinemeWarning)
+            if isinstance(recording, Signals):
+                prepared = prepare_signals(recording, preset, emg=self.options.emg)
+            else:
+                prepared = prepare_motion(recording, preset, self.options.effectors)
+        rows = np.concatenate(prepared.features)
+        view = compute_views(rows, preset, joints=prepared.joints).views[0]
+        at = choose_frames(len(rows), preset.working_fps, preset.rate)
+        frames = (at * (self.layout.fps / preset.working_fps)).astype(np.int64)
+        unit = compute_median_distance(view, preset.comparison_width)
+        return view, np.minimum(frames, len(values) - 1), unit
 
 
-def _find_mode(clusters: Ints) -> int:
-    """Return the most frequent cluster; -2 if there is none."""
-    active = clusters[clusters >= 0]
-    return int(np.bincount(active).argmax()) if len(active) else -2
+def _match_nearest(
+    view: Float32s, unit: float, examples: dict[int, Ints], clusters: dict[int, Ints]
+) -> dict[int, int]:
+    """Return the number of the example for each cluster that is near one, the nearest pairs first.
+
+    Both are given as samples of the view.
+    """
+    numbers = [number for number, samples in examples.items() if len(samples)]
+    local = [cluster for cluster, samples in clusters.items() if len(samples)]
+    if not (numbers and local):
+        return {}
+    groups = [*(clusters[k] for k in local), *(examples[k] for k in numbers)]
+    means = compute_mean_distances(view, groups) / unit
+    within = np.diag(means)
+    # Energy distance: mean distance between two groups less the mean within them.
+    distances = (means - np.add.outer(within, within) / 2)[: len(local), len(local) :]
+    matched: dict[int, int] = {}
+    while distances.min() <= SAME_MOVEMENT:
+        row, column = np.unravel_index(distances.argmin(), distances.shape)
+        matched[local[row]] = numbers[column]
+        # A number is given once, and a cluster has one number.
+        distances[row], distances[:, column] = np.inf, np.inf
+    return matched
