@@ -33,6 +33,16 @@ def test_activities_are_found_counted_and_recognised(told):
     assert stream.segmentation.n_frames == len(two_exercises())
 
 
+def test_an_exercise_is_recognised_after_fourteen_others():
+    angle = np.linspace(0, 20 * np.pi, int(12 * FPS))
+    exercise = np.column_stack([np.sin(angle), np.cos(angle)])
+    stream = make_stream()
+    stream.push(np.concatenate([exercise + 4 * (number % 15) for number in range(16)]))
+    stream.finish()
+    clusters = [row.cluster for row in stream.segmentation.activities if row.kind == "activity"]
+    assert clusters == [*range(15), 0]
+
+
 def test_events_do_not_depend_on_the_pieces(rows, told):
     assert list(push_pieces(make_stream(), rows, [1, 250, 3])) == told[1]
 

@@ -35,6 +35,8 @@ MOST_EXAMPLES = 40
 SAME_MOVEMENT = 0.3
 """Distance of a new cluster and an example up to which they are one movement, in units of the
 typical distance of samples that are near in time."""
+EDGE_S = 1.0
+"""Seconds at the ends of activities and examples that are not compared."""
 LEAST_S = 1.0
 """Seconds that must be recorded before the recent past is segmented."""
 
@@ -211,14 +213,18 @@ class RecentPast:
     def _recognise(self, found: Segmentation, unseen: list[int], taken: set[int]) -> dict[int, int]:
         """Return the numbers of clusters that are near an example of an older cluster."""
         older = {number: rows for number, rows in self.examples.items() if number not in taken}
-        values = np.concatenate([*older.values(), self.values])
-        first = len(values) - len(self.values)  # frame at which the recent past begins
-        view, frames, unit = self._compute_view(values)
-        owner = np.repeat([*older], [len(rows) for rows in older.values()])[frames[frames < first]]
-        here = np.where(self.missing, -1, found.per_frame(level="activity"))
-        local = here[frames[frames >= first] - first]
-        examples = {number: np.flatnonzero(owner == number) for number in older}
-        clusters = {k: len(owner) + np.flatnonzero(local == k) for k in unseen}
+        view, frames, unit = self._compute_view(np.concatenate([*older.values(), self.values]))
+        # Number the examples, then the clusters of the recent past.
+        here = found.per_frame(level="activity")
+        own = np.where(self.missing | (here < 0), -1, here + len(older))
+        group = np.repeat(np.arange(len(older)), [len(rows) for rows in older.values()])
+        group = np.concatenate([group, own])
+        # A sample near a change averages over both sides.
+        changes = np.flatnonzero(np.diff(group))
+        is_inside = (np.abs(frames[:, None] - changes) > EDGE_S * self.layout.fps).all(axis=1)
+        samples = np.where(is_inside, group[frames], -1)
+        examples = {number: np.flatnonzero(samples == i) for i, number in enumerate(older)}
+        clusters = {local: np.flatnonzero(samples == local + len(older)) for local in unseen}
         return _match_nearest(view, unit, examples, clusters)
 
     def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float]:
