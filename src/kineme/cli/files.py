@@ -19,7 +19,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -28,9 +28,10 @@ from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.options import expand_read_options
 from kineme.cli.terminal import format_line, print_error, print_skipped, show_progress
 from kineme.errors import KinemeError, ReadError, WriteError
-
-if TYPE_CHECKING:
-    from kineme.formats.options import ReadOptions
+from kineme.formats.listing import scan_folder
+from kineme.formats.options import ReadOptions
+from kineme.labels import list_written_suffixes
+from kineme.labels.csv_table import lists_recordings
 
 Files = Annotated[
     list[Path],
@@ -206,8 +207,6 @@ class Batch:
 
     def _list_recordings(self, folder: Path, *, recursive: bool) -> list[Path]:
         """Return the recordings in a folder; keep messages on what was left out."""
-        from kineme.formats.listing import scan_folder
-
         listing = scan_folder(folder, recursive=recursive)
         self._messages += [
             (print_skipped, f"{path}: {reason}") for path, reason in listing.passed_over
@@ -272,8 +271,6 @@ def find_tables(option: str, source: Path, inputs: list[Path], person: str = "")
     In a folder, the table of this ``person`` is preferred.
     """
     if not _is_folder(source):
-        from kineme.labels.csv_table import lists_recordings
-
         is_shared = lists_recordings(source)  # one table for several recordings
         return [source] * len(inputs) if is_shared else _fill_patterns(option, source, inputs)
     if not source.exists() and not _FIELD.search(str(source)):
@@ -309,8 +306,6 @@ def check_writable(
 
     Creates their folders.
     """
-    from kineme.labels import list_written_suffixes
-
     for path, suffixes in ((table, list_written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
@@ -392,8 +387,6 @@ def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int
 
 def _find_table_file(path: Path, recordings: set[Path]) -> Path:
     """Return the first existing table with this name, but no recording."""
-    from kineme.labels import list_written_suffixes
-
     candidates = [
         path.with_name(path.name + suffix) for suffix in (CORRECTED, *list_written_suffixes())
     ]

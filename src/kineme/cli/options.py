@@ -23,6 +23,7 @@ import typer
 from kineme.cli.help import INPUT, METHOD, OUTPUT, PRESETS, READING_OPTIONS, option
 from kineme.clips import RootMotionMode, TargetName
 from kineme.errors import ParameterError
+from kineme.formats import list_people, list_takes
 from kineme.formats.options import ReadOptions
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.segmenter import SegmentOptions
@@ -251,8 +252,6 @@ def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, Rea
     The name is empty for a single one, and for one that the user selected.
     """
     if options.take == ALL:
-        from kineme.formats import list_takes
-
         takes = list_takes(path, replace(options, person=None, take=None)) or (None,)
         return [
             ("_".join(filter(None, (take, who))), each)
@@ -261,8 +260,6 @@ def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, Rea
         ]
     if options.person != ALL:
         return [("", options)]
-    from kineme.formats import list_people
-
     people = list_people(path, options) or (None,)
     return [(who or "", replace(options, person=who)) for who in people]
 

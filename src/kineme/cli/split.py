@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -22,12 +22,11 @@ from kineme.cli.options import (
 )
 from kineme.cli.segment import read_and_segment
 from kineme.formats.options import ReadOptions
+from kineme.formats.registry import find_writer
 from kineme.methods.segmenter import SegmentOptions
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
-
-if TYPE_CHECKING:
-    from kineme.recordings import Motion, Signals
-    from kineme.segments.segmentation import Segmentation
 
 
 @add_options(READING | SEGMENTING | CLIPS)
@@ -126,8 +125,6 @@ def split(
 
 def _check_output(output: Path) -> None:
     """Raise BadParameter for a new file of a format that holds one motion only."""
-    from kineme.formats.registry import find_writer
-
     suffix = output.suffix.lower()
     writer = find_writer(suffix) if suffix and not output.is_dir() else None
     if writer is not None and writer.write_animations is None:

@@ -15,6 +15,7 @@ from kineme.cli.segment import PrintedLevel, load_or_find_segments, print_segmen
 from kineme.cli.terminal import exit_on_error
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
+from kineme.labels import write_segments
 from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
@@ -166,8 +167,6 @@ def transfer(
                 features = transfer_features(motion, effectors=segment_options.effectors)
                 result = transfer_labels(segments, features, base, **options)
             if table is not None:
-                from kineme.labels import write_segments
-
                 write_segments(result, table)
             print_segments(result, motion, level, [table], json=json, quiet=quiet)
     batch.exit()

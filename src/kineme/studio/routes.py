@@ -103,6 +103,7 @@ from kineme.web.requests import (
     ReadRequest,
     VideoRequest,
 )
+from kineme.web.tables import make_segments_message
 
 if TYPE_CHECKING:
     from kineme.studio.library import StudioLibrary
@@ -381,7 +382,6 @@ class Api:
     def compare(self, request: Request, sent: CompareRequest) -> Comparison:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import find_differences, score_agreement
-        from kineme.web.tables import make_segments_message
 
         opened = self._get_opened(request)
         table = opened.table
