@@ -15,7 +15,7 @@ from rich.text import Text
 from kineme._util.checks import format_count
 from kineme._util.files import PAGES, PICTURES, atomic_write
 from kineme.cli.files import Batch, Files, Recursive, SegmentTable
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment
 from kineme.cli.tables import make_table, show_written
@@ -63,12 +63,7 @@ def cycles(
     segment_options: SegmentOptions,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
-            "Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc.",
-            "--output",
-            "-o",
-        ),
+        output_option("Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc."),
     ] = None,
     plot: Annotated[Path | None, option(OUTPUT, "Draw mean curves: .png, .pdf or .svg.")] = None,
     compare: Annotated[

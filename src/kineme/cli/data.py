@@ -13,7 +13,7 @@ from rich import progress as rich_progress
 from rich.filesize import decimal
 
 from kineme._util.checks import format_count
-from kineme.cli.help import INPUT, OUTPUT, option
+from kineme.cli.help import INPUT, option, output_option
 from kineme.cli.options import Quiet
 from kineme.cli.terminal import Console, exit_on_error
 
@@ -38,13 +38,7 @@ def data(
     ] = None,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
-            "Folder for the files, by default the cache of kineme.",
-            "--output",
-            "-o",
-            metavar="FOLDER",
-        ),
+        output_option("Folder for the files, by default the cache of kineme.", metavar="FOLDER"),
     ] = None,
     site: Annotated[str | None, typer.Option(envvar="KINEME_CMU_SITE", hidden=True)] = None,
     annotations: Annotated[

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.help import METHOD, OUTPUT, option, output_option
 from kineme.cli.options import SET, Constants, Quiet, parse_constants, split_names
 from kineme.cli.terminal import exit_on_error
 from kineme.errors import KinemeError, ReadError, WriteError
@@ -123,9 +123,7 @@ def evaluate(
     figures: Annotated[
         Path | None, option(BENCH, "Make the figures and tables of the paper.", metavar="FOLDER")
     ] = None,
-    output: Annotated[
-        Path | None, option(OUTPUT, "Write all scores: .json or .csv.", "--output", "-o")
-    ] = None,
+    output: Annotated[Path | None, output_option("Write all scores: .json or .csv.")] = None,
     quiet: Quiet = False,
 ) -> None:
     """Score segments of a file, folder or benchmark against labels."""

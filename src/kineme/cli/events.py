@@ -11,7 +11,7 @@ from rich.text import Text
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive
-from kineme.cli.help import OUTPUT, TABLES, option
+from kineme.cli.help import OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, Quiet, add_options
 from kineme.cli.tables import make_table, show_written
 from kineme.cli.terminal import Console
@@ -33,12 +33,9 @@ def events(
     read_options: ReadOptions,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             "Write a table of the events: .csv or .parquet; for several recordings, a "
-            "folder or a path with {name} in it.",
-            "--output",
-            "-o",
+            "folder or a path with {name} in it."
         ),
     ] = None,
     gait: Annotated[

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.files import check_writable
-from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
 from kineme.cli.tables import make_table
 from kineme.cli.terminal import Console, exit_on_error, print_skipped
@@ -63,7 +63,7 @@ def live(
     ] = 5.0,
     interval: Annotated[float, option(METHOD, "Seconds between analyses.", min=0.1)] = 2.0,
     output: Annotated[
-        Path | None, option(OUTPUT, f"Write the segments at the end: {TABLES}.", "--output", "-o")
+        Path | None, output_option(f"Write the segments at the end: {TABLES}.")
     ] = None,
     record: Annotated[
         Path | None,

@@ -106,7 +106,7 @@ Effectors = Annotated[
 ]
 SEGMENTING: dict[str, Any] = {
     "preset": Annotated[
-        str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", "--preset", metavar="NAME")
+        str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", metavar="NAME")
     ],
     "detail": Annotated[
         float | None,
@@ -114,7 +114,6 @@ SEGMENTING: dict[str, Any] = {
             METHOD,
             "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as "
             "0.5.",
-            "--detail",
             metavar="NUMBER",
         ),
     ],
@@ -133,7 +132,7 @@ CLIPS: dict[str, Any] = {
         option(OUTPUT, "Format, such as glb; by default bvh or csv.", "--format", metavar="SUFFIX"),
     ],
     "to_fps": Annotated[
-        float | None, option(OUTPUT, "Frame rate of clips, such as 30.", "--to-fps", metavar="HZ")
+        float | None, option(OUTPUT, "Frame rate of clips, such as 30.", metavar="HZ")
     ],
     "name": Annotated[
         str | None,
@@ -141,7 +140,6 @@ CLIPS: dict[str, Any] = {
             OUTPUT,
             "Pattern of names, such as {label}_{n:02}; also {name}, {take}, {direction} and "
             "others.",
-            "--name",
             metavar="TEMPLATE",
         ),
     ],
@@ -155,14 +153,13 @@ CLIPS: dict[str, Any] = {
         ),
     ],
     "sheet": Annotated[
-        Path | None, option(OUTPUT, "Picture of all clips to write.", "--sheet", metavar="PNG")
+        Path | None, option(OUTPUT, "Picture of all clips to write.", metavar="PNG")
     ],
     "motion_matching": Annotated[
         Path | None,
         option(
             OUTPUT,
             "Motion matching database to write: .npz or .bin.",
-            "--motion-matching",
             metavar="FILE",
         ),
     ],

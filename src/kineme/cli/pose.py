@@ -10,7 +10,7 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive, make_parent_folder
-from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.help import METHOD, option, output_option
 from kineme.cli.options import Json, Quiet
 from kineme.cli.terminal import print_error
 from kineme.errors import ParameterError, ReadError
@@ -20,12 +20,9 @@ def pose(
     files: Files,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             "Write the poses to this .parquet file instead of next to the video; for "
-            "several videos, a folder or a path with {name} in it.",
-            "--output",
-            "-o",
+            "several videos, a folder or a path with {name} in it."
         ),
     ] = None,
     estimator: Annotated[

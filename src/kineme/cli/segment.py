@@ -12,7 +12,7 @@ import typer
 
 from kineme._util.parallel import announce_compilation
 from kineme.cli.files import Batch, FilesOfFormats, Recursive, check_target_folder, check_writable
-from kineme.cli.help import INPUT, OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, SEGMENTING, Json, Quiet, add_options
 from kineme.cli.tables import show_segments
 from kineme.cli.terminal import exit_on_error, show_progress
@@ -44,12 +44,9 @@ def segment(
     segment_options: SegmentOptions,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
-            "several recordings: a folder, or a path with {name} in it.",
-            "--output",
-            "-o",
+            "several recordings: a folder, or a path with {name} in it."
         ),
     ] = None,
     plot: Annotated[
@@ -110,13 +107,8 @@ def segment(
 def demo(
     output: Annotated[
         Path,
-        option(
-            OUTPUT,
-            "Folder for the table and the picture.",
-            "--output",
-            "-o",
-            metavar="FOLDER",
-            show_default="current folder",
+        output_option(
+            "Folder for the table and the picture.", metavar="FOLDER", show_default="current folder"
         ),
     ] = Path(),
     quiet: Quiet = False,

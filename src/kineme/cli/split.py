@@ -10,7 +10,7 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive, SegmentTable, make_parent_folder
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import (
     ALL,
     CLIPS,
@@ -37,23 +37,20 @@ def split(
     clip_options: dict[str, Any],
     output: Annotated[
         Path,
-        option(
-            OUTPUT,
-            "Folder for the clips, or one .glb or .fbx; {name} if there are several recordings.",
-            "--output",
-            "-o",
+        output_option(
+            "Folder for the clips, or one .glb or .fbx; {name} if there are several recordings."
         ),
     ],
     level: Annotated[
         Level,
-        option(OUTPUT, "Level to split at: activity or primitive.", "--level", metavar="LEVEL"),
+        option(OUTPUT, "Level to split at: activity or primitive.", metavar="LEVEL"),
     ] = "activity",
     cluster: Annotated[int | None, option(OUTPUT, "Write this cluster only.")] = None,
     loop: Annotated[
         bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
     best: Annotated[
-        int | None, option(OUTPUT, "Number of loops per cluster.", "--best", metavar="NUMBER")
+        int | None, option(OUTPUT, "Number of loops per cluster.", metavar="NUMBER")
     ] = None,
     straight: Annotated[
         bool, option(OUTPUT, "Remove the turn of each clip.", "--straight")

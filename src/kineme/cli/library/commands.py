@@ -15,7 +15,7 @@ import typer
 from rich.text import Text
 
 from kineme._util.checks import format_count
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import CLIPS, add_options
 from kineme.cli.tables import format_cluster, make_table
 from kineme.cli.terminal import Console, exit_on_error, format_line
@@ -113,9 +113,7 @@ def query(
 
 def export(
     folder: Folder,
-    output: Annotated[
-        Path, option(OUTPUT, "File to write: .parquet, .csv or .tsv.", "--output", "-o")
-    ],
+    output: Annotated[Path, output_option("File to write: .parquet, .csv or .tsv.")],
     table: Annotated[
         str,
         typer.Option(
@@ -222,9 +220,7 @@ def split(
         list[str] | None,
         typer.Argument(help="Names of the recordings in which it is another movement."),
     ] = None,
-    output: Annotated[
-        Path | None, option(OUTPUT, "New folder for the best loops as clips.", "--output", "-o")
-    ] = None,
+    output: Annotated[Path | None, output_option("New folder for the best loops as clips.")] = None,
     best: Annotated[int, option(OUTPUT, "Largest number of loops per cluster.", min=1)] = 3,
     per: Annotated[
         Literal["cluster", "direction", "recording"],
