@@ -289,7 +289,7 @@ def test_any_bytes_are_a_message_or_a_sentence(body: bytes) -> None:
 
 def test_names_with_html_in_them_stay_data(studio) -> None:
     label = '"><script>alert(1)</script>'
-    named = studio.done(1, "name_segment", level="activity", frame=0, label=label)
+    named = studio.apply("name_segment", level="activity", frame=0, label=label)
     assert named["segmentation"]["segments"][0]["label"] == label
     for address in (studio.one, f"{studio.one}/export/json"):
         answer = studio.get(address)
@@ -302,7 +302,7 @@ def test_a_table_that_is_a_link_is_not_followed(studio, folder: Path) -> None:
     target = folder.parent / "target.json"
     target.write_text("mine")
     studio.table.symlink_to(target)
-    saved = studio.done(1, "split", level="activity", frame=50)
+    saved = studio.apply("split", level="activity", frame=50)
     assert saved["saved"] == "take.bvh.segments.json"
     (folder / "take.bvh.segments.json").unlink()
     (folder / "take.bvh.segments.json").symlink_to(target)

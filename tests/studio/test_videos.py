@@ -77,14 +77,19 @@ def test_keypoints_lie_over_the_picture(make_studio, folder: Path) -> None:
     assert places[0, -1] == -32768  # nobody is there
 
 
-def test_a_video_is_served_in_parts_to_those_who_know_the_token(make_studio, video: Path) -> None:
-    client, one = make_studio().client, f"/api/recordings/{make_file_id(video)}/video"
-    part = client.get(one, headers={"range": "bytes=4-7"})
-    assert (part.status_code, part.content) == (206, b"ftyp")
+def test_a_video_beside_keeps_its_offset_and_is_served_to_those_who_know_the_token(studio) -> None:
+    address = f"{studio.one}/video"
+    assert studio.recording()["video"] is None
+    assert studio.get(address).status_code == 404
+    (studio.folder / "take.mp4").write_bytes(b"0123456789")
+    part = studio.get(address, headers={"range": "bytes=2-4"})
+    assert (part.status_code, part.content) == (206, b"234")
     assert part.headers["content-type"] == "video/mp4"
     stranger = {"x-kineme-token": "another"}
-    assert client.get(one, headers=stranger).status_code == 403
-    assert client.get(f"{one}?token=another", headers=stranger).status_code == 403
+    assert studio.get(address, headers=stranger).status_code == 403
+    assert studio.get(f"{address}?token=another", headers=stranger).status_code == 403
+    studio.post(address, {"offset_s": 1.5})
+    assert studio.recording()["video"] == {"name": "take.mp4", "offset_s": 1.5}
 
 
 def test_poses_are_estimated_when_they_are_asked_for(make_studio, video: Path, watch) -> None:
