@@ -149,7 +149,10 @@ def cycles(
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
             recording, found = read_and_segment(path, options, table, segment_options, stage)
-            analog = _read_analog_channels(path, recording, options) if names else []
+            # Such as force plates, in the file of a motion.
+            is_motion = isinstance(recording, Motion)
+            beside = read_analog(path, options) if names and is_motion else None
+            analog = [] if beside is None else [beside]
             listed = channels_of(recording, names, beside=analog) if len(batch.paths) > 1 else ()
         # Rows of labels become repetitions; what kineme found without repetitions has none.
         is_found = table is None or "preset" in found.provenance
@@ -214,16 +217,6 @@ def _keep_common_channels(
             reason = f"does not have the channels of the others ({differences})"
             batch.leave_out(part.path, f"{reason}: choose with --channels")
     return [part for part in parts if part.channels == most_common]
-
-
-def _read_analog_channels(
-    path: Path, recording: Motion | Signals, options: ReadOptions
-) -> list[Signals]:
-    """Return the analog channels in the file of a motion, such as force plates."""
-    if not isinstance(recording, Motion):
-        return []
-    signals = read_analog(path, options)
-    return [] if signals is None else [signals]
 
 
 def _check_targets(
