@@ -19,8 +19,6 @@ from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.options import ReadOptions
 from kineme.methods.presets import DEFAULT
 
-Mapped = Literal["recording", "folder"]
-"""As `kineme.evaluation.folder.Mapped`, whose module takes seconds to import."""
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
 FOLDER = "A folder of recordings"
@@ -56,7 +54,7 @@ def evaluate(
         ),
     ] = None,
     mapping: Annotated[
-        Mapped,
+        Literal["recording", "folder"],
         option(
             FOLDER,
             "Match clusters with labels separately in each recording, or once for the "
