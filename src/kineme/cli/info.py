@@ -108,7 +108,6 @@ def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
 
 
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
-    """Print the facts."""
     notes = [note for note in facts["notes"] if note not in recording.provenance.warnings]
     if not joints:  # the markers of each joint interest few users
         notes = [note for note in notes if not note.startswith(BODY)]

@@ -63,7 +63,6 @@ class Run:
         self._stage, self._starts = "", (clock(), clock())
 
     def cancel(self) -> None:
-        """Cancel the run."""
         self._cancelled.set()
 
     def check_cancelled(self) -> None:
@@ -111,7 +110,6 @@ class Runs:
         return present[0].progress() if present else IDLE
 
     def cancel(self) -> None:
-        """Cancel all runs."""
         for run in [*self._present]:
             run.cancel()
 

@@ -189,7 +189,6 @@ class StudioLibrary:
         return [path for path in paths if not is_remote(path)]
 
     def as_folder(self) -> LibraryFolder:
-        """Return its recordings as a folder of the studio."""
         return LibraryFolder(self)
 
     def state(self) -> LibraryState:
@@ -361,7 +360,6 @@ class LibraryFolder(Folder):
         self._library = library
 
     def first_table(self, path: Path) -> Segmentation | None:
-        """Return the library's table of a recording."""
         return self._library.find_table(path)
 
     def recordings(self) -> dict[str, ListedRecording]:

@@ -185,11 +185,9 @@ class LoadedRecording:
         return self._keep("picture", lambda: draw_picture(self.path, self.provenance.person))
 
     def curves(self) -> Curves:
-        """Return the curves over time."""
         return self._keep("curves", lambda: Curves(self.recording, self._read_analog()))
 
     def cycle_curves(self) -> CycleCurves:
-        """Return the curves of repetitions."""
         return self._keep("cycles", lambda: CycleCurves(lambda: self.recording, self._read_analog))
 
     def forget_pictures(self) -> None:
@@ -336,7 +334,6 @@ class Sketcher:
         return self._sketches.get(name)
 
     def forget(self, name: str) -> None:
-        """Drop the sketch of a recording."""
         self._sketches.pop(name, None)
 
     def forget_closed(self, sketch: Sketch) -> bool:
