@@ -30,8 +30,6 @@ from kineme.cli.terminal import format_line, print_error, print_skipped, show_pr
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.listing import scan_folder
 from kineme.formats.options import ReadOptions
-from kineme.labels import list_written_suffixes
-from kineme.labels.csv_table import lists_recordings
 
 Files = Annotated[
     list[Path],
@@ -271,6 +269,8 @@ def find_tables(option: str, source: Path, inputs: list[Path], person: str = "")
     In a folder, the table of this ``person`` is preferred.
     """
     if not _is_folder(source):
+        from kineme.labels.csv_table import lists_recordings
+
         is_shared = lists_recordings(source)  # one table for several recordings
         return [source] * len(inputs) if is_shared else _fill_patterns(option, source, inputs)
     if not source.exists() and not _FIELD.search(str(source)):
@@ -306,6 +306,8 @@ def check_writable(
 
     Creates their folders.
     """
+    from kineme.labels import list_written_suffixes
+
     for path, suffixes in ((table, list_written_suffixes()), (picture, PICTURES), (page, PAGES)):
         if path is None:
             continue
@@ -387,6 +389,8 @@ def _fill_pattern(pattern: Path, name: str, folders: tuple[str, ...], depth: int
 
 def _find_table_file(path: Path, recordings: set[Path]) -> Path:
     """Return the first existing table with this name, but no recording."""
+    from kineme.labels import list_written_suffixes
+
     candidates = [
         path.with_name(path.name + suffix) for suffix in (CORRECTED, *list_written_suffixes())
     ]

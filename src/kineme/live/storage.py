@@ -26,8 +26,9 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write, refuse_link, translate_read_errors
+from kineme._util.json import convert_json
 from kineme.errors import ReadError, WriteError
-from kineme.live.events import Finals, Look, Row
+from kineme.live.events import Finals, Look
 from kineme.live.intake import Intake
 from kineme.live.looking import RecentPast
 from kineme.live.sources import Rows
@@ -104,11 +105,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
     def fill(state: StreamState) -> None:
         own = {each.name for each in fields(Intake)} & arrays.keys()
         state.intake = Intake(**content["intake"], **{name: arrays[name] for name in own})
-        finals = content["finals"]
-        for level in ("activities", "primitives"):
-            finals[level] = [Row(*row) for row in finals[level]]
-        finals["labels"] = {int(cluster): label for cluster, label in finals["labels"].items()}
-        state.finals = Finals(**finals)
+        state.finals = convert_json(content["finals"], Finals)
         past = state.past
         past.start, past.known = content["start"], arrays["known"]
         past.compared = dict(content["compared"])
@@ -119,7 +116,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
             if name.startswith(EXAMPLE)
         }
         if content["before"] is not None:
-            state.before = Look(*([Row(*row) for row in rows] for rows in content["before"]))
+            state.before = convert_json(content["before"], Look)
         state.announced = Announced(**content["announced"])
         for name, value in content["numbers"].items():
             setattr(state, name, value)

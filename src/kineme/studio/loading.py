@@ -11,7 +11,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from msgspec import Struct
 
@@ -34,12 +34,14 @@ from kineme.studio.storage.sidecars import (
     read_saved_options,
     resolve_read_options,
 )
-from kineme.web.curves import Curves
-from kineme.web.cycle_curves import CycleCurves
 from kineme.web.display import DrawnPicture, display_motion, draw_picture
 from kineme.web.messages import MatrixHead, Recording
 from kineme.web.page_data import PageData, make_page_data
 from kineme.web.tables import make_segments_message
+
+if TYPE_CHECKING:
+    from kineme.web.curves import Curves
+    from kineme.web.cycle_curves import CycleCurves
 
 LONG_S = 300.0
 """Length from which a recording is shown before it is segmented, which takes seconds."""
@@ -185,9 +187,13 @@ class LoadedRecording:
         return self._keep("picture", lambda: draw_picture(self.path, self.provenance.person))
 
     def curves(self) -> Curves:
+        from kineme.web.curves import Curves
+
         return self._keep("curves", lambda: Curves(self.recording, self._read_analog()))
 
     def cycle_curves(self) -> CycleCurves:
+        from kineme.web.cycle_curves import CycleCurves
+
         return self._keep("cycles", lambda: CycleCurves(lambda: self.recording, self._read_analog))
 
     def forget_pictures(self) -> None:
