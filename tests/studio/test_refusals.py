@@ -248,17 +248,9 @@ def test_what_is_no_edit_is_refused(studio) -> None:
         assert studio.client.post(f"{address}/compare", content=body).status_code == 400, body
 
 
-def test_a_request_of_many_megabytes_is_not_read_to_its_end(studio) -> None:
-    sent = 0
-
-    def chunks() -> Iterator[bytes]:
-        nonlocal sent
-        for _ in range(1000):
-            sent += 1
-            yield b'"' + b"a" * 100_000
-
-    answer = studio.client.post(f"{studio.one}/edits", content=chunks())
-    assert answer.status_code == 413
+def test_a_request_of_many_megabytes_is_refused(studio) -> None:
+    chunks = (b"a" * 100_000 for _ in range(1000))
+    assert studio.client.post(f"{studio.one}/edits", content=chunks).status_code == 413
 
 
 JSON = st.recursive(
