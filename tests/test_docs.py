@@ -22,6 +22,7 @@ from typing import Any
 
 import jsonschema
 import pytest
+import yaml
 from matplotlib import pyplot as plt
 
 import kineme
@@ -97,6 +98,15 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
     del written["segments"][0]["stop_frame"]
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(written, schema)
+
+
+def test_citation_has_the_form_of_its_format_and_the_version_of_the_package() -> None:
+    """The schema has the fields that we use: cffconvert, the checker, wants an old jsonschema."""
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    schema = json.loads((ROOT / "tests" / "citation.schema.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(citation, schema)
+    assert citation["version"] == kineme.__version__
 
 
 @pytest.mark.parametrize("page", FILL["FILLS"], ids=lambda page: page.stem)

@@ -16,54 +16,32 @@ from kineme.errors import WriteError
 HOUR = 3600
 
 
-def draft(folder: Path, age_s: float) -> Path:
-    path = folder / ".kineme-0123456789ab.csv"
-    path.write_text("half")
-    os.utime(path, (time.time() - age_s,) * 2)
-    return path
-
-
 @pytest.mark.parametrize(("age_s", "kept"), [(2 * HOUR, False), (HOUR / 2, True)])
 def test_drafts_of_killed_writers_are_swept(tmp_path: Path, age_s: float, kept: bool) -> None:
-    left = draft(tmp_path, age_s)
+    file, folder = (tmp_path / f".kineme-0123456789ab{suffix}" for suffix in (".csv", ""))
+    file.write_text("half")
+    folder.mkdir()
+    (folder / "half.bvh").write_text("half")
+    for left in (file, folder):
+        os.utime(left, (time.time() - age_s,) * 2)
     with atomic_write(tmp_path / "a.csv") as path:
         path.write_text("whole")
-    assert left.exists() == kept
+    assert file.exists() == folder.exists() == kept
     assert (tmp_path / "a.csv").read_text() == "whole"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="open files are not removed there")
-def test_a_draft_that_is_still_written_is_left_alone(tmp_path: Path) -> None:
-    with atomic_write(tmp_path / "a.csv") as slow:
-        os.utime(slow, (time.time() - 2 * HOUR,) * 2)
-        _files._cleaned.clear()
-        with atomic_write(tmp_path / "b.csv") as path:
-            path.write_text("b")
-        slow.write_text("a")
-    assert {path.name for path in tmp_path.iterdir()} == {"a.csv", "b.csv"}
-
-
-@pytest.mark.parametrize(("age_s", "kept"), [(2 * HOUR, False), (HOUR / 2, True)])
-def test_folders_of_killed_writers_are_swept(tmp_path: Path, age_s: float, kept: bool) -> None:
-    left = tmp_path / ".kineme-0123456789ab"
-    left.mkdir()
-    (left / "half.bvh").write_text("half")
-    os.utime(left, (time.time() - age_s,) * 2)
-    with atomic_folder(tmp_path / "clips") as folder:
-        (folder / "a.bvh").write_text("whole")
-    assert left.exists() == kept
-    assert (tmp_path / "clips" / "a.bvh").read_text() == "whole"
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="open folders are not removed there")
-def test_a_folder_that_is_still_filled_is_left_alone(tmp_path: Path) -> None:
-    with atomic_folder(tmp_path / "slow") as slow:
-        os.utime(slow, (time.time() - 2 * HOUR,) * 2)
+def test_drafts_that_are_still_written_are_left_alone(tmp_path: Path) -> None:
+    with atomic_write(tmp_path / "a.csv") as file, atomic_folder(tmp_path / "clips") as folder:
+        for slow in (file, folder):
+            os.utime(slow, (time.time() - 2 * HOUR,) * 2)
         _files._cleaned.clear()
         with atomic_folder(tmp_path / "quick"):
             pass
-        (slow / "a.bvh").write_text("a")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["quick", "slow"]
+        file.write_text("a")
+        (folder / "a.bvh").write_text("a")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.csv", "clips", "quick"}
+    assert (tmp_path / "clips" / "a.bvh").read_text() == "a"
 
 
 def test_a_place_that_may_not_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -95,15 +95,22 @@ def recording(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def kineme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Kineme:
-    """Run ``kineme ARGUMENTS`` in an empty folder, sooner: without a process of its own."""
+    """Run ``kineme ARGUMENTS`` in an empty folder, sooner: without a process of its own.
+
+    It reads ``text`` from standard input.
+    """
     monkeypatch.chdir(tmp_path)
 
     def run(
-        *arguments: object, code: int | None = 0, errors: str | None = None, **environment: str
+        *arguments: object,
+        code: int | None = 0,
+        errors: str | None = None,
+        text: str = "",
+        **environment: str,
     ) -> Done:
         given = [*map(str, arguments)]
         runner = CliRunner(env={"COLUMNS": "120", "NO_COLOR": "1", **environment})
-        done = runner.invoke(app, given)
+        done = runner.invoke(app, given, input=text)
         shown = subprocess.CompletedProcess(given, done.exit_code, done.stdout, done.stderr)
         return checked(shown, code, errors)
 

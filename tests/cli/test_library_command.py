@@ -7,14 +7,10 @@ import json
 import shutil
 import sys
 import time
-from io import StringIO
 from pathlib import Path
 
 import pytest
-from rich.console import Console
-from rich.text import Text
 
-from kineme.cli.tables import make_table
 from kineme.datasets import bundled_recording
 
 
@@ -108,15 +104,3 @@ def test_a_build_from_nothing_leaves_nothing(tmp_path: Path, kineme) -> None:
     built = kineme("library", "build", "--into", "lib", code=1)
     assert built.stderr == "error: lib: nothing to build from: name recordings or folders\n"
     assert not (tmp_path / "lib").exists()
-
-
-def test_long_names_of_recordings_are_told_apart_in_a_narrow_terminal() -> None:
-    table = make_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
-    names = [f"HuGaDB_v2_various_{number:02d}_07.txt" for number in (1, 2)]
-    for number, name in enumerate(names):
-        table.add_row(str(number), Text(name), "12.25", "13.50", "0.42", "3", "walking")
-    console = Console(width=70, file=StringIO())
-    console.print(table)
-    shown = console.file.getvalue()
-    assert "…" not in shown
-    assert "02_07" in "".join(shown.split())

@@ -10,15 +10,9 @@ import sys
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner, Result
 
-import kineme
-from kineme.cli.app import app
+import kineme as package
 from streams import FPS, two_exercises
-
-
-def run(*options: str, text: str = "") -> Result:
-    return CliRunner().invoke(app, ["live", *options], input=text)
 
 
 @pytest.fixture(scope="module")
@@ -30,20 +24,19 @@ def lines():
     )
 
 
-def test_lines_become_events_a_table_and_a_recording(lines, tmp_path):
-    table, take = tmp_path / "segments.csv", tmp_path / "take"
-    done = run("--json", "--output", str(table), "--record", str(take), text=lines)
-    assert done.exit_code == 0, done.stderr
+def test_lines_become_events_a_table_and_a_recording(kineme, lines, tmp_path):
+    options = ("--json", "--output", "segments.csv", "--record", "take")
+    remark = "skipped: columns that are not channels: note\n"
+    done = kineme("live", *options, text=lines, errors=remark)
     events = [json.loads(line) for line in done.stdout.splitlines()]
     final = [e for e in events if e["event"] == "ActivityStarted" and e["state"] == "final"]
-    rows = kineme.read_segments(table).activities
+    rows = package.read_segments(tmp_path / "segments.csv").activities
     assert [e["start_s"] for e in final] == [round(row.start_s, 4) for row in rows]
-    recording = kineme.read(take.with_suffix(".parquet"))
+    recording = package.read(tmp_path / "take.parquet")
     assert (recording.n_frames, recording.fps) == (16 * FPS, FPS)
-    assert done.stderr == "skipped: columns that are not channels: note\n"
 
 
-def test_a_killed_run_is_recovered(lines, tmp_path):
+def test_a_killed_run_is_recovered(kineme, lines, tmp_path):
     options = ["--quiet", "--fps", str(FPS), "--record", str(tmp_path / "take")]
     command = [sys.executable, "-m", "kineme", "live", *options]
     with subprocess.Popen(command, stdin=subprocess.PIPE, text=True) as process:
@@ -53,8 +46,8 @@ def test_a_killed_run_is_recovered(lines, tmp_path):
         while not journal.exists() or len(journal.read_text().splitlines()) < 16 * FPS + 1:
             assert process.poll() is None
         os.kill(process.pid, signal.SIGKILL)
-    assert run("--recover", str(journal)).exit_code == 0
-    assert kineme.read(tmp_path / "take.parquet").n_frames == 16 * FPS
+    kineme("live", "--recover", journal)
+    assert package.read(tmp_path / "take.parquet").n_frames == 16 * FPS
 
 
 @pytest.mark.parametrize(
@@ -68,8 +61,7 @@ def test_a_killed_run_is_recovered(lines, tmp_path):
         (["--fps", "50", "--osc-out", "9000"], "x\n1\n", 1, "HOST:PORT"),
     ],
 )
-def test_what_makes_no_sense_is_said_in_a_sentence(options, text, code, advice):
-    done = run(*options, text=text)
-    assert done.exit_code == code
+def test_what_makes_no_sense_is_said_in_a_sentence(kineme, options, text, code, advice):
+    done = kineme("live", *options, text=text, code=code)
     assert advice in done.stderr
     assert "Traceback" not in done.stderr

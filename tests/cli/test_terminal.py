@@ -37,13 +37,16 @@ def test_tables_spell_it_out_and_keep_their_own_colours() -> None:
         assert ("\x1b[1;31m" in told) == terminal
 
 
-def test_a_row_is_a_line_where_there_is_no_edge() -> None:
+def test_a_row_is_a_line_where_there_is_no_edge_and_else_folded() -> None:
     label = "warming up " * 30
-    table = make_table("#", "label")
-    table.add_row("0", label)
+    table = make_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
+    table.add_row("0", "HuGaDB_v2_various_02_07.txt", "12.25", "13.50", "0.42", "3", label)
     file = io.StringIO()
     Console(file=file).print(table)
     assert label.strip() in file.getvalue()
     terminal = io.StringIO()
-    Console(file=terminal, force_terminal=True, width=60).print(table)
-    assert max(map(len, terminal.getvalue().splitlines())) < 100
+    Console(file=terminal, force_terminal=True, width=70).print(table)
+    told = Text.from_ansi(terminal.getvalue()).plain
+    assert max(map(len, told.splitlines())) == 70
+    assert "…" not in told
+    assert "_07.txt" in told

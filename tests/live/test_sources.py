@@ -11,59 +11,48 @@ import numpy as np
 import pytest
 
 from kineme.errors import ParameterError
-from kineme.live.sources import (
-    measure_rate,
-    read_lines,
-    receive_lsl,
-    receive_osc,
-    replay,
-)
+from kineme.live.sources import measure_rate, read_lines, receive_lsl, receive_osc, replay
 from kineme.recordings import Signals
 
 
-@pytest.mark.parametrize(
-    "lines",
+def join(rows, name: str = "values") -> np.ndarray:
+    return np.concatenate([getattr(each, name) for each in rows])
+
+
+WRONG_LINES = [
+    ["time_ms,x,y\n", "0,1,2\n", "\n", "20,3,\n", "40,5\n", "sixty,5,6\n"],
+    ['{"time_ms": 0, "x": 1, "y": 2}', '{"time_ms": 20, "x": 3, "z": 1}', "[1]", "{"],
+]
+TEXTS_AND_COUNTERS = [
+    ["time_ms,x,index,note,y\n", "ms,g,,,g\n", "0,1,1,a,2\n", "20,3,2,b,\n"],
+    ["time_ms;x;index;note;y\n", "0;1,0;1;a;2,0\n", "20;3,0;2;b;\n"],
     [
-        ["time_ms,x,y\n", "0,1,2\n", "\n", "20,3,\n", "40,5\n", "sixty,5,6\n"],
-        ['{"time_ms": 0, "x": 1, "y": 2}', '{"time_ms": 20, "x": 3, "z": 1}', "[1]", "{"],
+        '{"time_ms": 0, "x": 1, "y": 2, "note": "a", "index": 1}',
+        '{"time_ms": 20, "x": 3, "y": null, "note": "b"}',
     ],
-)
-def test_lines_are_rows_with_times(lines):
-    source = read_lines(lines)
-    assert source.channels == ("x", "y")
-    rows = list(source.rows)
-    values = np.concatenate([each.values for each in rows])
-    np.testing.assert_array_equal(values, [[1, 2], [3, np.nan]])
-    np.testing.assert_allclose(np.concatenate([each.seconds for each in rows]), [0, 0.02])
-    assert "2 lines" in " ".join(chain.from_iterable(each.remarks for each in rows))
+]
 
 
 @pytest.mark.parametrize(
-    "lines",
+    ("lines", "remarks"),
     [
-        ["time_ms,x,index,note,y\n", "ms,g,,,g\n", "0,1,1,a,2\n", "20,3,2,b,\n"],
-        ["time_ms;x;index;note;y\n", "0;1,0;1;a;2,0\n", "20;3,0;2;b;\n"],
-        [
-            '{"time_ms": 0, "x": 1, "y": 2, "note": "a", "index": 1}',
-            '{"time_ms": 20, "x": 3, "y": null, "note": "b"}',
-        ],
+        *((lines, ["2 lines"]) for lines in WRONG_LINES),
+        *((lines, ["note", "index"]) for lines in TEXTS_AND_COUNTERS),
     ],
 )
-def test_columns_of_text_and_counters_are_no_channels(lines):
+def test_lines_are_rows_with_times(lines, remarks):
     source = read_lines(lines)
     assert source.channels == ("x", "y")
     rows = list(source.rows)
-    values = np.concatenate([each.values for each in rows])
-    np.testing.assert_array_equal(values, [[1, 2], [3, np.nan]])
-    remarks = [*chain.from_iterable(each.remarks for each in rows)]
-    assert "note" in remarks[0]
-    assert "index" in remarks[0]
+    np.testing.assert_array_equal(join(rows, "values"), [[1, 2], [3, np.nan]])
+    np.testing.assert_allclose(join(rows, "seconds"), [0, 0.02])
+    said = " ".join(chain.from_iterable(each.remarks for each in rows))
+    assert all(remark in said for remark in remarks)
 
 
 def test_a_channel_may_begin_with_a_missing_value():
     source = read_lines(["time,a,b\n", "0,1,NA\n", "1,2,-\n", "2,3,4\n"])
-    values = np.concatenate([each.values for each in source.rows])
-    np.testing.assert_array_equal(values, [[1, np.nan], [2, np.nan], [3, 4]])
+    np.testing.assert_array_equal(join(source.rows), [[1, np.nan], [2, np.nan], [3, 4]])
 
 
 def test_a_heart_rate_alone_is_a_channel():
@@ -81,13 +70,12 @@ def test_nested_json_becomes_channels():
     np.testing.assert_array_equal(next(source.rows).values, [[1, 2, 3, 4]])
 
 
-@pytest.mark.parametrize("fps", [0.0, 40.0])
-def test_times_of_a_source_become_seconds(fps):
-    lines = [f"{25 * i + 81_000_000},{i}\n" for i in range(60)]
+@pytest.mark.parametrize(("step", "start", "fps"), [(25, 8.1e7, 0), (25, 8.1e7, 40), (0.025, 0, 0)])
+def test_times_of_a_source_become_seconds_and_tell_its_rate(step, start, fps):
+    lines = [f"{start + step * i},{i}\n" for i in range(60)]
     source = measure_rate(read_lines(["t,x\n", *lines]), fps)
     assert source.fps == pytest.approx(40)
-    seconds = np.concatenate([each.seconds for each in source.rows])
-    np.testing.assert_allclose(np.diff(seconds), 0.025)
+    np.testing.assert_allclose(np.diff(join(source.rows, "seconds")), np.full(59, 0.025))
 
 
 def test_lines_without_names_and_chosen_columns():
@@ -98,16 +86,9 @@ def test_lines_without_names_and_chosen_columns():
         measure_rate(source)
 
 
-def test_the_rate_of_lines_is_that_of_their_times():
-    lines = [f"{i / 40},{i}\n" for i in range(60)]
-    source = measure_rate(read_lines(["t,x\n", *lines]))
-    assert source.fps == pytest.approx(40)
-    assert sum(len(each.values) for each in source.rows) == 60
-
-
 def test_gaps_of_a_recording_are_replayed_as_nothing():
     source = replay(Signals(np.ones((50, 1)), 10.0, gaps=[(10, 20)]), speed=0)
-    values = np.concatenate([each.values for each in source.rows])
+    values = join(source.rows)
     assert np.isnan(values[:, 0]).nonzero()[0].tolist() == list(range(10, 20))
 
 

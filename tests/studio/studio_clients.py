@@ -44,6 +44,12 @@ class Studio:
         """Return the recordings of the folder by name."""
         return {listed["name"]: listed["id"] for listed in self.state()["recordings"]}
 
+    def choose(self, name: str) -> Studio:
+        """Return a client for the recording that the folder lists by this name."""
+        chosen = Studio(self.client, self.folder)
+        chosen.path, chosen.id = self.folder / name, self.ids()[name]
+        return chosen
+
     def recording(self) -> dict[str, Any]:
         """The recording with its segments, which a busy machine may find later."""
         while True:
@@ -58,9 +64,9 @@ class Studio:
         sent = {"revision": revision, "edit": {"kind": kind, **rest}}
         return self.post(f"{self.one}/edits", sent)
 
-    def done(self, revision: int, kind: str, **rest: Any) -> dict[str, Any]:
-        """What an edit made, and the table that it left."""
-        answer = self.edit(revision, kind, **rest)
+    def apply(self, kind: str, **rest: Any) -> dict[str, Any]:
+        """Edit the present table; return what the edit made, and the table that it left."""
+        answer = self.edit(self.recording()["revision"], kind, **rest)
         assert answer.status_code == 200, answer.text
         message: dict[str, Any] = answer.json()
         return {**message, "segmentation": self.recording()["segmentation"]}

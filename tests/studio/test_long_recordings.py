@@ -300,7 +300,7 @@ def test_a_first_segmentation_that_is_cancelled_leaves_a_table_to_work_on(studio
     assert studio.get(f"{one}/progress").json()["stage"] == ""
     asked = {"preset": "kineme", "parameters": {}, "keep": True}
     preview = studio.post(f"{one}/preview", asked).json()
-    made = studio.done(left["revision"], "segment", preset="kineme", parameters={})
+    made = studio.apply("segment", preset="kineme", parameters={})
     assert made["segmentation"]["segments"] == preview["segmentation"]["segments"]
     assert len(made["segmentation"]["segments"]) > 1
 
@@ -317,7 +317,7 @@ def test_a_segmentation_that_is_cancelled_leaves_what_stood(studio, monkeypatch)
         refused = answer.result()
     assert (refused.status_code, refused.json()["error"]) == (400, "it was cancelled")
     assert studio.recording()["segmentation"] == before["segmentation"]
-    studio.done(before["revision"], "segment", **again)
+    studio.apply("segment", **again)
 
 
 def test_a_newer_preview_ends_the_one_before(studio, monkeypatch):

@@ -14,7 +14,7 @@ from kineme.cli.app import app
 from kineme.cli.studio import _split_people
 from kineme.errors import KinemeWarning
 from kineme.formats import ReadOptions
-from kineme.studio.storage.sidecars import ListedRecording, make_file_id
+from kineme.studio.storage.sidecars import ListedRecording
 from people_files import write_people
 
 NAME = {"level": "activity", "frame": 0}
@@ -24,21 +24,16 @@ NAME = {"level": "activity", "frame": 0}
 def duet(studio: Studio) -> Studio:
     """A studio, its recording a file with two people."""
     path = write_people(studio.folder / "duet.trc", {"Anna": 0, "Bob": 300})
-    found = Studio(studio.client, studio.folder)
-    found.path, found.id = path, make_file_id(path)
-    return found
+    return studio.choose(path.name)
 
 
 def of(duet: Studio, person: str) -> Studio:
     """The same, its recording that of a person."""
-    found = Studio(duet.client, duet.folder)
-    found.path, found.id = duet.path, ids_of(duet)[f"duet.trc · {person}"]
-    return found
+    return duet.choose(f"duet.trc · {person}")
 
 
 def ids_of(duet: Studio) -> dict[str, str]:
-    listed = duet.state()["recordings"]
-    return {each["name"]: each["id"] for each in listed if each["name"].startswith("duet")}
+    return {name: each for name, each in duet.ids().items() if name.startswith("duet")}
 
 
 def choose(duet: Studio, *, everybody: bool = False, **options: Any) -> list[str]:
@@ -67,10 +62,10 @@ def test_it_asks_once_and_each_has_a_table_of_its_own(duet: Studio) -> None:
     assert heads[0]["file"] == heads[1]["file"] == duet.id
     assert not any(":" in name for name in heads[1]["motion"]["joints"])
     for studio, label in ((anna, "of Anna"), (bob, "of Bob")):
-        studio.done(studio.recording()["revision"], "name_segment", **NAME, label=label)
+        studio.apply("name_segment", **NAME, label=label)
     assert labels(anna) == {"of Anna"}
     assert labels(bob) == {"of Bob"}
-    bob.done(bob.recording()["revision"], "undo")
+    bob.apply("undo")
     assert (labels(anna), labels(bob)) == ({"of Anna"}, set())
     tables = sorted(path.name for path in duet.folder.glob("duet*.segments.json"))
     assert tables == ["duet_Anna.segments.json", "duet_Bob.segments.json"]
@@ -87,7 +82,7 @@ def test_reading_the_file_otherwise_makes_the_tables_of_all_anew(duet: Studio) -
     choose(duet, person="Bob")
     anna, bob = of(duet, "Anna"), of(duet, "Bob")
     for studio in (anna, bob):
-        studio.done(studio.recording()["revision"], "name_segment", **NAME, label="before")
+        studio.apply("name_segment", **NAME, label="before")
     assert choose(bob, person="Anna") == [anna.id]
     assert (labels(anna), labels(bob)) == ({"before"}, {"before"})
     assert choose(bob, person="Bob", fps=15.0) == [bob.id]
@@ -106,7 +101,7 @@ def test_reading_the_file_otherwise_makes_the_tables_of_all_anew(duet: Studio) -
 def test_reading_it_as_it_is_read_makes_no_table_anew(duet: Studio) -> None:
     assert choose(duet, person="Bob", fps=15.0) == [of(duet, "Bob").id]
     bob = of(duet, "Bob")
-    bob.done(bob.recording()["revision"], "name_segment", **NAME, label="before")
+    bob.apply("name_segment", **NAME, label="before")
     revision = bob.recording()["revision"]
     assert choose(bob, person="Bob", fps=15.0) == [bob.id]
     assert (labels(bob), bob.recording()["revision"]) == ({"before"}, revision)
@@ -117,7 +112,7 @@ def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch)
     for person in ("Anna", "Bob"):
         one = of(duet, person)
         call = {"cluster": 0, "label": f"by {person}"}
-        one.done(one.recording()["revision"], "name_cluster", **call)
+        one.apply("name_cluster", **call)
     ids = [*ids_of(duet).values()]
     sent = {"name": "known", "recordings": ids}
     assert duet.post("/api/knowledge", sent).status_code == 200

@@ -1,8 +1,7 @@
-"""What the studio answers: recordings, edits with undo, comparisons, exports, news."""
+"""What the studio answers: recordings, edits with undo, comparisons, exports."""
 
 from __future__ import annotations
 
-import asyncio
 import copy
 import json
 import math
@@ -21,7 +20,6 @@ from studio_clients import TOKEN
 import kineme
 from kineme.labels import label_formats
 from kineme.methods import PRESETS, resolve_preset
-from kineme.studio.http.events import Hub
 from kineme.transfer import KnowledgeBase
 from kineme.web import messages
 from kineme.web.encoding import to_json
@@ -107,15 +105,12 @@ def test_lengths_of_signals_are_in_their_own_unit_however_often_they_are_sent(
     studio, folder: Path
 ) -> None:
     write_imu(folder / "imu.csv")
-    state = studio.state()
-    studio.id = next(f["id"] for f in state["recordings"] if f["name"] == "imu.csv")
-    choice = next(each for each in state["presets"] if each["name"] == "voegele2014")
+    studio = studio.choose("imu.csv")
+    choice = next(each for each in studio.state()["presets"] if each["name"] == "voegele2014")
     values = {each["name"]: each["value"] for each in choice["signal_parameters"]}
-    revision = studio.recording()["revision"]
     plain = kineme.segment(kineme.read(folder / "imu.csv"), preset="voegele2014")
     for _ in range(2):
-        again = studio.done(revision, "segment", preset="voegele2014", parameters=values)
-        revision = again["revision"]
+        again = studio.apply("segment", preset="voegele2014", parameters=values)
         used = again["segmentation"]["provenance"]["parameters"]
         assert kineme.read_segments(folder / "imu.segments.json").table == plain.table
         values = {name: used[name] for name in values}  # as the page does
@@ -142,28 +137,23 @@ def test_each_edit_is_on_the_disk_and_can_be_taken_back(studio) -> None:
     first = studio.recording()
     before = first["segmentation"]["segments"]
     border = first["n_frames"] // 3
-    split = studio.done(first["revision"], "split", level="activity", frame=border)
+    split = studio.apply("split", level="activity", frame=border)
     assert split["saved"] == "take.segments.json"
     assert border in kineme.read_segments(studio.table).cuts("activity")
     assert kineme.read_segments(studio.table).annotation.corrections == 1
-    moved = studio.done(
-        split["revision"], "move_border", level="activity", frame=border, to=border + 7
-    )
-    named = studio.done(
-        moved["revision"], "name_segment", level="activity", frame=border + 7, label="<b>hop</b>"
-    )
+    studio.apply("move_border", level="activity", frame=border, to=border + 7)
+    named = studio.apply("name_segment", level="activity", frame=border + 7, label="<b>hop</b>")
     labels = kineme.read_segments(studio.table).activities.label.tolist()
     assert "<b>hop</b>" in labels
-    state = named
     for _ in range(3):
-        state = studio.done(state["revision"], "undo")
+        state = studio.apply("undo")
     assert state["segmentation"]["segments"] == before
     assert (state["can_undo"], state["can_redo"]) == (False, True)
     assert kineme.read_segments(studio.table).table.start_frame.tolist() == [
         row["start_frame"] for row in before
     ]
     for _ in range(3):
-        state = studio.done(state["revision"], "redo")
+        state = studio.apply("redo")
     assert state["segmentation"] == named["segmentation"]
     assert studio.recording()["segmentation"] == named["segmentation"]
     assert studio.state()["recordings"][0]["corrected"]
@@ -190,11 +180,9 @@ def test_what_cannot_be_done_is_a_sentence_and_changes_nothing(studio, kind, res
 
 
 def test_segmenting_again_gives_what_the_package_gives(studio) -> None:
-    revision = studio.recording()["revision"]
     motion = kineme.read(studio.path)
     for preset, parameters in (("kineme", {"segment_cost": 0.5}), ("krueger2017", {"radius": 0.5})):
-        again = studio.done(revision, "segment", preset=preset, parameters=parameters)
-        revision = again["revision"]
+        again = studio.apply("segment", preset=preset, parameters=parameters)
         expected = kineme.segment(motion, preset=preset, **parameters)
         rows = again["segmentation"]["segments"]
         assert [row["start_frame"] for row in rows] == expected.table.start_frame.tolist()
@@ -207,8 +195,7 @@ def test_labels_come_from_a_knowledge_base_of_the_folder(studio, folder: Path) -
     table = kineme.segments.editing.name_segment(table, "activity", 0, "walk")
     KnowledgeBase.from_recording(motion, table).save(folder / "base.npz")
     base = studio.state()["knowledge_bases"][0]["id"]
-    revision = studio.recording()["revision"]
-    named = studio.done(revision, "transfer", knowledge_base=base, threshold=0.2, spread=True)
+    named = studio.apply("transfer", knowledge_base=base, threshold=0.2, spread=True)
     assert "labelled" in named["notes"][0]
     again = studio.edit(named["revision"], "transfer", knowledge_base=base, threshold=-1.0)
     assert again.status_code == 400
@@ -277,31 +264,26 @@ def test_every_format_can_be_taken_away(studio, tmp_path: Path) -> None:
 
 
 def test_a_single_point_is_shown_whole(studio, folder: Path) -> None:
-    (folder / "point.csv").write_text(
-        "p_x,p_y,p_z,time\n" + "".join(f"{i},1,0,{i / 10}\n" for i in range(40))
-    )
-    files = studio.ids()
-    message = studio.get(f"/api/recordings/{files['point.csv']}").json()
+    rows = "".join(f"{i},1,0,{i / 10}\n" for i in range(40))
+    (folder / "point.csv").write_text(f"p_x,p_y,p_z,time\n{rows}")
+    message = studio.choose("point.csv").recording()
     assert [row["stop_frame"] for row in message["segmentation"]["segments"]] == [40]
     assert "not segmented: a single point" in message["warnings"][-1]
 
 
 def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> None:
     write_imu(folder / "imu.csv")
-    files = studio.ids()
-    studio.id = files["imu.csv"]
+    studio = studio.choose("imu.csv")
     message = studio.recording()
     assert (message["motion"], message["n_frames"], message["fps"]) == (None, 1000, 50.0)
     assert studio.get(f"{studio.one}/motion").content == b""
     assert studio.get(f"{studio.one}/matrix/0/0/0").status_code == 200
-    again = studio.done(
-        message["revision"], "segment", preset="kineme", parameters={"min_action": 1.2}
-    )
+    studio.apply("segment", preset="kineme", parameters={"min_action": 1.2})
     signals = kineme.read(folder / "imu.csv")
     stored = kineme.read_segments(folder / "imu.segments.json")
     assert stored.table == kineme.segment(signals, preset="kineme", min_action=1.2).table
     assert stored.provenance["preset"] == "sensors"
-    studio.done(again["revision"], "split", level="activity", frame=500)
+    studio.apply("split", level="activity", frame=500)
     assert 500 in kineme.read_segments(folder / "imu.segments.json").cuts()
     clips = studio.get(f"{studio.one}/export/motions")
     assert clips.status_code == 400
@@ -311,9 +293,8 @@ def test_signals_are_shown_and_segmented_like_motions(studio, folder: Path) -> N
 def test_a_file_that_cannot_be_read_is_a_sentence(studio, folder: Path) -> None:
     (folder / "bad.bvh").write_text("HIERARCHY <script>alert(1)</script>")
     (folder / "empty.c3d").write_bytes(b"")
-    files = studio.ids()
     for name in ("bad.bvh", "empty.c3d"):
-        answer = studio.get(f"/api/recordings/{files[name]}")
+        answer = studio.get(studio.choose(name).one)
         assert answer.status_code == 400
         assert name in answer.json()["error"]
 
@@ -328,26 +309,8 @@ def test_only_files_that_were_named_are_listed(make_studio, folder: Path) -> Non
     assert names == ["take.bvh", "new.bvh"]
 
 
-def test_news_reach_every_page_and_end_with_the_server() -> None:
-    async def listen() -> tuple[list[list[dict[str, object]]], bool]:
-        hub = Hub()
-        pages = [hub.stream(), hub.stream()]
-        for page in pages:
-            assert (await anext(page)).startswith(":")
-        for revision in (2, 3):
-            hub.tell("take", revision)
-        heard = [[json.loads((await anext(page))[6:]) for _ in range(2)] for page in pages]
-        hub.close()
-        left = [item for page in pages for item in [line async for line in page]]
-        return heard, left == []
-
-    heard, ended = asyncio.run(listen())
-    assert heard == [[{"recording": "take", "revision": r} for r in (2, 3)]] * 2
-    assert ended
-
-
 def test_rows_of_a_message_tile_and_are_of_its_type(studio) -> None:
-    message = studio.done(1, "segment", preset="voegele2014", parameters={"min_primitive": 0.1})
+    message = studio.apply("segment", preset="voegele2014", parameters={"min_primitive": 0.1})
     rows = [row for row in message["segmentation"]["segments"] if row["level"] == "primitive"]
     assert all(a["stop_frame"] == b["start_frame"] for a, b in pairwise(rows))
     assert np.isclose(rows[-1]["stop_s"], 4.0)
@@ -358,30 +321,19 @@ def test_rows_of_a_message_tile_and_are_of_its_type(studio) -> None:
 def test_what_a_reader_warns_of_reaches_the_page(studio, folder: Path) -> None:
     text = (folder / "take.bvh").read_text().replace("Frames: 240", "Frames: 250")
     (folder / "short.bvh").write_text(text)
-    files = studio.ids()
-    message = studio.get(f"/api/recordings/{files['short.bvh']}").json()
-    assert any("250 frames declared" in warning for warning in message["warnings"])
-    report = studio.get(f"/api/recordings/{files['short.bvh']}/export/report").text
+    studio = studio.choose("short.bvh")
+    warnings = studio.recording()["warnings"]
+    assert any("250 frames declared" in warning for warning in warnings)
+    report = studio.get(f"{studio.one}/export/report").text
     assert "250 frames declared" in report
 
 
 def test_the_list_of_recordings_says_how_far_each_is(studio) -> None:
-    revision = studio.recording()["revision"]
-    state = studio.done(revision, "name_segment", level="activity", frame=0, label="hop")
+    state = studio.apply("name_segment", level="activity", frame=0, label="hop")
     rows = state["segmentation"]["segments"]
-    studio.done(
-        state["revision"],
-        "together",
-        edits=[
-            {
-                "kind": "check",
-                "level": row["level"],
-                "frames": [row["start_frame"]],
-                "checked": True,
-            }
-            for row in rows[:2]
-        ],
-    )
+    check = {"kind": "check", "checked": True}
+    places = [{"level": row["level"], "frames": [row["start_frame"]]} for row in rows[:2]]
+    studio.apply("together", edits=[check | place for place in places])
     listing = studio.state()["recordings"][0]
     named = sum(row["label"] != "" for row in rows)
     counts = (listing["corrected"], listing["segments"], listing["checked"], listing["named"])
@@ -402,7 +354,7 @@ def test_labels_of_another_program_become_the_table(studio, folder: Path, table:
     chosen = studio.state()["annotations"][0]["id"]
     sent = {"annotation": chosen}
     compared = studio.post(f"{studio.one}/compare", sent).json()
-    taken = studio.done(studio.recording()["revision"], "take_labels", **sent)
+    taken = studio.apply("take_labels", **sent)
     for message in (compared, taken):
         found = [row for row in message["segmentation"]["segments"] if row["level"] == "activity"]
         assert [(row["start_frame"], row["label"]) for row in found] == [(0, "walk"), (120, "hop")]
@@ -424,13 +376,13 @@ def test_bulk_changes_are_one_step_and_say_how_many(studio) -> None:
         {"kind": "name_segment", "level": "primitive", "frame": row["start_frame"], "label": "a"}
         for row in rows
     ]
-    named = studio.done(message["revision"], "together", edits=edits)
+    studio.apply("together", edits=edits)
     cluster = next(row["cluster"] for row in rows if row["cluster"] >= 0)
-    called = studio.done(named["revision"], "name_cluster", cluster=cluster, label="walk")
+    called = studio.apply("name_cluster", cluster=cluster, label="walk")
     assert "keep their own name" in called["notes"][0]
     assert called["segmentation"]["cluster_names"][str(cluster)] == "walk"
-    state = studio.done(called["revision"], "undo")
-    state = studio.done(state["revision"], "undo")
+    studio.apply("undo")
+    state = studio.apply("undo")
     assert state["segmentation"]["segments"] == message["segmentation"]["segments"]
     broken = studio.edit(state["revision"], "together", edits=[*edits, {**edits[0], "frame": 1}])
     assert broken.status_code == 400

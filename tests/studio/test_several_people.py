@@ -54,8 +54,7 @@ def test_people_are_found_and_compared(labelled: Path, make_studio) -> None:
 
 def test_whoever_works_here_is_one_of_them(labelled: Path, make_studio) -> None:
     studio: Studio = make_studio()
-    revision = studio.recording()["revision"]
-    studio.done(revision, "name_segment", level="activity", frame=0, label="walk")
+    studio.apply("name_segment", level="activity", frame=0, label="walk")
     (last,) = [each for each in studio.get("/api/annotators").json() if each["id"] == "tables"]
     assert (last["name"], last["recordings"]) == ("Tables of this studio", 1)
 

@@ -46,7 +46,7 @@ def test_the_recording_opens_and_the_file_is_named(
 
 def test_marks_of_another_shape_are_not_believed(make_studio, folder: Path) -> None:
     studio = make_studio()
-    studio.done(1, "split", level="activity", frame=50)
+    studio.apply("split", level="activity", frame=50)
     told = json.loads(studio.table.read_text())
     told["annotation"]["checked"] = [["activity", [], {}]]
     studio.table.write_text(json.dumps(told))

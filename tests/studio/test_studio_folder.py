@@ -17,17 +17,15 @@ from kineme.clips.loops import Carry
 from kineme.formats.scenes.gltf_writer import write_animations
 from kineme.recordings.operations import turn
 from kineme.studio.folder import read_brief, summarize_table
-from kineme.studio.storage.sidecars import make_file_id
 from kineme.web.encoding import to_json
 
 
 def test_a_detail_is_shown_before_it_is_made(studio: Studio) -> None:
     address = f"{studio.one}/preview"
     sent = {"preset": "kineme", "parameters": {}, "keep": True, "detail": 0.125}
-    revision = studio.recording()["revision"]
     preview = studio.post(address, sent).json()
     assert preview["detail"] == preview["details"][0]
-    made = studio.done(revision, "segment", preset="kineme", parameters={}, detail=0.125)
+    made = studio.apply("segment", preset="kineme", parameters={}, detail=0.125)
     assert made["segmentation"]["segments"] == preview["segmentation"]["segments"]
     assert studio.post(address, {**sent, "detail": -1}).status_code == 400
 
@@ -36,7 +34,6 @@ def test_repetitions_are_measured_as_by_the_command(studio: Studio) -> None:
     one = studio.one
     channels = studio.get(f"{one}/cycles").json()["channels"]
     assert channels[0]["name"] == "knee_l"
-    revision = studio.recording()["revision"]
     motion = kineme.read(studio.path)
     cycles = kineme.cycles(motion, kineme.segment(motion), channels=["hip_l"])
     curves = studio.get(f"{one}/cycles/0?channel=hip_l").json()
@@ -47,7 +44,7 @@ def test_repetitions_are_measured_as_by_the_command(studio: Studio) -> None:
         assert studio.get(f"{one}/cycles/{wrong}").status_code == 404
     row = next(each for each in kineme.segment(motion).primitives if each.kind == "primitive")
     frame = row.stop_frame  # an edit is measured anew
-    studio.done(revision, "delete_border", level="primitive", frame=frame)
+    studio.apply("delete_border", level="primitive", frame=frame)
     fewer = studio.get(f"{one}/cycles/0?channel=hip_l").json()
     assert fewer["total"] == curves["total"] - 1
 
@@ -63,14 +60,13 @@ def test_curves_come_in_pieces(studio: Studio) -> None:
 def test_checked_recordings_are_written_together_and_known_by_their_names(studio: Studio) -> None:
     message = studio.recording()
     assert studio.get("/api/export/json").status_code == 400  # none is checked yet
-    revision = message["revision"]
     for row in message["segmentation"]["segments"]:
         level, frame = row["level"], row["start_frame"]
         edit = {"level": level, "frames": [frame], "checked": True}
-        revision = studio.done(revision, "check", **edit)["revision"]
+        studio.apply("check", **edit)
     row = next(each for each in message["segmentation"]["segments"] if each["kind"] == "activity")
     named = {"level": row["level"], "frame": row["start_frame"], "label": "walk"}
-    studio.done(revision, "name_segment", **named)
+    studio.apply("name_segment", **named)
     answer = studio.get("/api/export/json")
     assert zipfile.ZipFile(io.BytesIO(answer.content)).namelist() == ["take.segments.json"]
     assert answer.headers["content-disposition"].endswith("folder.checked.segments.json.zip")
@@ -94,9 +90,9 @@ def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -
     assert found["table"]["start_frame"] == [row["start_frame"] for row in rows]
     frame = rows[0]["start_frame"]
     edit = {"level": rows[0]["level"], "frames": [frame], "checked": True}
-    revision = studio.done(message["revision"], "check", **edit)["revision"]
+    studio.apply("check", **edit)
     said = {"level": rows[0]["level"], "frame": frame, "text": "slips"}
-    studio.done(revision, "comment", **said)
+    studio.apply("comment", **said)
     table = next(studio.folder.glob("*.segments.json"))
     assert to_json(read_brief(table)) == to_json(summarize_table(kineme.read_segments(table)))
     (studio.folder / "take.bvh").write_text("no recording any more")
@@ -106,23 +102,16 @@ def test_the_folder_tells_of_tables_without_reading_recordings(studio: Studio) -
 
 
 def test_what_is_called_otherwise_in_one_recording_is_in_all(studio: Studio) -> None:
-    other = studio.folder / "other.bvh"
-    shutil.copy(studio.folder / "take.bvh", other)
-    message = studio.recording()
-    cluster = next(
-        row["cluster"] for row in message["segmentation"]["segments"] if row["cluster"] >= 0
-    )
-    address = f"/api/recordings/{make_file_id(other)}"
-    edit = {"kind": "name_cluster", "cluster": cluster, "label": "walk"}
-    revision = studio.get(address).json()["revision"]
-    studio.post(f"{address}/edits", {"revision": revision, "edit": edit})
+    shutil.copy(studio.path, studio.folder / "other.bvh")
+    other = studio.choose("other.bvh")
+    rows = studio.recording()["segmentation"]["segments"]
+    cluster = next(row["cluster"] for row in rows if row["cluster"] >= 0)
+    other.apply("name_cluster", cluster=cluster, label="walk")
     sent = {"recording": studio.id, "cluster": cluster, "before": "walk", "label": "stride"}
     told = studio.post("/api/names", sent).json()
     assert told == {"tables": 1, "others": 0, "left": []}
-    assert studio.get(address).json()["segmentation"]["cluster_names"][str(cluster)] == "stride"
-    revision = studio.get(address).json()["revision"]
-    undo = {"revision": revision, "edit": {"kind": "undo"}}
-    undone = studio.post(f"{address}/edits", undo).json()
+    assert other.recording()["segmentation"]["cluster_names"][str(cluster)] == "stride"
+    undone = other.apply("undo")
     assert undone["change"]["cluster_names"][str(cluster)] == "walk"
     assert studio.post("/api/names", {**sent, "before": ""}).status_code == 400
 
@@ -175,23 +164,12 @@ def test_a_loop_plays_as_it_is_written(studio: Studio) -> None:
     assert studio.get(f"{studio.one}/loops/9999").status_code == 400
 
 
-def test_a_video_lies_beside_and_keeps_its_offset(studio: Studio) -> None:
-    address = f"{studio.one}/video"
-    assert studio.recording()["video"] is None
-    assert studio.get(address).status_code == 404
-    (studio.folder / "take.mp4").write_bytes(b"0123456789")
-    part = studio.get(address, headers={"range": "bytes=2-4"})
-    assert (part.status_code, part.content) == (206, b"234")
-    studio.post(address, {"offset_s": 1.5})
-    assert studio.recording()["video"] == {"name": "take.mp4", "offset_s": 1.5}
-
-
 def test_a_comment_outlives_borders_and_new_segmentations(studio: Studio) -> None:
     message = studio.recording()
     row = message["segmentation"]["segments"][0]
     said = {"level": row["level"], "frame": row["start_frame"], "text": "slips"}
-    revision = studio.done(message["revision"], "comment", **said)["revision"]
-    made = studio.done(revision, "segment", preset="kineme", parameters={}, detail=8)
+    studio.apply("comment", **said)
+    made = studio.apply("segment", preset="kineme", parameters={}, detail=8)
     rows = made["segmentation"]["segments"]
     (commented,) = [each for each in rows if "comment" in each]
     assert commented["comment"] == "slips"
@@ -202,7 +180,7 @@ def test_a_comment_outlives_borders_and_new_segmentations(studio: Studio) -> Non
 def test_a_recording_can_be_read_otherwise(studio: Studio) -> None:
     message = studio.recording()
     chosen = {"preset": "voegele2014", "parameters": {"radius": 0.5}}
-    studio.done(message["revision"], "segment", **chosen)
+    studio.apply("segment", **chosen)
     address = f"{studio.one}/reading"
     assert studio.post(address, {"options": {"unit": "parsec"}}).status_code == 400
     assert studio.recording()["fps"] == message["fps"]
@@ -220,8 +198,7 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     path = studio.folder / "takes.glb"
     motions = {"walk": motion, "turned": turn(motion, 1.0), "short": motion[:200]}
     write_animations(motions, path)
-    takes = Studio(studio.client, studio.folder)
-    takes.id = make_file_id(path)
+    takes = studio.choose("takes.glb")
     address = f"{takes.one}/reading"
 
     def named(take: str) -> tuple[str | None, set[str]]:
@@ -233,9 +210,9 @@ def test_each_take_of_a_file_has_a_table_of_its_own(studio: Studio) -> None:
     first = takes.recording()
     assert (first["take"], first["takes"]) == ("walk", ["walk", "turned", "short"])
     name = {"level": "activity", "frame": 0}
-    takes.done(first["revision"], "name_segment", **name, label="of walk")
+    takes.apply("name_segment", **name, label="of walk")
     assert named("turned") == ("turned", set())
-    takes.done(takes.recording()["revision"], "name_segment", **name, label="of turned")
+    takes.apply("name_segment", **name, label="of turned")
     assert named("walk") == ("walk", {"of walk"})
     assert named("turned") == ("turned", {"of turned"})
     tables = [path.with_name(f"takes.{kind}segments.json") for kind in ("", "glb.")]

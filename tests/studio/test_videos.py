@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from starlette.testclient import TestClient
+from studio_clients import Studio
 
 from kineme.pose import Pose, register
 from kineme.pose.estimators import ESTIMATORS
@@ -36,10 +36,10 @@ def video(folder: Path) -> Path:
     return write_video(folder / "squats.mp4", AT_30_HZ)
 
 
-def wait(client: TestClient, holds: Callable[[dict], bool]) -> dict:
+def wait(studio: Studio, holds: Callable[[dict], bool]) -> dict:
     """How far the poses are, once it is so."""
     for _ in range(1000):
-        progress = client.get("/api/poses").json()
+        progress = studio.get("/api/poses").json()
         if holds(progress):
             return progress
         time.sleep(0.01)
@@ -61,13 +61,12 @@ def test_keypoints_lie_over_the_picture(make_studio, folder: Path) -> None:
     video = folder / "squats.mp4"
     video.write_bytes(b"\0\0\0\x18ftypmp42 and more")
     write_poses_of(video, lambda time: [squat(time)] if time < 3 else [])
-    client, one = make_studio().client, f"/api/recordings/{make_file_id(video)}"
-    listed = [each["name"] for each in client.get("/api/state").json()["recordings"]]
-    assert listed == ["squats.mp4", "take.bvh"]  # the table is read with its video
-    told = client.get(one).json()["video"]
+    studio = make_studio().choose("squats.mp4")
+    assert [*studio.ids()] == ["squats.mp4", "take.bvh"]  # the table is read with its video
+    told = studio.recording()["video"]
     assert (told["name"], told["offset_s"]) == ("squats.mp4", 0.5)
     head = told["picture"]["keypoints"]
-    packed = zlib.decompress(client.get(f"{one}/keypoints").content)
+    packed = zlib.decompress(studio.get(f"{studio.one}/keypoints").content)
     columns = np.frombuffer(packed, "<i2").reshape(-1, head["n_samples"])
     knee = 3 * head["joints"].index("left_knee")
     places = np.cumsum(columns[knee : knee + 3], axis=1, dtype=np.int16)
@@ -77,64 +76,69 @@ def test_keypoints_lie_over_the_picture(make_studio, folder: Path) -> None:
     assert places[0, -1] == -32768  # nobody is there
 
 
-def test_a_video_is_served_in_parts_to_those_who_know_the_token(make_studio, video: Path) -> None:
-    client, one = make_studio().client, f"/api/recordings/{make_file_id(video)}/video"
-    part = client.get(one, headers={"range": "bytes=4-7"})
-    assert (part.status_code, part.content) == (206, b"ftyp")
+def test_a_video_beside_keeps_its_offset_and_is_served_to_those_who_know_the_token(studio) -> None:
+    address = f"{studio.one}/video"
+    assert studio.recording()["video"] is None
+    assert studio.get(address).status_code == 404
+    (studio.folder / "take.mp4").write_bytes(b"0123456789")
+    part = studio.get(address, headers={"range": "bytes=2-4"})
+    assert (part.status_code, part.content) == (206, b"234")
     assert part.headers["content-type"] == "video/mp4"
     stranger = {"x-kineme-token": "another"}
-    assert client.get(one, headers=stranger).status_code == 403
-    assert client.get(f"{one}?token=another", headers=stranger).status_code == 403
+    assert studio.get(address, headers=stranger).status_code == 403
+    assert studio.get(f"{address}?token=another", headers=stranger).status_code == 403
+    studio.post(address, {"offset_s": 1.5})
+    assert studio.recording()["video"] == {"name": "take.mp4", "offset_s": 1.5}
 
 
 def test_poses_are_estimated_when_they_are_asked_for(make_studio, video: Path, watch) -> None:
-    client, name = make_studio().client, make_file_id(video)
-    refused = client.get(f"/api/recordings/{name}")
+    studio = make_studio().choose(video.name)
+    refused = studio.get(studio.one)
     assert refused.status_code == 400
     assert refused.json()["poses"]
     assert not refused.json()["reading"]
-    assert client.get("/api/state").json()["install"] == ""
-    client.post("/api/poses", json={"recordings": [name]})
-    done = wait(client, is_idle)
+    assert studio.state()["install"] == ""
+    studio.post("/api/poses", {"recordings": [studio.id]})
+    done = wait(studio, is_idle)
     assert (done["done"], done["all"], done["failed"]) == (1, 1, [])
-    assert client.get(f"/api/recordings/{name}").json()["n_frames"] == 45
-    listed = client.get("/api/state").json()["recordings"]
-    assert not any(each["needs_poses"] for each in listed)
+    assert studio.recording()["n_frames"] == 45
+    assert not any(each["needs_poses"] for each in studio.state()["recordings"])
 
 
 def test_what_is_cancelled_goes_on_later(make_studio, video: Path, watch) -> None:
-    client, name = make_studio().client, make_file_id(video)
+    studio = make_studio().choose(video.name)
+    sent = {"recordings": [studio.id]}
     seen: list[float] = []
     watch.append(lambda time_s: (seen.append(time_s), time.sleep(0.02)))
-    client.post("/api/poses", json={"recordings": [name]})
-    wait(client, lambda progress: len(seen) > 20)
-    assert client.post("/api/poses/cancel").status_code == 204
-    wait(client, is_idle)
+    studio.post("/api/poses", sent)
+    wait(studio, lambda progress: len(seen) > 20)
+    assert studio.client.post("/api/poses/cancel").status_code == 204
+    wait(studio, is_idle)
     first, watch[0] = len(seen), seen.append
     assert first < 90
-    client.post("/api/poses", json={"recordings": [name]})
-    wait(client, is_idle)
+    studio.post("/api/poses", sent)
+    wait(studio, is_idle)
     assert len(seen) - first < 90 - first + 3  # the last whole frame is done again
 
 
 def test_a_video_that_fails_costs_itself_only(make_studio, video: Path, watch) -> None:
     bad = video.with_name("a.mp4")
     bad.write_bytes(video.read_bytes()[:300])
-    client = make_studio().client
-    client.post("/api/poses", json={"recordings": [make_file_id(bad), make_file_id(video)]})
-    done = wait(client, is_idle)
+    studio = make_studio().choose(video.name)
+    studio.post("/api/poses", {"recordings": [make_file_id(bad), studio.id]})
+    done = wait(studio, is_idle)
     assert done["done"] == 2
     assert len(done["failed"]) == 1
     assert "a.mp4" in done["failed"][0]
-    assert client.get(f"/api/recordings/{make_file_id(video)}").status_code == 200
+    assert studio.get(studio.one).status_code == 200
 
 
 def test_without_an_estimator_the_install_line_is_said(
     make_studio, video: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("kineme.pose.estimators.find_spec", lambda name: None)
-    client = make_studio().client
-    assert "pip install 'kineme[video]'" in client.get("/api/state").json()["install"]
-    refused = client.post("/api/poses", json={"recordings": [make_file_id(video)]})
+    studio = make_studio().choose(video.name)
+    assert "pip install 'kineme[video]'" in studio.state()["install"]
+    refused = studio.post("/api/poses", {"recordings": [studio.id]})
     assert refused.status_code == 400
     assert "pip install" in refused.json()["error"]

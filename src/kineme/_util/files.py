@@ -76,8 +76,8 @@ def atomic_folder(target: Path) -> Iterator[Path]:
     """
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         raise WriteError(target, "exists already: name a new folder or empty this one")
-    _remove_abandoned_drafts(target.parent)
-    draft = target.with_name(f".kineme-{secrets.token_hex(6)}")
+    remove_abandoned_drafts(target.parent)
+    draft = target.with_name(make_draft_name())
     try:
         draft.mkdir()
     except OSError as error:
@@ -202,8 +202,13 @@ class OwnedFolder:
                         path.unlink(missing_ok=True)
 
 
+def make_draft_name(suffix: str = "") -> str:
+    """Return a new name for a file that is removed if this process is killed while writing it."""
+    return f".kineme-{secrets.token_hex(6)}{suffix}"
+
+
 def is_draft(name: str) -> bool:
-    """Return whether a file name is that of a draft of `atomic_write` or `atomic_folder`."""
+    """Return whether a file name was made by `make_draft_name`."""
     return _DRAFT.fullmatch(name) is not None
 
 
@@ -318,8 +323,8 @@ def _find_paths(path: str | os.PathLike[str]) -> tuple[Path, Path]:
         final = Path(os.path.realpath(target.parent)) / target.name
     except OSError as error:  # no permission
         raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
-    _remove_abandoned_drafts(final.parent)
-    return final, final.with_name(f".kineme-{secrets.token_hex(6)}{final.suffix}")
+    remove_abandoned_drafts(final.parent)
+    return final, final.with_name(make_draft_name(final.suffix))
 
 
 def _open_locked(draft: Path) -> int | None:
@@ -340,7 +345,7 @@ def lock_shared(file: int) -> None:
 
 def _open_draft(draft: Path, *, create: bool = True) -> int:
     how = os.O_RDONLY if draft.is_dir() else os.O_RDWR | (os.O_CREAT if create else 0)
-    return os.open(draft, how | getattr(os, "O_CLOEXEC", 0), 0o666)
+    return os.open(draft, how, 0o666)
 
 
 def is_locked(draft: Path) -> bool:
@@ -364,13 +369,16 @@ def is_locked(draft: Path) -> bool:
     return False
 
 
-def _remove_abandoned_drafts(folder: Path) -> None:
-    """Remove drafts of killed writers, once per folder and process."""
+def remove_abandoned_drafts(folder: Path) -> None:
+    """Remove drafts of killed writers, once per folder and process.
+
+    Drafts that another process still writes are kept.
+    """
     if folder in _cleaned:
         return
     _cleaned.add(folder)
     with suppress(OSError), os.scandir(folder) as entries:
-        drafts = [Path(entry) for entry in entries if _DRAFT.fullmatch(entry.name)]
+        drafts = [Path(entry) for entry in entries if is_draft(entry.name)]
         for draft in drafts:
             with suppress(OSError):
                 old = time.time() - draft.stat().st_mtime > ABANDONED_S
@@ -386,7 +394,7 @@ def _flush_to_disk(place: Path) -> None:
     """Flush a file, or the entries of a folder, to disk."""
     if sys.platform == "win32" and place.is_dir():  # folders cannot be opened
         return
-    file = os.open(place, os.O_RDONLY | getattr(os, "O_CLOEXEC", 0))
+    file = os.open(place, os.O_RDONLY)
     try:
         os.fsync(file)
     except OSError as error:

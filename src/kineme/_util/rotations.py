@@ -51,14 +51,8 @@ def rotate(q: Floats, v: Floats) -> Floats:
 def from_euler(angles: Floats, axes: str) -> Floats:
     """Return the product of rotations about ``axes``, the last one applied first.
 
+    ``axes`` are any of the letters x, y and z, ``angles`` (frames, len(axes)) are in radians.
     ``from_euler(angles, "zyx")`` is Rz(angles[:, 0]) Ry(angles[:, 1]) Rx(angles[:, 2]).
-
-    Parameters
-    ----------
-    angles : ndarray of shape (frames, len(axes))
-        Radians.
-    axes : str
-        Any sequence of the letters x, y and z.
     """
     half = np.asarray(angles, dtype=np.float64).T / 2
     product = np.zeros((4, half.shape[1]))

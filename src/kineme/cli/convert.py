@@ -11,9 +11,16 @@ from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Recursive, make_parent_folder
 from kineme.cli.help import INPUT, LABELS, OUTPUT, option
 from kineme.cli.options import READING, Quiet, add_options
-from kineme.errors import WriteError
+from kineme.errors import ReadError, WriteError
+from kineme.formats import read, write
+from kineme.formats.channels.writing import write_signals
+from kineme.formats.dialects import hold_channels, recognise_table
+from kineme.formats.files import load
+from kineme.formats.listing import holds_recording, refuse_labels
 from kineme.formats.options import ReadOptions
-from kineme.labels import read_segments, write_segments
+from kineme.labels import label_formats, read_segments, write_segments
+from kineme.labels.registry import find_write_format
+from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -21,8 +28,6 @@ from kineme.segments.table import Level
 def _check_format(name: str | None) -> str | None:
     if name is None:
         return None
-    from kineme.labels import label_formats
-
     if name not in label_formats():
         raise typer.BadParameter(f"{name!r} is not one of {', '.join(label_formats())}")
     return name
@@ -30,8 +35,6 @@ def _check_format(name: str | None) -> str | None:
 
 def _is_recording(path: Path) -> bool:
     """Return whether a file is a recording rather than labels, by its suffix and content."""
-    from kineme.formats.listing import holds_recording
-
     suffix = path.suffix.lower()
     if suffix == ".txt":
         return _is_channel_table(path)
@@ -40,11 +43,6 @@ def _is_recording(path: Path) -> bool:
 
 def _is_channel_table(path: Path) -> bool:
     """Return whether a text file is a table of channels; labels begin with a time instead."""
-    from kineme.errors import ReadError
-    from kineme.formats.dialects import hold_channels, recognise_table
-    from kineme.formats.files import load
-    from kineme.formats.listing import refuse_labels
-
     try:
         refuse_labels(content := load(path))
         table, dialect = recognise_table(content)
@@ -143,8 +141,6 @@ def convert(
 
 def _note_missing_primitives(segments: Segmentation, path: Path, name: str | None) -> None:
     """Note on standard error that a file of one level lacks the primitives."""
-    from kineme.labels.registry import find_write_format
-
     label_format, primitives = find_write_format(path, name), segments.primitives
     if len(primitives) and label_format.holds == "level":
         typer.echo(
@@ -156,10 +152,6 @@ def _note_missing_primitives(segments: Segmentation, path: Path, name: str | Non
 
 
 def _convert_recording(options: ReadOptions, path: Path, target: Path) -> None:
-    from kineme.formats import read, write
-    from kineme.formats.channels.writing import write_signals
-    from kineme.recordings import Motion
-
     recording = read(path, **vars(options))
     if isinstance(recording, Motion) or options.columns is None:
         write(recording, target)

@@ -9,25 +9,42 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
+from rich.table import Table
+from rich.text import Text
 
 from kineme._util.checks import format_count
-from kineme._util.files import PAGES, PICTURES
+from kineme._util.files import PAGES, PICTURES, atomic_write
 from kineme.cli.files import Batch, Files, Recursive, SegmentTable
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment
+from kineme.cli.tables import make_table, show_written
+from kineme.cli.terminal import Console
+from kineme.cycles import (
+    Cycles,
+    as_repetitions,
+    channels_of,
+    compare_curves,
+    compare_sessions,
+    compare_sides,
+    write_cycles,
+    write_table,
+)
+from kineme.cycles.channels import make_contact_channels
+from kineme.cycles.comparison import pair_sides
+from kineme.cycles.events import OFF, STRIKE, normalize_event_name
+from kineme.cycles.export import SUFFIXES
+from kineme.cycles.measure import cycles as measure_cycles
+from kineme.cycles.repetitions import is_event
 from kineme.errors import ParameterError
 from kineme.formats import read_analog
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from rich.table import Table
-
-    from kineme.cycles import Cycles
-    from kineme.recordings import Motion, Signals
-    from kineme.segments.segmentation import Segmentation
 
 MEASUREMENT = "Measured"
 FAR, UNSURE = "far", "unsure"
@@ -46,12 +63,7 @@ def cycles(
     segment_options: SegmentOptions,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
-            "Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc.",
-            "--output",
-            "-o",
-        ),
+        output_option("Write cycles, summary and curves: .xlsx, .csv, .parquet, .mat or .nc."),
     ] = None,
     plot: Annotated[Path | None, option(OUTPUT, "Draw mean curves: .png, .pdf or .svg.")] = None,
     compare: Annotated[
@@ -123,12 +135,6 @@ def cycles(
     Borders are moved to equal phase. Several recordings are measured together. Labels in --segments
     without a level of repetitions are measured one by one.
     """
-    from kineme.cli.tables import show_written
-    from kineme.cli.terminal import Console
-    from kineme.cycles import channels_of
-    from kineme.cycles.measure import cycles as measure_cycles
-    from kineme.cycles.repetitions import is_event
-
     batch = Batch(files, recursive=recursive, quiet=quiet)
     names = None if channels is None else [name.strip() for name in channels.split(",")]
     _check_targets(output, plot, compare, sides)
@@ -142,19 +148,27 @@ def cycles(
 
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
         with batch.progress(path) as stage:
-            part = read_and_segment(path, options, table, segment_options, stage)
-            analog = _read_analog_channels(path, part[0], options) if names else []
-            found = channels_of(part[0], names, beside=analog) if len(batch.paths) > 1 else ()
-            channel_names = tuple(channel.name for channel in found)
-            parts.append(
-                _use_labels(path, *part, analog, channel_names, has_table=table is not None)
-            )
+            recording, found = read_and_segment(path, options, table, segment_options, stage)
+            # Such as force plates, in the file of a motion.
+            is_motion = isinstance(recording, Motion)
+            beside = read_analog(path, options) if names and is_motion else None
+            analog = [] if beside is None else [beside]
+            listed = channels_of(recording, names, beside=analog) if len(batch.paths) > 1 else ()
+        # Rows of labels become repetitions; what kineme found without repetitions has none.
+        is_found = table is None or "preset" in found.provenance
+        repetitions = found if is_found else as_repetitions(found)
+        channel_names = tuple(channel.name for channel in listed)
+        are_cycles = repetitions is not found
+        parts.append(
+            _SegmentedRecording(path, recording, repetitions, are_cycles, analog, channel_names)
+        )
 
     for path in batch.paths:
         batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
     parts = _keep_common_channels(parts, batch)
     recordings, tables = [part.recording for part in parts], [part.segments for part in parts]
-    refine |= not any(part.are_labels for part in parts)
+    # Borders that people drew stay, unless they ask otherwise.
+    refine |= not any(part.are_cycles or "labels" in part.segments.provenance for part in parts)
     # Cycles between events and those cut by hand are complete: the ends count as well.
     ends |= is_event(anchor) if anchor else any(part.are_cycles for part in parts)
     if recordings:
@@ -186,32 +200,9 @@ class _SegmentedRecording(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
-    analog: list[Signals]
-    are_labels: bool  # whether people cut the segments, so that borders stay
     are_cycles: bool  # whether rows of the table became repetitions, so that the ends count
+    analog: list[Signals]
     channels: tuple[str, ...]
-
-
-def _use_labels(
-    path: Path,
-    recording: Motion | Signals,
-    segments: Segmentation,
-    analog: list[Signals],
-    channels: tuple[str, ...],
-    *,
-    has_table: bool,
-) -> _SegmentedRecording:
-    """Return a recording with its segments; rows of a table of labels become repetitions."""
-    from kineme.cycles import as_repetitions
-
-    # What kineme found without repetitions holds none.
-    is_found = not has_table or "preset" in segments.provenance
-    repetitions = segments if is_found else as_repetitions(segments)
-    are_cycles = repetitions is not segments
-    are_labels = are_cycles or "labels" in segments.provenance
-    return _SegmentedRecording(
-        path, recording, repetitions, analog, are_labels, are_cycles, channels
-    )
 
 
 def _keep_common_channels(
@@ -228,24 +219,10 @@ def _keep_common_channels(
     return [part for part in parts if part.channels == most_common]
 
 
-def _read_analog_channels(
-    path: Path, recording: Motion | Signals, options: ReadOptions
-) -> list[Signals]:
-    """Return the analog channels in the file of a motion, such as force plates."""
-    from kineme.recordings import Motion
-
-    if not isinstance(recording, Motion):
-        return []
-    signals = read_analog(path, options)
-    return [] if signals is None else [signals]
-
-
 def _check_targets(
     output: Path | None, plot: Path | None, compare: Path | None, sides: Path | None
 ) -> None:
     """Raise typer.BadParameter for files that cannot be written, before any work is done."""
-    from kineme.cycles.export import SUFFIXES
-
     for name, path, suffixes in (
         ("--output", output, SUFFIXES),
         ("--plot", plot, PICTURES),
@@ -276,8 +253,6 @@ def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:
 
 def _explain_nothing(anchor: str | None, *, has_table: bool) -> str:
     """Return why there are no cycles, and what to do."""
-    from kineme.cycles.repetitions import is_event
-
     if anchor is not None and is_event(anchor):
         return f"nothing to measure: no two events {anchor!r} follow one another; see kineme events"
     if has_table:
@@ -293,8 +268,6 @@ def _explain_nothing(anchor: str | None, *, has_table: bool) -> str:
 
 def _leave_out_side(anchor: str | None) -> str | None:
     """Return the contact of either foot, from which each side has cycles of its own."""
-    from kineme.cycles.events import OFF, STRIKE, normalize_event_name
-
     contact = normalize_event_name(anchor or "").partition(" ")[2]
     return contact if contact in (STRIKE, OFF) else anchor
 
@@ -310,8 +283,6 @@ def _write_results(
     ends: bool,
 ) -> None:
     """Write the requested files: the table, the picture, comparisons of sessions and of sides."""
-    from kineme.cycles import compare_sides, write_cycles, write_table
-
     if output is not None:
         write_cycles(cycles, output, ends=ends)
     if plot is not None:
@@ -324,13 +295,12 @@ def _write_results(
 
 def _compare(sessions: list[Cycles], path: Path, *, ends: bool) -> None:
     """Write the changes from the first recording to the second, and curves beside them."""
-    from kineme.cycles import compare_curves, compare_sessions, write_table
-    from kineme.report.sessions import write_sessions
-
     if len(sessions) < 2:
         raise ParameterError("two recordings with repetitions are needed to compare them")
     first, second = sessions
     if path.suffix.lower() in PAGES:
+        from kineme.report.sessions import write_sessions
+
         write_sessions(first, second, path, ends=ends)
         return
     write_table(compare_sessions(first, second, ends=ends), path)
@@ -342,8 +312,6 @@ def _choose_channels(
     recordings: list[Motion | Signals], names: list[str] | None
 ) -> list[str] | None:
     """Return the channels to measure, with foot contacts if all recordings have them."""
-    from kineme.cycles.channels import channels_of, make_contact_channels
-
     stances = [[each.name for each in make_contact_channels(recording)] for recording in recordings]
     if min(map(len, stances)) < 2:
         return names
@@ -355,9 +323,6 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
     """Draw one plot with axes per channel, per pair of sides, or per channel of two sessions."""
     from matplotlib.figure import Figure
 
-    from kineme._util.files import atomic_write
-    from kineme.cycles import compare_curves
-    from kineme.cycles.comparison import pair_sides
     from kineme.plot import plot_curves, plot_sessions, plot_sides
 
     groups, pairs, channels = cycles.groups, pair_sides(cycles.channels), cycles.channels
@@ -395,10 +360,6 @@ def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sid
 
 def _show(cycles: Cycles, sessions: list[Cycles], *, has_channels: bool, ends: bool) -> None:
     """Print a line per group (per session and group for two sessions), and the notes."""
-    from rich.text import Text
-
-    from kineme.cli.terminal import Console
-
     console = Console(highlight=False)
     channels = [*cycles.channels[:MAX_CHANNELS]]
     if not has_channels:
@@ -424,8 +385,6 @@ def _tabulate_groups(
     cycles: Cycles, sessions: list[Cycles], channels: list[str], *, ends: bool
 ) -> tuple[Table, list[str]]:
     """Return the table of the groups, and the groups without inner repetitions."""
-    from kineme.cli.tables import make_table
-
     units = dict(zip(cycles.channels, cycles.units, strict=True))
     ranges = [f"{name} range {units[name]}".strip() for name in channels]
     names = "label", "cycles", "n", "duration s", "sd", "cv %", "per min"
@@ -464,8 +423,6 @@ def _choose_shown_channels(cycles: Cycles, *, ends: bool) -> list[str]:
 
     Channels with different units cannot be compared; the first ones are printed then.
     """
-    from kineme.cycles.comparison import pair_sides
-
     if len(set(cycles.units)) > 1:
         return [*cycles.channels[:MAX_CHANNELS]]
     values = _tabulate_measures(cycles, ends=ends)

@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
+from rich import progress as rich_progress
+from rich.filesize import decimal
 
 from kineme._util.checks import format_count
-from kineme.cli.help import INPUT, OUTPUT, option
+from kineme.cli.help import INPUT, option, output_option
 from kineme.cli.options import Quiet
-from kineme.cli.terminal import exit_on_error
+from kineme.cli.terminal import Console, exit_on_error
 
 if TYPE_CHECKING:
     from kineme.datasets.cmu import Fetched
@@ -36,13 +38,7 @@ def data(
     ] = None,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
-            "Folder for the files, by default the cache of kineme.",
-            "--output",
-            "-o",
-            metavar="FOLDER",
-        ),
+        output_option("Folder for the files, by default the cache of kineme.", metavar="FOLDER"),
     ] = None,
     site: Annotated[str | None, typer.Option(envvar="KINEME_CMU_SITE", hidden=True)] = None,
     annotations: Annotated[
@@ -106,10 +102,6 @@ def _parse_numbers(text: str | None) -> list[int] | None:
 @contextmanager
 def _show_progress(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[str], None]]]:
     """Yield a function that shows the progress of a file, and one that prints a line above it."""
-    from rich import progress as rich_progress
-
-    from kineme.cli.terminal import Console
-
     console = Console(stderr=True, highlight=False)
     if quiet:
         yield None, lambda _: None
@@ -135,16 +127,12 @@ def _show_progress(*, quiet: bool) -> Iterator[tuple[Progress | None, Callable[[
 
 
 def _describe_file(file: Fetched) -> str:
-    from rich.filesize import decimal
-
     length = "" if file.frames is None else f"{format_count(file.frames, 'frame')}, "
     how = "fetched" if file.new else "there already"
     return f"{file.path.name}: {length}{decimal(file.size)}, {how}"
 
 
 def _summarize(files: list[Fetched], seconds: float) -> str:
-    from rich.filesize import decimal
-
     new = [file for file in files if file.new]
     size = decimal(sum(file.size for file in new))
     return (

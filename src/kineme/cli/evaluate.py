@@ -12,15 +12,13 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.help import METHOD, OUTPUT, option, output_option
 from kineme.cli.options import SET, Constants, Quiet, parse_constants, split_names
 from kineme.cli.terminal import exit_on_error
 from kineme.errors import KinemeError, ReadError, WriteError
 from kineme.formats.options import ReadOptions
 from kineme.methods.presets import DEFAULT
 
-Mapped = Literal["recording", "folder"]
-"""As `kineme.evaluation.folder.Mapped`, whose module takes seconds to import."""
 BENCHMARK = "cmu86"
 BENCH = "Benchmark"
 FOLDER = "A folder of recordings"
@@ -56,7 +54,7 @@ def evaluate(
         ),
     ] = None,
     mapping: Annotated[
-        Mapped,
+        Literal["recording", "folder"],
         option(
             FOLDER,
             "Match clusters with labels separately in each recording, or once for the "
@@ -123,9 +121,7 @@ def evaluate(
     figures: Annotated[
         Path | None, option(BENCH, "Make the figures and tables of the paper.", metavar="FOLDER")
     ] = None,
-    output: Annotated[
-        Path | None, option(OUTPUT, "Write all scores: .json or .csv.", "--output", "-o")
-    ] = None,
+    output: Annotated[Path | None, output_option("Write all scores: .json or .csv.")] = None,
     quiet: Quiet = False,
 ) -> None:
     """Score segments of a file, folder or benchmark against labels."""

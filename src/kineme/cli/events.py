@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
+from rich.text import Text
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive
-from kineme.cli.help import OUTPUT, TABLES, option
+from kineme.cli.help import OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, Quiet, add_options
+from kineme.cli.tables import make_table, show_written
+from kineme.cli.terminal import Console
+from kineme.cycles.events import Events, foot_events, strides
+from kineme.cycles.events import gait as gait_of
+from kineme.cycles.export import write_table
+from kineme.cycles.table import Columns
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
-
-if TYPE_CHECKING:
-    from kineme.cycles import Events
-    from kineme.cycles.table import Columns
+from kineme.labels import write_segments
+from kineme.labels.c3d_events import write_events
 
 FEET = "Feet"
 
@@ -28,12 +33,9 @@ def events(
     read_options: ReadOptions,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             "Write a table of the events: .csv or .parquet; for several recordings, a "
-            "folder or a path with {name} in it.",
-            "--output",
-            "-o",
+            "folder or a path with {name} in it."
         ),
     ] = None,
     gait: Annotated[
@@ -70,12 +72,6 @@ def events(
 
     Uses the positions of heel and toe, gyroscopes on the feet, or the force under them.
     """
-    from kineme.cycles.events import foot_events, strides
-    from kineme.cycles.events import gait as gait_of
-    from kineme.cycles.export import write_table
-    from kineme.labels import write_segments
-    from kineme.labels.c3d_events import write_events
-
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.targets("--output", output, ".csv")
     gaits = batch.targets("--gait", gait, ".csv")
@@ -120,11 +116,6 @@ def events(
 
 def _show(path: Path, events: Events, gait: Columns, written: list[Path | None], note: str) -> None:
     """Print the number of events, the gait measures, and the note if there is one."""
-    from rich.text import Text
-
-    from kineme.cli.tables import make_table, show_written
-    from kineme.cli.terminal import Console
-
     console = Console(highlight=False)
     console.print(Text.assemble((path.name, "bold"), f"  {format_count(len(events), 'event')}"))
     for side, source in events.sources.items():

@@ -19,7 +19,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -28,9 +28,8 @@ from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.options import expand_read_options
 from kineme.cli.terminal import format_line, print_error, print_skipped, show_progress
 from kineme.errors import KinemeError, ReadError, WriteError
-
-if TYPE_CHECKING:
-    from kineme.formats.options import ReadOptions
+from kineme.formats.listing import scan_folder
+from kineme.formats.options import ReadOptions
 
 Files = Annotated[
     list[Path],
@@ -206,8 +205,6 @@ class Batch:
 
     def _list_recordings(self, folder: Path, *, recursive: bool) -> list[Path]:
         """Return the recordings in a folder; keep messages on what was left out."""
-        from kineme.formats.listing import scan_folder
-
         listing = scan_folder(folder, recursive=recursive)
         self._messages += [
             (print_skipped, f"{path}: {reason}") for path, reason in listing.passed_over

@@ -17,7 +17,7 @@ from kineme.cli.files import (
     check_target_folder,
     check_writable,
 )
-from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.help import METHOD, OUTPUT, option, output_option
 from kineme.cli.options import BODY, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import load_or_find_segments
 from kineme.cli.terminal import exit_on_error, show_progress
@@ -39,7 +39,7 @@ def graph(
     files: Files,
     read_options: ReadOptions,
     segment_options: SegmentOptions,
-    output: Annotated[Path, option(OUTPUT, "The motion graph: a .json file.", "--output", "-o")],
+    output: Annotated[Path, output_option("The motion graph: a .json file.")],
     segments: SegmentTable = None,
     plot: Annotated[Path | None, option(OUTPUT, "Draw the graph: .png, .pdf or .svg.")] = None,
     threshold: Annotated[
@@ -123,7 +123,7 @@ def synthesize(
     graph: Annotated[
         Path, typer.Argument(metavar="GRAPH", help="Motion graph that `kineme graph` made.")
     ],
-    output: Annotated[Path, option(OUTPUT, "The new motion: a .bvh file.", "--output", "-o")],
+    output: Annotated[Path, output_option("The new motion: a .bvh file.")],
     actions: Annotated[
         str | None,
         option(

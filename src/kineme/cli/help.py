@@ -37,6 +37,11 @@ def option(group: str, text: str, *names: str, **more: Any) -> Any:
     return typer.Option(*names, help=text, rich_help_panel=group, **more)
 
 
+def output_option(text: str, **more: Any) -> Any:
+    """Return the option ``--output`` or ``-o``."""
+    return option(OUTPUT, text, "--output", "-o", **more)
+
+
 class Command(TyperCommand):
     """A command that explains --set and fills registered names into its help."""
 

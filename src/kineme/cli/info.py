@@ -4,22 +4,26 @@ from __future__ import annotations
 
 from json import dumps
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+from rich.tree import Tree
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, FilesOfFormats, Recursive
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.options import READING, Effectors, Json, add_options
+from kineme.cli.tables import make_columns, make_table, show_facts
 from kineme.errors import EndEffectorError
+from kineme.features import PARTS, Names, end_effectors
 from kineme.formats import read, read_analog
 from kineme.formats.options import ReadOptions
+from kineme.formats.points import BODY
 from kineme.methods.segmenter import SegmentOptions
-
-if TYPE_CHECKING:
-    from kineme.features import Names
-    from kineme.recordings import Motion, Signals
+from kineme.recordings import Motion, Signals
 
 Facts = dict[str, Any]
 CHANNELS_PER_LINE = 12
@@ -56,8 +60,6 @@ def info(
 
 def _collect_facts(recording: Motion | Signals, effectors: Names | None) -> Facts:
     """Return facts about a recording by name: its file, then its body or channels."""
-    from kineme.recordings import Motion
-
     source = recording.provenance
     facts: Facts = {
         "path": source.path,
@@ -77,7 +79,6 @@ def _collect_facts(recording: Motion | Signals, effectors: Names | None) -> Fact
 def _list_measures(path: Path, recording: Motion | Signals, options: ReadOptions) -> list[Facts]:
     """Return the channels that can be measured; see `kineme.cycles.channels_of`."""
     from kineme.cycles.channels import channels_of
-    from kineme.recordings import Motion
 
     analog = read_analog(path, options) if isinstance(recording, Motion) else None
     channels = channels_of(recording, ["*"], beside=[] if analog is None else [analog])
@@ -87,8 +88,6 @@ def _list_measures(path: Path, recording: Motion | Signals, options: ReadOptions
 
 def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
     """Add joints and end effectors to the facts, or a note that these are unknown."""
-    from kineme.features import PARTS, end_effectors
-
     skeleton = motion.skeleton
     notes, effector_names = facts["notes"], None
     try:
@@ -109,11 +108,6 @@ def _add_body(facts: Facts, motion: Motion, effectors: Names | None) -> Facts:
 
 
 def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
-    """Print the facts."""
-    from kineme.cli.tables import make_columns, show_facts
-    from kineme.formats.points import BODY
-    from kineme.recordings import Motion
-
     notes = [note for note in facts["notes"] if note not in recording.provenance.warnings]
     if not joints:  # the markers of each joint interest few users
         notes = [note for note in notes if not note.startswith(BODY)]
@@ -130,7 +124,7 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
             f"and {format_count(len(facts['end_sites']), 'end site')}",
             "end effectors": effectors or "not found",
         }
-        details = _build_tree(recording) if joints else None
+        details: RenderableType | None = _build_tree(recording) if joints else None
     else:
         names = facts["channels"]
         is_long = len(names) > CHANNELS_PER_LINE
@@ -145,9 +139,7 @@ def _show(facts: Facts, recording: Motion | Signals, *, joints: bool) -> None:
     show_facts(facts | {"notes": notes}, lines | {"SHA-256": facts["sha256"]}, below=details)
 
 
-def _tabulate_measures(measures: list[Facts]) -> Any:
-    from kineme.cli.tables import make_table
-
+def _tabulate_measures(measures: list[Facts]) -> Table:
     table = make_table("channel", "unit", "group", "from")
     for column in table.columns:
         column.justify = "left"
@@ -156,10 +148,7 @@ def _tabulate_measures(measures: list[Facts]) -> Any:
     return table
 
 
-def _build_tree(motion: Motion) -> Any:
-    from rich.text import Text
-    from rich.tree import Tree
-
+def _build_tree(motion: Motion) -> Tree:
     skeleton = motion.skeleton
     tree = Tree("", hide_root=True)
     branches = {-1: tree}

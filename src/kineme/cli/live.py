@@ -15,11 +15,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kineme.cli.files import check_writable
-from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
-from kineme.cli.terminal import exit_on_error, print_skipped
+from kineme.cli.tables import make_table
+from kineme.cli.terminal import Console, exit_on_error, print_skipped
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
+from kineme.labels import write_segments
 from kineme.live.events import ActivityEnded, ActivityStarted, Event, Gap, Notice, Repetition
 from kineme.live.outputs import OUTPUTS, Send
 from kineme.methods.segmenter import SegmentOptions
@@ -61,7 +63,7 @@ def live(
     ] = 5.0,
     interval: Annotated[float, option(METHOD, "Seconds between analyses.", min=0.1)] = 2.0,
     output: Annotated[
-        Path | None, option(OUTPUT, f"Write the segments at the end: {TABLES}.", "--output", "-o")
+        Path | None, output_option(f"Write the segments at the end: {TABLES}.")
     ] = None,
     record: Annotated[
         Path | None,
@@ -135,8 +137,6 @@ def _push_all(
 def _write(stream: Stream, output: Path | None, journal: Journal | None, *, quiet: bool) -> None:
     """Write the segments and print the written files."""
     if output is not None:
-        from kineme.labels import write_segments
-
         write_segments(stream.segmentation, output)
     if not quiet:
         for path in filter(None, (journal and journal.target, output)):
@@ -211,8 +211,6 @@ def _open_printer(*, json: bool, quiet: bool) -> Iterator[Send]:
         yield _print_json if json else partial(_print_lines, quiet=quiet)
         return
     from rich.live import Live
-
-    from kineme.cli.terminal import Console
 
     view = View()
     with Live(view.table(), console=Console(), refresh_per_second=8) as screen:
@@ -301,8 +299,6 @@ class View:
 
     def table(self) -> Table:
         """Return the table to show."""
-        from kineme.cli.tables import make_table
-
         table = make_table("activity", "from s", "to s", "repetitions", "a minute")
         for event in self.past:
             row = _format_name(event), f"{event.start_s:.1f}", f"{event.stop_s:.1f}"

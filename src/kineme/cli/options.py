@@ -23,6 +23,7 @@ import typer
 from kineme.cli.help import INPUT, METHOD, OUTPUT, PRESETS, READING_OPTIONS, option
 from kineme.clips import RootMotionMode, TargetName
 from kineme.errors import ParameterError
+from kineme.formats import list_people, list_takes
 from kineme.formats.options import ReadOptions
 from kineme.methods.presets import DEFAULT, resolve_preset
 from kineme.methods.segmenter import SegmentOptions
@@ -105,7 +106,7 @@ Effectors = Annotated[
 ]
 SEGMENTING: dict[str, Any] = {
     "preset": Annotated[
-        str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", "--preset", metavar="NAME")
+        str | None, option(METHOD, f"{PRESETS}; see `kineme presets`.", metavar="NAME")
     ],
     "detail": Annotated[
         float | None,
@@ -113,7 +114,6 @@ SEGMENTING: dict[str, Any] = {
             METHOD,
             "Above 1 for more, shorter segments, such as 4; below for fewer, longer ones, such as "
             "0.5.",
-            "--detail",
             metavar="NUMBER",
         ),
     ],
@@ -132,7 +132,7 @@ CLIPS: dict[str, Any] = {
         option(OUTPUT, "Format, such as glb; by default bvh or csv.", "--format", metavar="SUFFIX"),
     ],
     "to_fps": Annotated[
-        float | None, option(OUTPUT, "Frame rate of clips, such as 30.", "--to-fps", metavar="HZ")
+        float | None, option(OUTPUT, "Frame rate of clips, such as 30.", metavar="HZ")
     ],
     "name": Annotated[
         str | None,
@@ -140,7 +140,6 @@ CLIPS: dict[str, Any] = {
             OUTPUT,
             "Pattern of names, such as {label}_{n:02}; also {name}, {take}, {direction} and "
             "others.",
-            "--name",
             metavar="TEMPLATE",
         ),
     ],
@@ -154,14 +153,13 @@ CLIPS: dict[str, Any] = {
         ),
     ],
     "sheet": Annotated[
-        Path | None, option(OUTPUT, "Picture of all clips to write.", "--sheet", metavar="PNG")
+        Path | None, option(OUTPUT, "Picture of all clips to write.", metavar="PNG")
     ],
     "motion_matching": Annotated[
         Path | None,
         option(
             OUTPUT,
             "Motion matching database to write: .npz or .bin.",
-            "--motion-matching",
             metavar="FILE",
         ),
     ],
@@ -251,8 +249,6 @@ def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, Rea
     The name is empty for a single one, and for one that the user selected.
     """
     if options.take == ALL:
-        from kineme.formats import list_takes
-
         takes = list_takes(path, replace(options, person=None, take=None)) or (None,)
         return [
             ("_".join(filter(None, (take, who))), each)
@@ -261,8 +257,6 @@ def expand_read_options(path: Path, options: ReadOptions) -> list[tuple[str, Rea
         ]
     if options.person != ALL:
         return [("", options)]
-    from kineme.formats import list_people
-
     people = list_people(path, options) or (None,)
     return [(who or "", replace(options, person=who)) for who in people]
 

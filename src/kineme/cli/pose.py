@@ -10,22 +10,19 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive, make_parent_folder
-from kineme.cli.help import METHOD, OUTPUT, option
+from kineme.cli.help import METHOD, option, output_option
 from kineme.cli.options import Json, Quiet
 from kineme.cli.terminal import print_error
-from kineme.errors import ParameterError
+from kineme.errors import ParameterError, ReadError
 
 
 def pose(
     files: Files,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             "Write the poses to this .parquet file instead of next to the video; for "
-            "several videos, a folder or a path with {name} in it.",
-            "--output",
-            "-o",
+            "several videos, a folder or a path with {name} in it."
         ),
     ] = None,
     estimator: Annotated[
@@ -89,7 +86,6 @@ def _estimate(
     path: Path, table: Path | None, estimator: str | None, model: Path | None, rate: float | None
 ) -> dict[str, Any]:
     """Estimate the poses of a video, write them, and return the facts to print."""
-    from kineme.errors import ReadError
     from kineme.formats.keypoints.poses import read_poses
     from kineme.pose import estimate_poses
 

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import shutil
 import textwrap
+from collections.abc import Sequence
 from dataclasses import MISSING
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from kineme.cli.options import format_value
 from kineme.errors import ParameterError
+from kineme.methods import Constant
 from kineme.methods.presets import DEFAULT, PRESETS, resolve_preset
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from kineme.methods import Constant
 
 MAX_WIDTH = 20
 """Width of a column in characters; longer cells shift only their own row."""

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from kineme.cli.files import Batch, Files, Recursive, SegmentTable, check_writable
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import output_option
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment, show_envelopes
 from kineme.formats.options import ReadOptions
@@ -22,12 +22,9 @@ def report(
     segment_options: SegmentOptions,
     output: Annotated[
         Path,
-        option(
-            OUTPUT,
+        output_option(
             "Page to write: .html; for several recordings, a folder or a path with {name} "
             "in it.  [default: the name of the recording, in the current folder]",
-            "--output",
-            "-o",
             show_default=False,
         ),
     ] = Path(),

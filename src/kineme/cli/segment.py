@@ -12,18 +12,24 @@ import typer
 
 from kineme._util.parallel import announce_compilation
 from kineme.cli.files import Batch, FilesOfFormats, Recursive, check_target_folder, check_writable
-from kineme.cli.help import INPUT, OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, SEGMENTING, Json, Quiet, add_options
+from kineme.cli.tables import show_segments
 from kineme.cli.terminal import exit_on_error, show_progress
+from kineme.errors import ReadError
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
+from kineme.labels import write_segments
+from kineme.labels.collections import read_labels
+from kineme.labels.json_table import as_object
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
+from kineme.recordings import Motion, Signals
+from kineme.recordings.samples import join_signals
+from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
 if TYPE_CHECKING:
     from kineme.methods import Progress
-    from kineme.recordings import Motion, Signals
-    from kineme.segments.segmentation import Segmentation
 
 PrintedLevel = Annotated[
     Level,
@@ -38,12 +44,9 @@ def segment(
     segment_options: SegmentOptions,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             f"Write the segments as a table, or as labels of another program: {TABLES}. Of "
-            "several recordings: a folder, or a path with {name} in it.",
-            "--output",
-            "-o",
+            "several recordings: a folder, or a path with {name} in it."
         ),
     ] = None,
     plot: Annotated[
@@ -104,13 +107,8 @@ def segment(
 def demo(
     output: Annotated[
         Path,
-        option(
-            OUTPUT,
-            "Folder for the table and the picture.",
-            "--output",
-            "-o",
-            metavar="FOLDER",
-            show_default="current folder",
+        output_option(
+            "Folder for the table and the picture.", metavar="FOLDER", show_default="current folder"
         ),
     ] = Path(),
     quiet: Quiet = False,
@@ -128,8 +126,6 @@ def demo(
             recording, result = read_and_segment(path, ReadOptions(), None, options, stage)
         write_results(result, recording, options, table, picture)
         if not quiet:
-            from kineme.cli.tables import show_segments
-
             show_segments(result, "activity")
             typer.echo(f"Read     {path}")
             typer.echo(f"Table    {table}")
@@ -141,10 +137,6 @@ def demo(
 
 def _read_joined(paths: Sequence[Path], options: ReadOptions) -> Signals:
     """Return the channels of several files, joined by time."""
-    from kineme.errors import ReadError
-    from kineme.recordings import Signals
-    from kineme.recordings.samples import join_signals
-
     parts = []
     for path in paths:
         part = read(path, **vars(options))
@@ -176,8 +168,6 @@ def load_or_find_segments(
     if table is None:
         with announce_compilation(stage):
             return segment_with_options(recording, options, progress=stage)[0]
-    from kineme.labels.collections import read_labels
-
     return read_labels(
         Path(recording.provenance.path or ""),
         table,
@@ -189,8 +179,6 @@ def load_or_find_segments(
 
 def show_envelopes(recording: Motion | Signals, options: SegmentOptions) -> Motion | Signals:
     """Return the recording for plots; muscle signals are replaced by their envelopes."""
-    from kineme.recordings import Signals
-
     if not (options.emg and isinstance(recording, Signals)):
         return recording
     from kineme.features.channels import emg_envelope
@@ -208,8 +196,6 @@ def write_results(
 ) -> None:
     """Write the table, the plot and the page, as far as requested."""
     if table is not None:
-        from kineme.labels import write_segments
-
         write_segments(result, table)
     if picture is not None or page is not None:
         recording = show_envelopes(recording, options)
@@ -234,10 +220,6 @@ def print_segments(
 ) -> None:
     """Print the segments as JSON, or as a table with the written files."""
     if json:
-        from kineme.labels.json_table import as_object
-
         typer.echo(dumps(as_object(result)))
     elif not quiet:
-        from kineme.cli.tables import show_segments
-
         show_segments(result, level, written=written, warned=recording.provenance.warnings)

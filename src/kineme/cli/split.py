@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive, SegmentTable, make_parent_folder
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import (
     ALL,
     CLIPS,
@@ -22,12 +22,11 @@ from kineme.cli.options import (
 )
 from kineme.cli.segment import read_and_segment
 from kineme.formats.options import ReadOptions
+from kineme.formats.registry import find_writer
 from kineme.methods.segmenter import SegmentOptions
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
-
-if TYPE_CHECKING:
-    from kineme.recordings import Motion, Signals
-    from kineme.segments.segmentation import Segmentation
 
 
 @add_options(READING | SEGMENTING | CLIPS)
@@ -38,23 +37,20 @@ def split(
     clip_options: dict[str, Any],
     output: Annotated[
         Path,
-        option(
-            OUTPUT,
-            "Folder for the clips, or one .glb or .fbx; {name} if there are several recordings.",
-            "--output",
-            "-o",
+        output_option(
+            "Folder for the clips, or one .glb or .fbx; {name} if there are several recordings."
         ),
     ],
     level: Annotated[
         Level,
-        option(OUTPUT, "Level to split at: activity or primitive.", "--level", metavar="LEVEL"),
+        option(OUTPUT, "Level to split at: activity or primitive.", metavar="LEVEL"),
     ] = "activity",
     cluster: Annotated[int | None, option(OUTPUT, "Write this cluster only.")] = None,
     loop: Annotated[
         bool, option(OUTPUT, "Blend the ends so that each clip loops.", "--loop")
     ] = False,
     best: Annotated[
-        int | None, option(OUTPUT, "Number of loops per cluster.", "--best", metavar="NUMBER")
+        int | None, option(OUTPUT, "Number of loops per cluster.", metavar="NUMBER")
     ] = None,
     straight: Annotated[
         bool, option(OUTPUT, "Remove the turn of each clip.", "--straight")
@@ -126,8 +122,6 @@ def split(
 
 def _check_output(output: Path) -> None:
     """Raise BadParameter for a new file of a format that holds one motion only."""
-    from kineme.formats.registry import find_writer
-
     suffix = output.suffix.lower()
     writer = find_writer(suffix) if suffix and not output.is_dir() else None
     if writer is not None and writer.write_animations is None:

@@ -9,12 +9,13 @@ import typer
 
 from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive, check_writable
-from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option
+from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import BODY, SEGMENTING, Json, Quiet, add_options
 from kineme.cli.segment import PrintedLevel, load_or_find_segments, print_segments
 from kineme.cli.terminal import exit_on_error
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
+from kineme.labels import write_segments
 from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
@@ -122,12 +123,9 @@ def transfer(
     ] = False,
     output: Annotated[
         Path | None,
-        option(
-            OUTPUT,
+        output_option(
             f"Segment table or labels: {TABLES}. For several recordings, a folder, or a "
-            "path with {name} in it.",
-            "--output",
-            "-o",
+            "path with {name} in it."
         ),
     ] = None,
     level: PrintedLevel = "primitive",
@@ -166,8 +164,6 @@ def transfer(
                 features = transfer_features(motion, effectors=segment_options.effectors)
                 result = transfer_labels(segments, features, base, **options)
             if table is not None:
-                from kineme.labels import write_segments
-
                 write_segments(result, table)
             print_segments(result, motion, level, [table], json=json, quiet=quiet)
     batch.exit()

@@ -175,64 +175,31 @@ class Look(NamedTuple):
 
 
 class Looks(NamedTuple):
-    """Two successive looks at the recent past.
-
-    Attributes
-    ----------
-    look, before : Look
-        The present look, and the one before, which must agree; None if it need not.
-    horizon : int
-        Frame before which rows become final.
-    patience : int
-        Frames. Rows that lie this far before the horizon become final even if the looks disagree.
-    now : int
-        Number of frames when the look was taken.
-    """
+    """Two successive looks at the recent past."""
 
     look: Look
-    before: Look | None
-    horizon: int
-    patience: int
-    now: int
+    before: Look | None  # the look before, which must agree; None if it need not
+    horizon: int  # frame before which rows become final
+    patience: int  # frames before the horizon from which rows become final even if looks disagree
+    now: int  # number of frames when the look was taken
 
 
 @dataclass
 class Finals:
-    """Final rows, and the open activity.
-
-    Attributes
-    ----------
-    fps : float
-        Frames per second.
-    activities, primitives : list of Row
-        Rows of the activities that have ended.
-    start, cluster : int
-        First frame and cluster of the open activity; -1 for a transition.
-    counted : int
-        Frame up to which the primitives of the open activity are final.
-    n_repetitions : int
-        Final repetitions of the open activity.
-    slip : float
-        Share of a repetition by which their phase has changed.
-    frontier : int
-        Frame up to which activities are final.
-    highest : int
-        Largest cluster number so far.
-    labels : dict of int to str
-        Names of known clusters.
-    """
+    """Final rows, and the open activity."""
 
     fps: float
-    activities: list[Row] = field(default_factory=list)
+    activities: list[Row] = field(default_factory=list)  # those that have ended
     primitives: list[Row] = field(default_factory=list)
+    # First frame and cluster of the open activity; -1 for a transition.
     start: int = 0
     cluster: int = -1
-    counted: int = 0
-    n_repetitions: int = 0
-    slip: float = 0.0
-    frontier: int = 0
-    highest: int = -1
-    labels: dict[int, str] = field(default_factory=dict)
+    counted: int = 0  # frame up to which the primitives of the open activity are final
+    n_repetitions: int = 0  # final repetitions of the open activity
+    slip: float = 0.0  # share of a repetition by which their phase has changed
+    frontier: int = 0  # frame up to which activities are final
+    highest: int = -1  # largest cluster number so far
+    labels: dict[int, str] = field(default_factory=dict)  # names of known clusters
 
     def advance(self, looks: Looks) -> list[Event]:
         """Make rows before the horizon final; return the events."""
@@ -325,18 +292,9 @@ class Finals:
         shorter or longer, unless all such changes add up to half a repetition, which would change
         the count. In that case the adjoining repetitions are moved to the last final one.
 
-        Parameters
-        ----------
-        primitives : sequence of Row
-            Primitives of a look.
-        first : int
-            Frame at which the activity begins in that look.
-
-        Returns
-        -------
-        rows : list of Row
-        slip : float
-            Share of a repetition by which the first one became shorter; negative: longer.
+        ``primitives`` are those of a look, ``first`` is the frame at which the activity begins in
+        it. The change is the share of a repetition by which the first one became shorter; negative:
+        longer.
         """
         rows = [
             row

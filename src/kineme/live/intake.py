@@ -63,57 +63,30 @@ Piece = Frames | Hole | str
 
 @dataclass
 class Intake:
-    """Rows that are not frames yet, and the state of their clock.
-
-    Attributes
-    ----------
-    fps : float
-        Frames per second.
-    channels : sequence of str
-    n_rows : int
-        Number of rows without a time so far.
-    per_second : float
-        Units of the times per second; 0 while the unit is unknown.
-    ahead_s : float
-        Seconds by which the clock is ahead of the stream.
-    last_s : float
-        Time of the last row; NaN before the first row.
-    emitted, run_start : int
-        Next frame, and first frame after the last hole.
-    counted, counted_rows, other_rate
-        Frames and rows since the rate was last checked, and whether it differed then.
-    in_packets : bool
-        Whether the last rows with equal times were a packet.
-    said : list of str
-        Messages about the rows that were sent already.
-    at, rows : (rows,) and (rows, channels) arrays
-        Fractional frame and values of each row that is still needed.
-    held_times, held_rows
-        Rows whose time can only be interpreted with the next row.
-    filler : (channels,) array
-        Values of the last frame.
-    seen : (channels,) array
-        Whether each channel has had a value.
-    """
+    """Rows that are not frames yet, and the state of their clock."""
 
     fps: float
     channels: Sequence[str]
-    n_rows: int = 0
-    per_second: float = 0.0
-    ahead_s: float = 0.0
-    last_s: float = np.nan
-    emitted: int = 0
-    run_start: int = 0
+    n_rows: int = 0  # rows without a time so far
+    per_second: float = 0.0  # units of the times per second; 0 while the unit is unknown
+    ahead_s: float = 0.0  # seconds by which the clock is ahead of the stream
+    last_s: float = np.nan  # time of the last row; nan before the first row
+    emitted: int = 0  # next frame
+    run_start: int = 0  # first frame after the last hole
+    # Frames and rows since the rate was last checked, and whether it differed then.
     counted: int = 0
     counted_rows: int = 0
     other_rate: bool = False
-    in_packets: bool = False
-    said: list[str] = field(default_factory=list)
+    in_packets: bool = False  # whether the last rows with equal times were a packet
+    said: list[str] = field(default_factory=list)  # messages that were sent already
+    # Fractional frame (rows,) and values (rows, channels) of each row that is still needed.
     at: Floats = field(default_factory=lambda: np.empty(0))
     rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
+    # Rows whose time can only be interpreted with the next row.
     held_times: Floats = field(default_factory=lambda: np.empty(0))
     held_rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
-    filler: Floats = field(default_factory=lambda: np.empty(0))
+    filler: Floats = field(default_factory=lambda: np.empty(0))  # values of the last frame
+    # Whether each channel has had a value.
     seen: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
 
     def __post_init__(self) -> None:
@@ -123,14 +96,9 @@ class Intake:
             self.rows = self.held_rows = np.empty((0, len(self.channels)))
 
     def add(self, rows: Floats, times: Floats | None = None) -> list[Piece]:
-        """Add rows; return the frames that are now complete.
+        """Add rows (rows, channels), nan where missing; return the frames that are now complete.
 
-        Parameters
-        ----------
-        rows : (rows, channels) array
-            NaN where a value is missing.
-        times : (rows,) array, optional
-            In any unit since any origin.
+        ``times`` are in any unit since any origin.
         """
         pieces: list[Piece] = []
         if times is None:

@@ -83,31 +83,19 @@ def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
 
 @dataclass
 class RecentPast:
-    """The last frames of a stream, and examples of earlier clusters.
-
-    Attributes
-    ----------
-    layout : Layout
-    options : SegmentOptions
-        How the recent past is segmented; see `choose_options`.
-    start : int
-        First frame of the recent past.
-    values, missing : (frames, values) and (frames,) arrays
-    examples : dict of int to (frames, values) array
-        Example of each cluster, in the order in which clusters were seen last.
-    known : (spans, 3) array
-        First frame, frame after the last, and cluster of the segments of the last look.
-    compared : dict of int to float
-        Seconds of each new cluster when it was last compared with the examples.
-    """
+    """The last frames of a stream, and examples of earlier clusters."""
 
     layout: Layout
-    options: SegmentOptions
-    start: int = 0
+    options: SegmentOptions  # how the recent past is segmented; see `choose_options`
+    start: int = 0  # first frame of the recent past
+    # Of shape (frames, values), and which frames are missing.
     values: Floats = field(default_factory=lambda: np.empty((0, 0)))
     missing: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
+    # Example (frames, values) of each cluster, in the order in which clusters were seen last.
     examples: dict[int, Floats] = field(default_factory=dict)
+    # (spans, 3): first frame, frame after the last, and cluster of the segments of the last look.
     known: Ints = field(default_factory=lambda: np.empty((0, 3), np.int64))
+    # Seconds of each new cluster when it was last compared with the examples.
     compared: dict[int, float] = field(default_factory=dict)
     _blocks: list[tuple[Floats, Masks]] = field(default_factory=list)
 

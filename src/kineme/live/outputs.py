@@ -30,14 +30,8 @@ CLOSING_S = 2.0
 class Output:
     """An output and its option.
 
-    Attributes
-    ----------
-    open : callable
-        From the value of the option to a context manager whose value is a `Send` function.
-    help, metavar : str
-        Help text and placeholder of the option.
-    type : type
-        Type of its value.
+    ``open`` takes the value of the option and returns a context manager, whose value is a function
+    that sends events. ``metavar`` is the placeholder of the value in the help.
     """
 
     open: Callable[[Any], AbstractContextManager[Send]]

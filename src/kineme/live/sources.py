@@ -61,25 +61,13 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A source of rows.
+    """A source of rows."""
 
-    Attributes
-    ----------
-    fps : float
-        Frames per second; 0 if unknown, see `measure_rate`.
-    channels : tuple of str
-    rows : iterator of Rows
-    skeleton : Skeleton, optional
-        Skeleton, if the channels are x, y and z of its joints.
-    has_unit : bool
-        Whether times are in seconds; if not, `measure_rate` finds their unit.
-    """
-
-    fps: float
+    fps: float  # 0 if unknown, see `measure_rate`
     channels: tuple[str, ...]
     rows: Iterator[Rows]
-    skeleton: Skeleton | None = None
-    has_unit: bool = True
+    skeleton: Skeleton | None = None  # set if the channels are x, y and z of its joints
+    has_unit: bool = True  # whether times are in seconds; if not, `measure_rate` finds their unit
 
 
 def replay(recording: Motion | Signals, speed: float = 1.0) -> Source:
@@ -152,20 +140,8 @@ def _drain(queue: Queue[T]) -> list[T]:
 class _Parser:
     """Parser of lines; their layout is that of the first lines.
 
-    Attributes
-    ----------
-    first_lines : list of str
-        Rows that were read to find the layout.
-    names : list of str
-        All columns, or all numbers of a line of JSON.
-    time : int, optional
-        Column of the times.
-    unit : str, optional
-        Unit of the times; None if unknown.
-    at : list of int
-        Columns of the channels.
-    remarks : tuple of str
-        Remarks for the next rows.
+    ``names`` are all columns, or all numbers of a line of JSON; ``time`` is the column of the
+    times, and ``at`` are those of the channels.
     """
 
     def __init__(self, lines: Iterator[str], columns: Sequence[str]) -> None:
@@ -183,6 +159,7 @@ class _Parser:
         names = list(cells) if is_row else [cell.strip() for cell in cells.values()]
         self.names = make_unique(names, allow_empty=True)
         self.time = next((i for i, name in enumerate(self.names) if is_time(name)), None)
+        # None if there are no times, or their unit is unknown.
         self.unit = None if self.time is None else find_time_unit(self.names[self.time])
         wanted = [
             i
@@ -195,7 +172,7 @@ class _Parser:
             )
         ]
         reason = f"none of the columns is a channel ({join_names(self.names)})"
-        self.first_lines: list[str] = []
+        self.first_lines: list[str] = []  # rows that are read here already
         self.at: list[int] = []
         for line in islice(chain([first] if is_row else [], lines), TIMED_ROWS):
             self.first_lines.append(line)
@@ -216,6 +193,7 @@ class _Parser:
         self.channels = tuple(self.names[i] for i in self.at)
         others = wanted if columns else range(len(self.names))
         left = [self.names[i] for i in others if i not in (*self.at, self.time)]
+        # Told with the next rows.
         self.remarks = (f"columns that are not channels: {join_names(left)}",) if left else ()
 
     def parse(self, lines: Sequence[str]) -> Rows:
@@ -303,12 +281,7 @@ def _is_number(cell: Any) -> bool:
 def receive_lsl(name: str) -> Source:
     """Return a stream of the Lab Streaming Layer, by its name or type, as a source.
 
-    Raises
-    ------
-    ParameterError
-        There is no such stream.
-    MissingDependencyError
-        pylsl is not installed.
+    ParameterError if there is no such stream, MissingDependencyError without pylsl.
     """
     with require_extra("pylsl", "lsl"):
         import pylsl

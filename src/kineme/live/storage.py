@@ -26,8 +26,9 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
 from kineme._util.files import atomic_write, refuse_link, translate_read_errors
+from kineme._util.json import convert_json
 from kineme.errors import ReadError, WriteError
-from kineme.live.events import Finals, Look, Row
+from kineme.live.events import Finals, Look
 from kineme.live.intake import Intake
 from kineme.live.looking import RecentPast
 from kineme.live.sources import Rows
@@ -49,33 +50,17 @@ class Announced:
 
 @dataclass
 class StreamState:
-    """Everything that changes in a stream.
-
-    Attributes
-    ----------
-    intake, finals, past
-        Rows that are not frames yet, final segments, and the recent past.
-    before : Look, optional
-        Result of the last segmentation of the recent past.
-    announced : Announced
-    gap : int, optional
-        First frame of the current gap.
-    now, next_look : int
-        Number of frames so far, and at which the recent past is segmented next.
-    is_timed : bool, optional
-        Whether rows have times; None before the first.
-    is_finished : bool
-    """
+    """Everything that changes in a stream."""
 
     intake: Intake
     finals: Finals
     past: RecentPast
-    before: Look | None = None
+    before: Look | None = None  # result of the last segmentation of the recent past
     announced: Announced = field(default_factory=Announced)
-    gap: int | None = None
-    now: int = 0
-    next_look: int = 0
-    is_timed: bool | None = None
+    gap: int | None = None  # first frame of the current gap
+    now: int = 0  # number of frames so far
+    next_look: int = 0  # number of frames at which the recent past is segmented next
+    is_timed: bool | None = None  # whether rows have times; None before the first
     is_finished: bool = False
 
 
@@ -120,11 +105,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
     def fill(state: StreamState) -> None:
         own = {each.name for each in fields(Intake)} & arrays.keys()
         state.intake = Intake(**content["intake"], **{name: arrays[name] for name in own})
-        finals = content["finals"]
-        for level in ("activities", "primitives"):
-            finals[level] = [Row(*row) for row in finals[level]]
-        finals["labels"] = {int(cluster): label for cluster, label in finals["labels"].items()}
-        state.finals = Finals(**finals)
+        state.finals = convert_json(content["finals"], Finals)
         past = state.past
         past.start, past.known = content["start"], arrays["known"]
         past.compared = dict(content["compared"])
@@ -135,7 +116,7 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
             if name.startswith(EXAMPLE)
         }
         if content["before"] is not None:
-            state.before = Look(*([Row(*row) for row in rows] for rows in content["before"]))
+            state.before = convert_json(content["before"], Look)
         state.announced = Announced(**content["announced"])
         for name, value in content["numbers"].items():
             setattr(state, name, value)
@@ -154,18 +135,8 @@ SYNCHRONISED_S = 0.5
 class Journal:
     """A journal that is open for writing; `close` turns it into a Parquet file.
 
-    Parameters
-    ----------
-    path : path
-        The Parquet file to make, with or without the suffix.
-    channels : sequence of str
-    fps : float
-        Frames per second of rows without times.
-
-    Raises
-    ------
-    WriteError
-        The file exists, or a journal that was not recovered.
+    ``path`` is the Parquet file to make, with or without the suffix, and ``fps`` the rate of rows
+    without times. WriteError if the file exists, or a journal that was not recovered.
     """
 
     def __init__(self, path: str | os.PathLike[str], channels: Sequence[str], fps: float) -> None:
@@ -233,14 +204,8 @@ class Journal:
 def recover_journal(path: str | os.PathLike[str]) -> Path:
     """Convert the complete lines of a journal to a Parquet file, and delete the journal.
 
-    Raises
-    ------
-    ReadError
-        It is not a journal, or holds no row.
-    WriteError
-        The Parquet file exists.
-    MissingDependencyError
-        pyarrow is not installed; the journal stays, and `kineme.read` reads it.
+    ReadError if it is not a journal, or holds no row; WriteError if the Parquet file exists;
+    MissingDependencyError without pyarrow: the journal stays, and `kineme.read` reads it.
     """
     journal = Path(path)
     if not journal.name.endswith(SUFFIX):

@@ -28,6 +28,7 @@ from kineme.web.annotator_messages import (
     LabelLane,
     RecordingAgreement,
 )
+from kineme.web.tables import make_segments_message
 
 SAVED_TABLES = "tables"
 """Id of the tables saved in the studio."""
@@ -132,8 +133,6 @@ def make_label_lanes(
     recordings: OpenRecordings, name: str, chosen: Sequence[str]
 ) -> list[LabelLane]:
     """Return one lane with the labels of each selected person for a recording."""
-    from kineme.web.tables import make_segments_message
-
     listed = recordings.get(name).listed
     path = listed.person_path
     n_frames, fps, clock = recordings.extent(listed)

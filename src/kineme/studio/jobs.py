@@ -57,13 +57,12 @@ class CancelledError(KinemeError):
 class Run:
     """One segmentation by a preset; thread-safe."""
 
-    def __init__(self, preset: str, clock: Callable[[], float] = monotonic):
-        self._shares, self._clock = STAGE_SHARES.get(preset, {}), clock
+    def __init__(self, preset: str):
+        self._shares = STAGE_SHARES.get(preset, {})
         self._cancelled = threading.Event()
-        self._stage, self._starts = "", (clock(), clock())
+        self._stage, self._starts = "", (monotonic(), monotonic())
 
     def cancel(self) -> None:
-        """Cancel the run."""
         self._cancelled.set()
 
     def check_cancelled(self) -> None:
@@ -74,7 +73,7 @@ class Run:
     def start_stage(self, name: str) -> None:
         """Start a stage; CancelledError if the run was cancelled."""
         self.check_cancelled()
-        self._stage, self._starts = name, (self._starts[0], self._clock())
+        self._stage, self._starts = name, (self._starts[0], monotonic())
 
     def progress(self) -> Progress:
         """Return the progress message for pages."""
@@ -86,7 +85,7 @@ class Run:
         names = list(self._shares)
         done = sum(self._shares[name] for name in names[: names.index(stage)])
         pace = done / (last - first) if last > first else 0.0
-        in_stage = pace * (self._clock() - last)
+        in_stage = pace * (monotonic() - last)
         return Progress(stage=stage, share=done + min(in_stage, self._shares[stage]))
 
 
@@ -111,7 +110,6 @@ class Runs:
         return present[0].progress() if present else IDLE
 
     def cancel(self) -> None:
-        """Cancel all runs."""
         for run in [*self._present]:
             run.cancel()
 

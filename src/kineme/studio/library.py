@@ -14,7 +14,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
-from itertools import count
 from pathlib import Path
 from typing import Literal, TypeVar
 
@@ -153,7 +152,8 @@ class StudioLibrary:
     def __init__(self, folder: Path):
         self._folder = folder
         self._lock = threading.Lock()
-        self._searches = Searches()
+        self._searching = threading.Lock()
+        self._newest_search = object()
         self._stamp = self._read_stamp()
         self._library = Library(folder)
         self._history = LibraryHistory(folder)
@@ -189,7 +189,6 @@ class StudioLibrary:
         return [path for path in paths if not is_remote(path)]
 
     def as_folder(self) -> LibraryFolder:
-        """Return its recordings as a folder of the studio."""
         return LibraryFolder(self)
 
     def state(self) -> LibraryState:
@@ -276,9 +275,30 @@ class StudioLibrary:
         return self.update_tables(recordings, names=False)
 
     def search(self, sent: SearchRequest) -> LibraryHits:
-        """Return the best matches; SupersededError if a newer search was started."""
-        result = self._searches.search(self.library(), sent)
-        return LibraryHits(hits=[self._add_name(hit) for hit in result.hits])
+        """Return the best matches; SupersededError if a newer search was started.
+
+        ParameterError without anything to search for.
+        """
+        library, this_search = self.library(), object()
+        self._newest_search = this_search
+
+        def check() -> None:
+            if this_search is not self._newest_search:
+                raise SupersededError("a newer search replaced this one")
+
+        names = {*library.recordings["recording"]}
+        with self._searching:
+            check()
+            hits = library.search(
+                _make_examples(sent.like, names),
+                cluster=None if sent.cluster is UNSET else sent.cluster,
+                unlike=_make_examples(sent.unlike, names),
+                threshold=sent.threshold,
+                top=sent.top,
+                mirror=sent.mirror,
+                client=CancellableThreads(check),
+            )
+        return LibraryHits(hits=[self._add_name(LibraryHit(**hit._asdict())) for hit in hits])
 
     def name_hits(self, sent: CallHits, recordings: OpenRecordings) -> NamedHits:
         """Name the segments that hits show, in the tables beside their recordings.
@@ -340,7 +360,6 @@ class LibraryFolder(Folder):
         self._library = library
 
     def first_table(self, path: Path) -> Segmentation | None:
-        """Return the library's table of a recording."""
         return self._library.find_table(path)
 
     def recordings(self) -> dict[str, ListedRecording]:
@@ -353,41 +372,6 @@ class LibraryFolder(Folder):
             **{make_file_id(path): ListedRecording(path) for path in files},
             **super().recordings(),
         }
-
-
-class Searches:
-    """Searches, each of which cancels the previous ones."""
-
-    def __init__(self) -> None:
-        self._numbers = count(1)
-        self._newest = 0
-        self._searching = threading.Lock()
-
-    def search(self, library: Library, sent: SearchRequest) -> LibraryHits:
-        """Search a library for movements like the examples.
-
-        SupersededError if a newer search was started, ParameterError without anything to search
-        for.
-        """
-        number = self._newest = next(self._numbers)
-
-        def check() -> None:
-            if number != self._newest:
-                raise SupersededError("a newer search replaced this one")
-
-        names = {*library.recordings["recording"]}
-        with self._searching:
-            check()
-            hits = library.search(
-                _make_examples(sent.like, names),
-                cluster=None if sent.cluster is UNSET else sent.cluster,
-                unlike=_make_examples(sent.unlike, names),
-                threshold=sent.threshold,
-                top=sent.top,
-                mirror=sent.mirror,
-                client=CancellableThreads(check),
-            )
-        return LibraryHits(hits=[LibraryHit(**hit._asdict()) for hit in hits])
 
 
 class CancellableThreads:

@@ -47,13 +47,7 @@ EVENT_DEFAULTS = {
 class LivePage:
     """State of a stream for open pages: its recent events and frames.
 
-    Parameters
-    ----------
-    fps : float
-    channels : sequence of str
-        Empty for a body.
-    parents : sequence of int
-        Of the joints of a body.
+    ``channels`` are empty for a body, which has ``parents`` of its joints instead.
     """
 
     def __init__(self, fps: float, channels: Sequence[str], parents: Sequence[int] = ()) -> None:

@@ -21,8 +21,8 @@ from kineme.errors import KinemeError, MotionError, ParameterError, ReadError
 from kineme.formats import ReadOptions, list_people, read_analog, read_quietly, sketch
 from kineme.labels.collections import Extent
 from kineme.methods.presets import DEFAULT
-from kineme.methods.segmenter import SegmentOptions
-from kineme.recordings import Motion
+from kineme.methods.segmenter import SegmentOptions, segment_with_options
+from kineme.recordings import Motion, Signals
 from kineme.segments.hierarchy import DEFAULT_DETAIL
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind
@@ -34,14 +34,14 @@ from kineme.studio.storage.sidecars import (
     read_saved_options,
     resolve_read_options,
 )
+from kineme.web.display import DrawnPicture, display_motion, draw_picture
 from kineme.web.messages import MatrixHead, Recording
+from kineme.web.page_data import PageData, make_page_data
+from kineme.web.tables import make_segments_message
 
 if TYPE_CHECKING:
-    from kineme.recordings import Signals
     from kineme.web.curves import Curves
     from kineme.web.cycle_curves import CycleCurves
-    from kineme.web.display import DrawnPicture
-    from kineme.web.page_data import PageData
 
 LONG_S = 300.0
 """Length from which a recording is shown before it is segmented, which takes seconds."""
@@ -175,8 +175,6 @@ class LoadedRecording:
 
     def page_data(self) -> PageData:
         """Return everything that a page draws except the segments."""
-        from kineme.web.page_data import make_page_data
-
         return self._keep(
             "page data",
             lambda: make_page_data(self.recording, effectors=self.effectors),
@@ -184,20 +182,16 @@ class LoadedRecording:
 
     def picture(self) -> DrawnPicture | None:
         """Return the keypoints drawn over the video; None if the poses are not from a video."""
-        from kineme.web.display import draw_picture
-
         if not self.is_motion:
             return None
         return self._keep("picture", lambda: draw_picture(self.path, self.provenance.person))
 
     def curves(self) -> Curves:
-        """Return the curves over time."""
         from kineme.web.curves import Curves
 
         return self._keep("curves", lambda: Curves(self.recording, self._read_analog()))
 
     def cycle_curves(self) -> CycleCurves:
-        """Return the curves of repetitions."""
         from kineme.web.cycle_curves import CycleCurves
 
         return self._keep("cycles", lambda: CycleCurves(lambda: self.recording, self._read_analog))
@@ -237,8 +231,6 @@ class LoadedRecording:
         The last result is cached, since a preview is often applied, or shown at another detail.
         CancelledError if ``run`` or all runs were cancelled.
         """
-        from kineme.methods.segmenter import segment_with_options
-
         constants = dict[str, Any](parameters or {})
         check_parameters(preset, constants, signals=not self.is_motion)
         key = preset, *sorted(constants.items())
@@ -348,7 +340,6 @@ class Sketcher:
         return self._sketches.get(name)
 
     def forget(self, name: str) -> None:
-        """Drop the sketch of a recording."""
         self._sketches.pop(name, None)
 
     def forget_closed(self, sketch: Sketch) -> bool:
@@ -376,9 +367,6 @@ def draw_sketch(listed: ListedRecording, cache: RecordingCache) -> Sketch | None
 
     None for a file that is read quickly, or whose format offers no preview.
     """
-    from kineme.web.display import display_motion
-    from kineme.web.tables import make_segments_message
-
     path = listed.path
     try:
         if path.stat().st_size < LARGE_FILE:

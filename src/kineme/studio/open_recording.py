@@ -43,7 +43,9 @@ from kineme.studio.storage.tables import (
     find_saved_table,
 )
 from kineme.web.messages import Comparison, Edited, Preview, Recording, Version
+from kineme.web.page_data import make_recording_message
 from kineme.web.requests import Edit, PreviewRequest, Redo, Undo
+from kineme.web.tables import make_segments_message, make_table_change
 
 Found = tuple[Segmentation, list[str]]
 """A table, and notes for the user."""
@@ -130,8 +132,6 @@ class OpenRecording:
 
     def message(self) -> tuple[Recording, bool]:
         """Return everything that a page shows, and whether another program changed the table."""
-        from kineme.web.page_data import make_recording_message
-
         with self._lock:
             is_reloaded = self._file.has_changed() and self._reload()
             base = make_recording_message(
@@ -216,8 +216,6 @@ class OpenRecording:
 
         CancelledError if it is cancelled or a newer preview is requested.
         """
-        from kineme.web.tables import make_segments_message
-
         detail = DEFAULT_DETAIL if request.detail is UNSET else request.detail
         previous, self._preview_run = self._preview_run, Run(request.preset)
         previous.cancel()
@@ -254,8 +252,6 @@ class OpenRecording:
 
     def version(self, number: int) -> Comparison:
         """Return a replaced table to compare with the present one."""
-        from kineme.web.tables import make_segments_message
-
         with self._lock:
             table = self._version(number)
             at = self._journal.versions()[number].at
@@ -300,8 +296,6 @@ class OpenRecording:
 
     def _make_edited(self, notes: list[str], before: Segmentation | None = None) -> Edited:
         """Return the message after an edit: the new table, or how it differs from ``before``."""
-        from kineme.web.tables import make_segments_message, make_table_change
-
         change = None
         if before is not None:
             change = make_table_change(before, self._table, revision=self.revision - 1)

@@ -37,8 +37,7 @@ from kineme.segments.table import Level
 from kineme.studio import choices
 from kineme.studio.annotators import list_annotators, make_label_lanes, measure_agreement
 from kineme.studio.edits import read_table
-from kineme.studio.folder import Progress as TableProgress
-from kineme.studio.folder import count_progress
+from kineme.studio.folder import Progress, count_progress
 from kineme.studio.http.bodies import (
     MAX_UPLOAD,
     MessageResponse,
@@ -70,39 +69,11 @@ from kineme.studio.storage.sidecars import (
     write_shared_labels,
     write_video_offset,
 )
-from kineme.web import STATIC
+from kineme.web import STATIC, messages, requests
 from kineme.web.annotator_messages import Agreement, AgreementRequest, LabelLane
 from kineme.web.library_messages import CallEverywhere, TablesChanged
 from kineme.web.matrix import make_tile
-from kineme.web.messages import (
-    ClusterCurves,
-    Comparison,
-    CycleChannels,
-    Edited,
-    Failure,
-    FileChoice,
-    Listing,
-    Loops,
-    PlayedLoop,
-    PosesProgress,
-    Preview,
-    Progress,
-    Recording,
-    ScoreMeaning,
-    State,
-    Versions,
-)
-from kineme.web.requests import (
-    ClipsRequest,
-    CompareRequest,
-    EditRequest,
-    KnowledgeRequest,
-    LabelsRequest,
-    PosesRequest,
-    PreviewRequest,
-    ReadRequest,
-    VideoRequest,
-)
+from kineme.web.tables import make_segments_message
 
 if TYPE_CHECKING:
     from kineme.studio.library import StudioLibrary
@@ -178,7 +149,9 @@ def _answer_known_error(_: Request, error: Exception) -> Response:
     people = error.people if isinstance(error, SeveralPeopleError) else ()
     needs_poses = isinstance(error, PosesNeededError)
     can_retry = isinstance(error, ReadError) and not needs_poses
-    failure = Failure(error=str(error), people=[*people], reading=can_retry, poses=needs_poses)
+    failure = messages.Failure(
+        error=str(error), people=[*people], reading=can_retry, poses=needs_poses
+    )
     return MessageResponse(failure, status)
 
 
@@ -189,7 +162,7 @@ def _answer_http_error(_: Request, error: Exception) -> Response:
 
 
 def _make_failure(reason: str, status: int) -> Response:
-    return MessageResponse(Failure(error=reason), status)
+    return MessageResponse(messages.Failure(error=reason), status)
 
 
 class Api:
@@ -205,8 +178,8 @@ class Api:
             make_route("/api/state", self.state),
             make_route("/api/tables", lambda _: self._recordings.tables()),
             make_route("/api/names", self.names, CallEverywhere),
-            make_route("/api/labels", self.labels, LabelsRequest),
-            make_route("/api/knowledge", self.knowledge, KnowledgeRequest),
+            make_route("/api/labels", self.labels, requests.LabelsRequest),
+            make_route("/api/knowledge", self.knowledge, requests.KnowledgeRequest),
             make_route("/api/annotators", lambda _: list_annotators(self._recordings)),
             make_route("/api/agreement", self.agreement, AgreementRequest),
             make_route("/api/export/{format}", self.export_checked),
@@ -218,38 +191,38 @@ class Api:
             make_route(f"{one}/curves/{{curve}}/{{level}}/{{number}}", self.curve_tile),
             make_route(f"{one}/cycles", self.cycle_channels),
             make_route(f"{one}/cycles/{{cluster}}", self.cycle_curves),
-            make_route(f"{one}/edits", self.edit, EditRequest),
-            make_route(f"{one}/preview", self.preview, PreviewRequest),
+            make_route(f"{one}/edits", self.edit, requests.EditRequest),
+            make_route(f"{one}/preview", self.preview, requests.PreviewRequest),
             make_route(f"{one}/progress", self.progress),
             Route(f"{one}/cancel", self.cancel, methods=["POST"]),
             make_route(f"{one}/versions", self.versions),
             make_route(f"{one}/versions/{{number}}", self.version),
-            make_route(f"{one}/compare", self.compare, CompareRequest),
+            make_route(f"{one}/compare", self.compare, requests.CompareRequest),
             make_route(f"{one}/lanes", self.lanes, AgreementRequest),
             make_route(f"{one}/export/{{format}}", self.export),
-            make_route(f"{one}/clips", self.clips, ClipsRequest),
+            make_route(f"{one}/clips", self.clips, requests.ClipsRequest),
             make_route(f"{one}/loops", self.loops),
             make_route(f"{one}/loops/{{number}}", self.loop),
             make_route(f"{one}/video", self.video),
-            make_route(f"{one}/video", self.offset, VideoRequest),
+            make_route(f"{one}/video", self.offset, requests.VideoRequest),
             make_route(f"{one}/keypoints", self.keypoints),
-            make_route(f"{one}/reading", self.reading, ReadRequest),
+            make_route(f"{one}/reading", self.reading, requests.ReadRequest),
             make_route("/api/poses", lambda _: self._poses.progress),
-            make_route("/api/poses", self.estimate, PosesRequest),
+            make_route("/api/poses", self.estimate, requests.PosesRequest),
             Route("/api/poses/cancel", self.stop_estimating, methods=["POST"]),
             Route("/api/events", self.events),
             Route("/api{rest:path}", self.unknown),
         ]
 
-    def state(self, _: Request) -> State:
+    def state(self, _: Request) -> messages.State:
         folder = self._recordings.folder
         recordings = folder.recordings()
         bases, annotations = (
-            [FileChoice(id=name, name=path.name) for name, path in files.items()]
+            [messages.FileChoice(id=name, name=path.name) for name, path in files.items()]
             for files in (folder.knowledge_bases(), folder.annotations(recordings.values()))
         )
         listings = [_make_listing(listed) for listed in recordings.values()]
-        return State(
+        return messages.State(
             version=__version__,
             folder=str(folder.root.absolute()),
             of_library=folder.is_library,
@@ -268,10 +241,10 @@ class Api:
     def names(self, _: Request, sent: CallEverywhere) -> TablesChanged:
         return rename_everywhere(self._recordings, sent)
 
-    def labels(self, _: Request, sent: LabelsRequest) -> list[str]:
+    def labels(self, _: Request, sent: requests.LabelsRequest) -> list[str]:
         return write_shared_labels(self._recordings.folder.root, sent.labels)
 
-    def knowledge(self, _: Request, sent: KnowledgeRequest) -> FileChoice:
+    def knowledge(self, _: Request, sent: requests.KnowledgeRequest) -> messages.FileChoice:
         """Save a knowledge base with the named primitives of some recordings; return its file."""
         from kineme.transfer import KnowledgeBase
 
@@ -287,7 +260,7 @@ class Api:
         if path.exists():
             raise ParameterError(f"{path.name} exists already: choose another name")
         KnowledgeBase.merged(*bases).save(path)
-        return FileChoice(id=make_file_id(path), name=path.name)
+        return messages.FileChoice(id=make_file_id(path), name=path.name)
 
     def export_checked(self, request: Request) -> Response:
         """Return a ZIP with all recordings whose segments are all checked."""
@@ -319,7 +292,7 @@ class Api:
         self._hub.tell(make_file_id(path), 0)
         return MessageResponse(_make_listing(ListedRecording(path)))
 
-    def recording(self, request: Request) -> Recording:
+    def recording(self, request: Request) -> messages.Recording:
         return self._recordings.message(request.path_params["id"])
 
     def motion(self, request: Request) -> Response:
@@ -342,10 +315,11 @@ class Api:
             raise UnknownError("the curve has no such tile")
         return Response(pairs, media_type=BINARY)
 
-    def cycle_channels(self, request: Request) -> CycleChannels:
-        return CycleChannels(channels=self._get_opened(request).loaded.cycle_curves().channels())
+    def cycle_channels(self, request: Request) -> messages.CycleChannels:
+        curves = self._get_opened(request).loaded.cycle_curves()
+        return messages.CycleChannels(channels=curves.channels())
 
-    def cycle_curves(self, request: Request) -> ClusterCurves:
+    def cycle_curves(self, request: Request) -> messages.ClusterCurves:
         opened, channel = self._get_opened(request), request.query_params.get("channel", "")
         (cluster,) = _parse_numbers(request, "cluster")
         curves, other_id = opened.loaded.cycle_curves(), request.query_params.get("beside")
@@ -359,29 +333,28 @@ class Api:
             raise UnknownError("there are no such repetitions, or no such channel")
         return message
 
-    def edit(self, request: Request, sent: EditRequest) -> Edited:
+    def edit(self, request: Request, sent: requests.EditRequest) -> messages.Edited:
         return self._recordings.edit(request.path_params["id"], sent)
 
-    def preview(self, request: Request, sent: PreviewRequest) -> Preview:
+    def preview(self, request: Request, sent: requests.PreviewRequest) -> messages.Preview:
         return self._get_opened(request).preview(sent)
 
-    def progress(self, request: Request) -> Progress:
+    def progress(self, request: Request) -> messages.Progress:
         return self._recordings.progress(request.path_params["id"])
 
     async def cancel(self, request: Request) -> Response:
         self._recordings.cancel(request.path_params["id"])
         return Response(status_code=204)
 
-    def versions(self, request: Request) -> Versions:
-        return Versions(versions=self._get_opened(request).versions())
+    def versions(self, request: Request) -> messages.Versions:
+        return messages.Versions(versions=self._get_opened(request).versions())
 
-    def version(self, request: Request) -> Comparison:
+    def version(self, request: Request) -> messages.Comparison:
         return self._get_opened(request).version(*_parse_numbers(request, "number"))
 
-    def compare(self, request: Request, sent: CompareRequest) -> Comparison:
+    def compare(self, request: Request, sent: requests.CompareRequest) -> messages.Comparison:
         from kineme.evaluation import scores
         from kineme.evaluation.inputs import find_differences, score_agreement
-        from kineme.web.tables import make_segments_message
 
         opened = self._get_opened(request)
         table = opened.table
@@ -395,13 +368,13 @@ class Api:
         else:
             raise ParameterError("name a preset or an annotation to compare with")
         values = score_agreement(other, table)  # the other table counts as the truth
-        explained = ((name, scores()[name]) for name in values)
-        return Comparison(
+        return messages.Comparison(
             name=title,
             segmentation=make_segments_message(other),
             scores=values,
             meanings={
-                n: ScoreMeaning(title=score.title, help=score.help) for n, score in explained
+                name: messages.ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
+                for name in values
             },
             differences=find_differences(other, table),
         )
@@ -418,18 +391,18 @@ class Api:
         opened, kind = self._get_opened(request), request.path_params["format"]
         return make_file_response(*downloads.export_download(opened, kind, _parse_level(request)))
 
-    def clips(self, request: Request, sent: ClipsRequest) -> Response:
+    def clips(self, request: Request, sent: requests.ClipsRequest) -> Response:
         from kineme.studio import downloads
 
         files = downloads.make_clip_archive(self._get_opened(request), sent.rows, loops=sent.loops)
         return make_file_response(*files)
 
-    def loops(self, request: Request) -> Loops:
+    def loops(self, request: Request) -> messages.Loops:
         from kineme.studio import downloads
 
         return downloads.rank_loops(self._get_opened(request))
 
-    def loop(self, request: Request) -> PlayedLoop:
+    def loop(self, request: Request) -> messages.PlayedLoop:
         from kineme.studio import downloads
 
         return downloads.make_played_loop(
@@ -448,16 +421,16 @@ class Api:
             raise UnknownError("these poses do not come from a video")
         return Response(picture.binary, media_type=BINARY)
 
-    def offset(self, request: Request, sent: VideoRequest) -> VideoRequest:
+    def offset(self, request: Request, sent: requests.VideoRequest) -> requests.VideoRequest:
         write_video_offset(self._get_opened(request).path, sent.offset_s)
         return sent
 
-    def reading(self, request: Request, sent: ReadRequest) -> list[str]:
+    def reading(self, request: Request, sent: requests.ReadRequest) -> list[str]:
         options = options_from_json(ReadOptions, sent.options)
         name = request.path_params["id"]
         return self._recordings.change_reading(name, options, everybody=sent.everybody)
 
-    def estimate(self, _: Request, sent: PosesRequest) -> PosesProgress:
+    def estimate(self, _: Request, sent: requests.PosesRequest) -> messages.PosesProgress:
         if missing := lacks_estimator():
             raise ParameterError(missing)
         listed = [self._recordings.find_listed(name) for name in sent.recordings]
@@ -498,15 +471,15 @@ def _get_file_size(path: Path) -> int:
         return 0
 
 
-def _make_listing(listed: ListedRecording) -> Listing:
+def _make_listing(listed: ListedRecording) -> messages.Listing:
     """Return the entry of a recording in the list of the page."""
     counts = count_progress(listed)
-    return Listing(
+    return messages.Listing(
         id=listed.id,
         file=make_file_id(listed.path),
         name=listed.name,
         bytes=_get_file_size(listed.path),
         needs_poses=needs_poses(listed.path),
         corrected=counts is not None,
-        **vars(counts or TableProgress(0, 0, 0, 0)),
+        **vars(counts or Progress(0, 0, 0, 0)),
     )

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import uvicorn
 
+from kineme._util.files import remove_abandoned_drafts
 from kineme.errors import KinemeError, ParameterError
 from kineme.studio.http.security import DEVELOPMENT, HeaderTimeoutProtocol, make_token
 
@@ -67,7 +68,6 @@ def serve(
             threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
         # Import after the browser was started; its first request waits in the socket.
         from kineme.studio.folder import Folder
-        from kineme.studio.http.bodies import remove_abandoned_drafts
         from kineme.studio.http.events import Hub
         from kineme.studio.open_recordings import OpenRecordings
         from kineme.studio.routes import create_app

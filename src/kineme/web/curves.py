@@ -94,16 +94,16 @@ class Curves:
 
 
 def make_report_curves(
-    recording: Motion | Signals | ArrayLike, fps: float, max_bytes: int = MAX_BYTES
+    recording: Motion | Signals | ArrayLike, fps: float
 ) -> tuple[CurveList, dict[str, bytes]]:
     """Return the curves of signals for a report, with tiles by "curve/level/number".
 
     ``fps`` is the rate of an array (frames, channels). Finer levels are omitted once all tiles
-    exceed ``max_bytes``.
+    exceed `MAX_BYTES`.
     """
     signals = as_recording(recording, fps)
     curves, tiles = Curves(signals), dict[str, bytes]()
-    head, bytes_left = curves.head(), max_bytes
+    head, bytes_left = curves.head(), MAX_BYTES
     # Coarse levels first: they cover the whole recording with few bytes.
     for level in reversed(range(head.levels)):
         bins = compute_level_sizes(signals.n_frames)[level]

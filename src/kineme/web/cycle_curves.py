@@ -12,22 +12,21 @@ from dataclasses import replace
 from functools import partial
 from math import floor, log10
 from threading import RLock
-from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
+from kineme.cycles.channels import Channel, channels_of
+from kineme.cycles.comparison import compare_curves, pair_sides
+from kineme.cycles.measure import cycles as measure_cycles
+from kineme.cycles.measure import mark_excluded, measure_other_channels
+from kineme.cycles.table import BY_HAND, Columns, Cycles
 from kineme.recordings import Motion, Signals
 from kineme.segments.annotation import NO_ANNOTATION
 from kineme.segments.segmentation import Segmentation
 from kineme.web.messages import ClusterCurves, CycleChannel, CycleCurve, OtherSession, ReportCurves
-
-if TYPE_CHECKING:
-    from kineme.cycles.channels import Channel
-    from kineme.cycles.table import Columns, Cycles
-
 
 MAX_CYCLES = 150
 """Curves drawn of a group; the mean is over all."""
@@ -79,9 +78,6 @@ class CycleCurves:
 
     def channels(self) -> list[CycleChannel]:
         """Return the channels that can be measured; those measured by default come first."""
-        from kineme.cycles.channels import channels_of
-        from kineme.cycles.comparison import pair_sides
-
         with self._lock:
             if not self._heads:
                 recording, beside = self._read(), self._beside()
@@ -136,8 +132,6 @@ class CycleCurves:
 
         The repetitions of both recordings are cut at a common phase.
         """
-        from kineme.cycles.comparison import compare_curves
-
         message = self.make_curves(table, cluster, channel)
         if message is None or message.channel not in {head.name for head in other.channels()}:
             return message
@@ -237,11 +231,9 @@ class CycleCurves:
 
     def _find_cycles(self, table: Segmentation) -> Cycles:
         """Return the cycles of a table without channels, cached while the segments are the same."""
-        from kineme.cycles.measure import cycles, mark_excluded
-
         if self._cycles is None or not _have_same_segments([self._table], [table]):
             recording = self._read()
-            measured = cycles(recording, _rescale_table(table, recording), channels=[])
+            measured = measure_cycles(recording, _rescale_table(table, recording), channels=[])
             self._table, self._cycles = table, _add_frames(measured, table)
         return mark_excluded(self._cycles, [table])
 
@@ -249,8 +241,6 @@ class CycleCurves:
         self, table: Segmentation, other: CycleCurves, other_table: Segmentation
     ) -> tuple[Cycles, Cycles]:
         """Return the cycles of both recordings without channels, cut at a common phase."""
-        from kineme.cycles.measure import cycles, mark_excluded
-
         tables = table, other_table
         with self._lock:
             if self._common_cycles is None or not _have_same_segments(
@@ -258,7 +248,7 @@ class CycleCurves:
             ):
                 recordings = self._read(), other._read()
                 timed = [_rescale_table(*each) for each in zip(tables, recordings, strict=True)]
-                self._common_cycles = tables, cycles(recordings, timed, channels=[])
+                self._common_cycles = tables, measure_cycles(recordings, timed, channels=[])
             common = mark_excluded(self._common_cycles[1], tables)
         # The name of the recording separates the rows of the two.
         first = common.columns["recording"] == common.columns["recording"][0]
@@ -266,9 +256,6 @@ class CycleCurves:
 
     def _add_channels(self, cycles: Cycles, names: Sequence[str]) -> Cycles:
         """Return the cycles with curves of these channels."""
-        from kineme.cycles.channels import channels_of
-        from kineme.cycles.measure import measure_other_channels
-
         with self._lock:
             missing = [name for name in names if name not in self._values]
             if missing:
@@ -379,8 +366,6 @@ def _make_message(
     group: Cycles, channel: str, max_cycles: int, mean: Columns, *, ends: bool
 ) -> ClusterCurves:
     """Return the message with the curves of a group."""
-    from kineme.cycles.table import BY_HAND
-
     index = group.channels.index(channel)
     curves, columns = group.curves[:, index], group.columns
     complete = np.isfinite(curves).all(axis=1)
@@ -457,8 +442,6 @@ def _choose_cycles(order: Sequence[int], max_cycles: int, required: set[int]) ->
 
 def _explain_exclusion(columns: Columns, row: int) -> str:
     """Return why a cycle does not count in the mean."""
-    from kineme.cycles.table import BY_HAND
-
     excluded, place = str(columns["excluded"][row]), str(columns["place"][row])
     if excluded == BY_HAND:
         return EXCLUDED_BY_HAND

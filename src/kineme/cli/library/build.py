@@ -15,6 +15,7 @@ from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
 from kineme.cli.library.commands import Scheduler, parse_path_or_url
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options, are_given
 from kineme.cli.terminal import exit_on_error, format_line, print_skipped, show_progress
+from kineme.errors import KinemeError
 from kineme.formats.options import ReadOptions
 from kineme.methods.segmenter import SegmentOptions
 
@@ -119,7 +120,6 @@ def _needs_processes(files: Sequence[Path], into: Path) -> bool:
 
 def _report_and_exit(built: Built, sources: Sequence[Path]) -> None:
     """Print what failed; exit with code 1 if it was named by the user."""
-    from kineme.errors import KinemeError
     from kineme.library.storage.layout import is_remote
 
     failed = {path: reason for path, reason in built.failed.items() if is_remote(path)}

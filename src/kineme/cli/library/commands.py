@@ -12,11 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
+from rich.text import Text
 
 from kineme._util.checks import format_count
-from kineme.cli.help import OUTPUT, option
+from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import CLIPS, add_options
-from kineme.cli.terminal import exit_on_error, format_line
+from kineme.cli.tables import format_cluster, make_table
+from kineme.cli.terminal import Console, exit_on_error, format_line
+from kineme.errors import KinemeError
 
 if TYPE_CHECKING:
     from kineme.library import Library
@@ -38,7 +41,6 @@ Cluster = Annotated[str, typer.Argument(help="Number or name of a cluster.")]
 
 def parse_path_or_url(text: str) -> Path:
     """Return a path or URL that the user typed."""
-    from kineme.errors import KinemeError
     from kineme.library.storage.layout import make_path
 
     try:
@@ -111,9 +113,7 @@ def query(
 
 def export(
     folder: Folder,
-    output: Annotated[
-        Path, option(OUTPUT, "File to write: .parquet, .csv or .tsv.", "--output", "-o")
-    ],
+    output: Annotated[Path, output_option("File to write: .parquet, .csv or .tsv.")],
     table: Annotated[
         str,
         typer.Option(
@@ -162,11 +162,6 @@ def _collect_facts(library: Library) -> dict[str, Any]:
 
 
 def _show_library(library: Library) -> None:
-    from rich.text import Text
-
-    from kineme.cli.tables import format_cluster, make_table
-    from kineme.cli.terminal import Console
-
     console = Console(highlight=False)
     console.print(Text(str(library.folder), style="bold"))
     n_recordings = len(library)
@@ -199,11 +194,6 @@ def _show_library(library: Library) -> None:
 
 
 def _show_answer(answer: Any) -> None:
-    from rich.text import Text
-
-    from kineme.cli.tables import make_table
-    from kineme.cli.terminal import Console
-
     console = Console(highlight=False)
     table = make_table(*answer.column_names)
     for row in answer.slice(0, MAX_ROWS).to_pylist():
@@ -230,9 +220,7 @@ def split(
         list[str] | None,
         typer.Argument(help="Names of the recordings in which it is another movement."),
     ] = None,
-    output: Annotated[
-        Path | None, option(OUTPUT, "New folder for the best loops as clips.", "--output", "-o")
-    ] = None,
+    output: Annotated[Path | None, output_option("New folder for the best loops as clips.")] = None,
     best: Annotated[int, option(OUTPUT, "Largest number of loops per cluster.", min=1)] = 3,
     per: Annotated[
         Literal["cluster", "direction", "recording"],
@@ -271,11 +259,6 @@ def coverage(folder: Folder, json: Json = False) -> None:
             for row in covered:
                 typer.echo(dumps(row._asdict()))
             return
-        from rich.text import Text
-
-        from kineme.cli.tables import format_cluster, make_table
-        from kineme.cli.terminal import Console
-
         table = make_table(
             "cluster", "label", "direction", "clips", "seconds", "m/s", "turn °", "starts", "stops"
         )

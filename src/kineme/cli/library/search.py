@@ -8,12 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.text import Text
 
 from kineme._util.checks import format_count
 from kineme.cli.files import make_parent_folder
 from kineme.cli.help import OUTPUT, option
 from kineme.cli.library.commands import Folder, Json, Scheduler, open_library
 from kineme.cli.options import Quiet
+from kineme.cli.tables import format_cluster, make_table
+from kineme.cli.terminal import Console
+from kineme.errors import ParameterError
 
 if TYPE_CHECKING:
     from kineme.library import Example, Hit
@@ -142,7 +146,6 @@ def _parse_example(text: str) -> Example:
 
 
 def _make_example(name: str, start: float, stop: float | None) -> Example:
-    from kineme.errors import ParameterError
     from kineme.library import Example
 
     try:
@@ -152,11 +155,6 @@ def _make_example(name: str, start: float, stop: float | None) -> Example:
 
 
 def _show(hits: list[Hit]) -> None:
-    from rich.text import Text
-
-    from kineme.cli.tables import format_cluster, make_table
-    from kineme.cli.terminal import Console
-
     console = Console(highlight=False)
     table = make_table("#", "recording", "start s", "stop s", "distance", "cluster", "label")
     for number, hit in enumerate(hits):

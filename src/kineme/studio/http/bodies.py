@@ -8,12 +8,9 @@ from __future__ import annotations
 import asyncio
 import os
 import re
-import secrets
 import shutil
-import time
 import unicodedata
 from collections.abc import AsyncIterator, Callable
-from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from types import TracebackType
@@ -25,7 +22,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
-from kineme._util.files import is_locked, lock_shared
+from kineme._util.files import lock_shared, make_draft_name
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import supported_formats
 from kineme.labels import label_formats
@@ -37,10 +34,6 @@ MAX_JSON = 1_000_000
 """Bytes of a request other than an upload."""
 MAX_UPLOAD = 10**9
 """Bytes; an hour of motion takes a quarter of that as text."""
-DRAFT = re.compile(r"\.upload-[0-9a-f]{16}\.part")
-"""Name of a file that is being uploaded."""
-DRAFT_LIFETIME_S = 3600.0
-"""Age after which a draft must belong to a server that was killed."""
 MAX_NAME = 180
 """Bytes; file systems allow 255, and names of saved tables get longer suffixes."""
 RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
@@ -139,7 +132,7 @@ class Upload:
         if length is not None and length > shutil.disk_usage(root).free:
             raise TooLargeError(f"not enough free space for {length} bytes in {root}")
         self._root, self._limit, self._size, self._digest = root, limit, 0, sha256()
-        self._draft = root / f".upload-{secrets.token_hex(8)}.part"
+        self._draft = root / make_draft_name(".part")
         try:
             self._file = self._draft.open("xb")
         except OSError as error:
@@ -192,16 +185,6 @@ def make_safe_name(name: str) -> str:
     while len((stem + suffix).encode(errors="replace")) > MAX_NAME and stem:
         stem = stem[:-1]
     return ("_" if RESERVED.fullmatch(stem) else "") + stem + suffix
-
-
-def remove_abandoned_drafts(root: Path) -> None:
-    """Delete drafts of killed servers; keep those that another server still writes."""
-    for path in root.glob(".upload-*.part"):
-        if not DRAFT.fullmatch(path.name):
-            continue
-        with suppress(OSError):  # another server may have deleted it
-            if time.time() - path.stat().st_mtime > DRAFT_LIFETIME_S and not is_locked(path):
-                path.unlink()
 
 
 def list_recording_suffixes() -> list[str]:

@@ -49,17 +49,9 @@ PLAIN_TYPES: dict[Any, str] = {
 
 
 def format_typescript(named: dict[str, Any]) -> str:
-    """Return the types as TypeScript: unions and literals as ``type``, structs as ``interface``.
+    """Return a module with these types: unions and literals as ``type``, structs as ``interface``.
 
-    Parameters
-    ----------
-    named : dict
-        Types by name, in the order they are to have.
-
-    Returns
-    -------
-    str
-        A module.
+    ``named`` are the types by name, in the order they are to have.
     """
     aliases = {name: inspect.type_info(kind) for name, kind in named.items() if _is_alias(kind)}
     return "\n".join(
