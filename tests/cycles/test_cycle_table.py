@@ -276,8 +276,9 @@ def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
     marked = replace(walks.motion, provenance=provenance)
     by_name = kineme.cycles(marked, walks.truth, channels=["knee_r"], anchor="deepest")
     np.testing.assert_allclose(by_name.columns["start_s"][rows], middles[:-1])
-    with pytest.raises(ParameterError, match="no event 'deepst'; there are Deepest, left foot"):
-        kineme.cycles(marked, walks.truth, anchor="deepst")
+    for anchor in ("deepst", "knee_r > 1.2.3"):
+        with pytest.raises(ParameterError, match=f"no event '{anchor}'; there are Deepest, left"):
+            kineme.cycles(marked, walks.truth, anchor=anchor)
 
 
 def test_an_event_of_the_file_corrects_the_contact_near_it_and_the_others_stay(walks) -> None:

@@ -124,9 +124,9 @@ class Events:
         if not starts:
             raise ParameterError(f"there is no event {name or ''}".rstrip())
         # Before the first event there is a transition without a label.
-        first = [] if 0 in starts else [0]
-        cuts = [*first, *sorted(starts), self.n_frames]
-        labels = [*([""] * len(first)), *(starts[frame] for frame in sorted(starts))]
+        starts = {0: "", **starts}
+        cuts = [*sorted(starts), self.n_frames]
+        labels = [starts[frame] for frame in cuts[:-1]]
         return Segmentation.from_columns(
             {
                 "level": ["activity"] * len(labels),

@@ -171,14 +171,6 @@ def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     return replace(cycles, columns={**cycles.columns, "excluded": reasons})
 
 
-def _list_reasons(
-    rows: Iterable[tuple[Segmentation, Segment]], reasons: ArrayLike
-) -> NDArray[np.str_]:
-    """Return why rows are excluded: by the annotation of their table, or for the given reasons."""
-    left_out = [table.annotation.excludes(row.start_frame, row.stop_frame) for table, row in rows]
-    return np.where(np.array(left_out, bool), BY_HAND, np.asarray(reasons, np.str_))
-
-
 def measure_other_channels(cycles: Cycles, channels: Sequence[Channel]) -> Cycles:
     """Return the cycles of one recording with other channels.
 
@@ -322,6 +314,14 @@ def _make_columns(
         ),
         "excluded": _list_reasons(rows, [each.lacking for each in repetitions]),
     }
+
+
+def _list_reasons(
+    rows: Iterable[tuple[Segmentation, Segment]], reasons: ArrayLike
+) -> NDArray[np.str_]:
+    """Return why rows are excluded: by the annotation of their table, or for the given reasons."""
+    left_out = [table.annotation.excludes(row.start_frame, row.stop_frame) for table, row in rows]
+    return np.where(np.array(left_out, bool), BY_HAND, np.asarray(reasons, np.str_))
 
 
 def _measure_cycles(
