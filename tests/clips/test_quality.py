@@ -13,12 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.loops import (
-    Carry,
-    find_carry,
-    make_loop,
-    measure_loop,
-)
+from kineme.clips.loops import Carry, find_carry, make_loop, measure_loop
 from kineme.clips.root_motion import (
     extract_root_motion,
     measure_root_motion,

@@ -10,13 +10,7 @@ from matplotlib.figure import Figure
 from scipy.stats import ttest_ind
 
 import kineme
-from kineme.cycles import (
-    Cycles,
-    channels_of,
-    compare_curves,
-    compare_sessions,
-    compare_sides,
-)
+from kineme.cycles import Cycles, channels_of, compare_curves, compare_sessions, compare_sides
 from kineme.cycles.channels import make_contact_channels
 from kineme.cycles.comparison import pair_sides
 from kineme.datasets.synthetic import SyntheticRecording

@@ -23,13 +23,7 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
-from kineme.cycles.borders import (
-    Features,
-    Run,
-    find_vertex,
-    make_run,
-    shift_to_common_phase,
-)
+from kineme.cycles.borders import Features, Run, find_vertex, make_run, shift_to_common_phase
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import (
     LONGEST,
