@@ -94,14 +94,6 @@ def test_clips_in_any_format_that_motions_are_written_in(tmp_path, motion, truth
     assert sorted(path.name for path in tmp_path.iterdir()) == ["amc", "trc"]
 
 
-def test_loops_play_without_a_jump(repetitions) -> None:
-    for clip in repetitions:
-        bare = Motion(clip.skeleton, clip.positions, clip.fps)
-        for looped, carry in (make_loop(clip), make_loop(bare)):
-            assert looped.n_frames == clip.n_frames
-            assert measure_seam(looped, carry) <= measure_largest_step(looped)
-
-
 def test_a_loop_keeps_bones_and_says_what_was_done(repetitions) -> None:
     clip = repetitions[0]
     looped, _ = make_loop(clip)

@@ -12,7 +12,6 @@ import pytest
 
 import kineme
 from kineme.clips.split import split
-from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import ParameterError
 from kineme.recordings import Motion
 from kineme.segments.segmentation import Segmentation
@@ -92,9 +91,7 @@ def test_a_root_bone_is_added_and_moves_as_the_body_does(data_dir: Path, tmp_pat
     assert away.max() < 0.1
 
 
-def test_any_recording_becomes_one_glb(tmp_path: Path) -> None:
-    motion = kineme.read(bundled_recording())
-    truth = kineme.read_segments(bundled_truth(), fps=motion.fps, n_frames=motion.n_frames)
+def test_any_recording_becomes_one_glb(tmp_path: Path, motion, truth) -> None:
     paths = split(motion, truth, tmp_path / "clips.glb", root_motion="extract", mirror=True)
     tree, _ = read_glb(tmp_path / "clips.glb")
     assert len(tree["animations"]) == len(paths) == len(truth.level("activity"))

@@ -9,12 +9,14 @@ import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 import kineme
 from kineme.clips.split import split
+from kineme.recordings import Motion
+from kineme.segments.segmentation import Segmentation
+from manifests import read_manifest
 
 ENGINES = Path(__file__).parents[2] / "engines"
 THREE = Path(kineme.__file__).parent / "web" / "pages" / "node_modules" / "three"
@@ -43,18 +45,12 @@ PROGRAM = """
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory, motion: Motion, truth: Segmentation) -> Path:
     """The best loops of the bundled recording in place, named, in a GLB."""
     place = tmp_path_factory.mktemp("engines") / "loops"
-    path = kineme.bundled_recording()
-    truth = kineme.read_segments(path.with_suffix(".json"))
     options = {"loops": True, "best": 1, "root_motion": "in-place", "close": True, "format": "glb"}
-    split(kineme.read(path), truth, place, level="primitive", **options)
+    split(motion, truth, place, level="primitive", **options)
     return place
-
-
-def read_clips(folder: Path) -> list[dict[str, Any]]:
-    return json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["clips"]
 
 
 @pytest.mark.skipif(GODOT is None, reason="needs Godot: apt-get install godot3-server")
@@ -70,7 +66,7 @@ def test_godot_has_every_clip_and_every_bone(folder: Path, tmp_path: Path) -> No
         )
     line = next(line for line in done.stdout.splitlines() if line.startswith("FOUND "))
     found = json.loads(line.removeprefix("FOUND "))["exercises.glb"]
-    clips = read_clips(folder)
+    clips = read_manifest(folder)
     assert found["clips"].keys() == {clip["take"] for clip in clips}
     for clip in clips:
         there = found["clips"][clip["take"]]
@@ -88,7 +84,7 @@ def test_three_has_every_clip_and_every_bone(folder: Path) -> None:
     command = [str(NODE), "-e", PROGRAM, str(THREE.resolve()), str(folder / "exercises.glb")]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     found = json.loads(done.stdout)
-    clips = read_clips(folder)
+    clips = read_manifest(folder)
     assert found["clips"].keys() == {clip["take"] for clip in clips}
     for clip in clips:
         assert found["clips"][clip["take"]] == pytest.approx(clip["round_s"], abs=1e-4)
@@ -101,7 +97,7 @@ def test_the_list_for_motion_matching_has_every_clip(folder: Path, tmp_path: Pat
     command = [sys.executable, str(script), str(folder / "manifest.json"), str(output)]
     subprocess.run(command, check=True)
     told = json.loads(output.read_text(encoding="utf-8"))
-    clips = read_clips(folder)
+    clips = read_manifest(folder)
     assert [each["sequence"] for each in told["clips"]] == [clip["name"] for clip in clips]
     for each, clip in zip(told["clips"], clips, strict=True):
         assert each["range_s"] == [0, clip["round_s"]]
@@ -127,7 +123,7 @@ def test_the_script_for_unreal_says_what_the_manifest_says(
         def get_name(self) -> str:
             return self.name
 
-    sequences = {clip["take"]: AnimSequence(clip["take"]) for clip in read_clips(folder)}
+    sequences = {clip["take"]: AnimSequence(clip["take"]) for clip in read_manifest(folder)}
     tools = SimpleNamespace(
         import_asset_tasks=lambda tasks: imported.extend(task.filename for task in tasks)
     )
@@ -152,7 +148,7 @@ def test_the_script_for_unreal_says_what_the_manifest_says(
     monkeypatch.setitem(sys.modules, "unreal", stand_in)
     script = runpy.run_path(str(ENGINES / "unreal" / "import_clips.py"))
     found = script["main"](str(folder), "/Game/Takes")
-    clips = read_clips(folder)
+    clips = read_manifest(folder)
     assert list(found) == [clip["name"] for clip in clips]
     assert imported == [str(folder / "exercises.glb")]
     spans = sum(len(spans) for clip in clips for spans in clip["planted"].values())

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
-from importlib.resources import files
 from pathlib import Path
 
 import jsonschema
@@ -16,10 +14,9 @@ import kineme
 from kineme.clips.options import make_clip_name, make_file_name, make_unique_name
 from kineme.clips.split import write_clips
 from kineme.recordings import Motion
-from kineme.recordings.operations import cut
 from kineme.segments.table import Segment
+from manifests import SCHEMA, read_manifest
 
-SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
 NAME = SCHEMA["properties"]["clips"]["items"]["properties"]["name"]
 
 words = st.sampled_from(["x", "X", "_", " ", "-", "1", "0000", "0001", "0002", "n0001", "é"])
@@ -47,15 +44,13 @@ def test_no_two_names_of_a_run_are_the_same_whatever_the_case(run) -> None:
 
 
 @pytest.mark.parametrize("suffix", ["trc", "glb"])
-def test_clips_whose_names_read_the_same_are_files_of_their_own(tmp_path: Path, suffix) -> None:
-    whole = kineme.read(kineme.bundled_recording())
-    motion = cut(whole, 0, 20)
-    row = kineme.read_segments(kineme.bundled_recording().with_suffix(".json")).activities[0]
-
+def test_clips_whose_names_read_the_same_are_files_of_their_own(
+    tmp_path: Path, motion: Motion, truth: kineme.Segmentation, suffix: str
+) -> None:
     def recording(name: str, *labels: str) -> tuple[Motion, list[Segment]]:
         provenance = replace(motion.provenance, path=f"{name}.bvh")
-        rows = [replace(row, stop_frame=10, label=label) for label in labels]
-        return replace(motion, provenance=provenance), rows
+        rows = [replace(truth.activities[0], stop_frame=10, label=label) for label in labels]
+        return replace(motion[:20], provenance=provenance), rows
 
     run = [
         recording("x_0001", "0002 y"),
@@ -64,7 +59,7 @@ def test_clips_whose_names_read_the_same_are_files_of_their_own(tmp_path: Path, 
         recording("X", "y", "y"),
     ]
     paths = write_clips(run, tmp_path / "clips", format=suffix)
-    told = json.loads((tmp_path / "clips" / "manifest.json").read_text(encoding="utf-8"))["clips"]
+    told = read_manifest(tmp_path / "clips")
     assert len({clip["name"].lower() for clip in told}) == len(told) == 5
     assert len({path.name.lower() for path in paths}) == (5 if suffix == "trc" else 4)
     for path, clip in zip(paths, told, strict=True):

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import struct
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,12 +14,9 @@ from kineme.clips.split import split, split_all
 from kineme.errors import ParameterError, WriteError
 from kineme.formats import list_takes
 from kineme.recordings.operations import cut
+from manifests import read_manifest
 
 pytestmark = pytest.mark.filterwarnings("ignore::kineme.errors.KinemeWarning")
-
-
-def read_clips(folder: Path, name: str = "manifest.json") -> list[dict]:
-    return json.loads((folder / name).read_text(encoding="utf-8"))["clips"]
 
 
 def test_names_follow_a_template(tmp_path, motion, truth) -> None:
@@ -30,7 +25,7 @@ def test_names_follow_a_template(tmp_path, motion, truth) -> None:
         "walk@forwards_00.bvh",
         "transition@in_place_01.bvh",
     ]
-    assert read_clips(tmp_path / "clips")[0]["name"] == "walk_forwards_00"
+    assert read_manifest(tmp_path / "clips")[0]["name"] == "walk_forwards_00"
     with pytest.raises(ParameterError, match=r"would have the name transition: put \{n\}"):
         split(motion, truth, tmp_path / "more", name="{label}")
     for wrong in ("walk", "{frame}", "{n.real}", "{n:q}", "{n"):
@@ -42,7 +37,7 @@ def test_names_follow_a_template(tmp_path, motion, truth) -> None:
 def test_a_rate_puts_borders_on_whole_frames_and_loops_still_close(tmp_path, motion, truth) -> None:
     options = {"level": "primitive", "loops": True, "cluster": 0, "fps": 25.0}
     split(motion, truth, tmp_path / "clips", **options, close=True)
-    for clip in read_clips(tmp_path / "clips"):
+    for clip in read_manifest(tmp_path / "clips"):
         loop = kineme.read(tmp_path / "clips" / clip["file"])
         assert loop.fps == clip["fps"] == 25.0
         assert clip["round_s"] == pytest.approx((loop.n_frames - 1) / 25.0)
@@ -64,7 +59,7 @@ def test_targets_set_format_root_bone_and_names(
     tmp_path, motion, truth, target, file, root
 ) -> None:
     split(motion, truth, tmp_path / "clips", cluster=0, target=target, loops=True)
-    (clip, *_) = [each for each in read_clips(tmp_path / "clips") if each["start_frame"] == 0]
+    (clip, *_) = [each for each in read_manifest(tmp_path / "clips") if each["start_frame"] == 0]
     assert clip["file"] == file
     assert ("close" in clip["changes"]) == (target != "blender")
     assert clip["name"].endswith("_loop") == (target == "godot")
@@ -81,7 +76,7 @@ def test_all_takes_of_a_character_are_animations_of_one_copy(data_dir, tmp_path)
         motion = kineme.read(source, take=take)
         found.append((motion, kineme.segment(motion)))
     split_all(found, target)
-    clips = read_clips(tmp_path, "clips.manifest.json")
+    clips = read_manifest(tmp_path, "clips.manifest.json")
     assert {clip["take"].split("_")[0] for clip in clips} == {"agree", "headShake", "idle"}
     assert {*list_takes(target)} == {clip["take"] for clip in clips}
     assert {clip["source_take"] for clip in clips} == {"agree", "headShake", "idle"}

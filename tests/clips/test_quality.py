@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
-from importlib.resources import files
 from math import degrees
 from pathlib import Path
 
-import jsonschema
 import numpy as np
 import pandas as pd
 import pytest
@@ -16,12 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import kineme
-from kineme.clips.loops import (
-    Carry,
-    find_carry,
-    make_loop,
-    measure_loop,
-)
+from kineme.clips.loops import Carry, find_carry, make_loop, measure_loop
 from kineme.clips.root_motion import (
     extract_root_motion,
     measure_root_motion,
@@ -34,15 +26,8 @@ from kineme.features import compute_heading
 from kineme.recordings import Motion
 from kineme.recordings.carriers import place_frames
 from kineme.recordings.operations import cut
+from manifests import read_manifest
 from segmentations import make_activities
-
-SCHEMA = json.loads(files("kineme.clips").joinpath("manifest.schema.json").read_text("utf-8"))
-
-
-def read_manifest(folder: Path) -> list[dict]:
-    told = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
-    jsonschema.validate(told, SCHEMA)
-    return told["clips"]
 
 
 def play_rounds(motion: Motion, carry: Carry, n: int) -> np.ndarray:
@@ -60,6 +45,7 @@ def test_speed_and_acceleration_meet_at_the_seam(repetitions) -> None:
             twice, n = play_rounds(closed, carry, 2), closed.n_frames
             changes = np.linalg.norm(np.diff(twice, 2, axis=0), axis=-1).mean(axis=1)
             assert changes[n - 2 : n].max() <= 1.05 * changes[: n - 2].max()
+            assert n == clip.n_frames
 
 
 def test_planted_feet_that_are_dragged_slide(motion) -> None:
@@ -84,20 +70,13 @@ def test_loops_in_place_close_where_they_are_and_their_root_motion_brings_them_b
         assert np.abs(still.positions[:, 0, [0, 2]].mean(axis=0)).max() < 1e-9
         assert root.turn == pytest.approx(carry.turn * fps / n)
         # Put on its path again, it moves as before, seen from its first frame.
-        place, facing, moved = np.zeros(2), 0.0, []
-        parts = 200
-        for pose in still.positions:
-            c, s = np.cos(facing), np.sin(facing)
-            x, z = pose[:, 0], pose[:, 2]
-            moved.append(np.stack([x * c + z * s + place[0], z * c - x * s + place[1]], axis=-1))
-            for part in range(parts):
-                at = facing + root.turn / fps * (part + 0.5) / parts
-                step = [root.x * np.cos(at) + root.z * np.sin(at),
-                        root.z * np.cos(at) - root.x * np.sin(at)]  # fmt: skip
-                place = place + np.array(step) / fps / parts
-            facing += root.turn / fps
-        there, here = np.array(moved), closed.positions[..., [0, 2]]
-        apart = [np.linalg.norm(each - each[:1, :1], axis=-1) for each in (there, here)]
+        # Floor positions are x + iz, which a turn multiplies by exp(-i turn).
+        turn, parts = root.turn / fps, 200
+        steps = np.exp(-1j * turn * (np.arange(n * parts) + 0.5) / parts) / fps / parts
+        path = np.concatenate([[0], (root.x + 1j * root.z) * np.cumsum(steps)])[:-1:parts]
+        turned = (still.positions @ [1, 0, 1j]) * np.exp(-1j * turn * np.arange(n))[:, None]
+        there, here = turned + path[:, None], closed.positions @ [1, 0, 1j]
+        apart = [np.abs(each - each[0, 0]) for each in (there, here)]
         assert np.abs(apart[0] - apart[1]).max() < 1e-4
 
 

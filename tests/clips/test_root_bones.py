@@ -17,7 +17,6 @@ from kineme.clips.root_motion import (
     straighten,
 )
 from kineme.clips.shaping import find_planted_feet, measure_loops
-from kineme.datasets import bundled_truth
 from kineme.features import measure_body_size
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.carriers import find_still_joints
@@ -68,8 +67,8 @@ def test_size_and_segments_are_the_same(motion, rooted) -> None:
     assert kineme.segment(rooted).table == kineme.segment(motion).table
 
 
-def test_clips_in_place_and_their_motion_are_the_same(motion, rooted) -> None:
-    for row in kineme.read_segments(bundled_truth()).primitives:
+def test_clips_in_place_and_their_motion_are_the_same(motion, truth, rooted) -> None:
+    for row in truth.primitives:
         clip, other = (cut(each, row.start_frame, row.stop_frame) for each in (motion, rooted))
         carry, with_bone = find_carry(clip), find_carry(other)
         assert (carry.turn, carry.x, carry.z) == pytest.approx(
@@ -82,8 +81,8 @@ def test_clips_in_place_and_their_motion_are_the_same(motion, rooted) -> None:
         check_body(still, still_rooted)
 
 
-def test_straight_and_closed_clips_are_the_same(motion, rooted) -> None:
-    for row in kineme.read_segments(bundled_truth()).primitives[:4]:
+def test_straight_and_closed_clips_are_the_same(motion, truth, rooted) -> None:
+    for row in truth.primitives[:4]:
         clip, other = (cut(each, row.start_frame, row.stop_frame) for each in (motion, rooted))
         carry = find_carry(clip)
         check_body(straighten(clip, carry)[0], straighten(other, carry)[0])
@@ -101,8 +100,7 @@ def test_a_root_bone_that_moves_stays_below_the_body(motion) -> None:
     np.testing.assert_allclose(again[-1], carry.apply(again[0]), atol=1e-9)
 
 
-def test_root_bones_at_two_places_do_not_move_the_body(motion, rooted) -> None:
-    truth = kineme.read_segments(bundled_truth())
+def test_root_bones_at_two_places_do_not_move_the_body(motion, truth, rooted) -> None:
     aside = np.array(rooted.positions)
     aside[:, find_still_joints(rooted)] += [3.0, 0, 0]
     graph = kineme.motion_graph([motion, motion], [truth, truth])
@@ -135,8 +133,7 @@ def test_loops_rank_the_same(motion, rooted) -> None:
         assert quality.cost == pytest.approx(other[index].cost, rel=1e-6)
 
 
-def test_the_motion_graph_is_the_same(motion, rooted) -> None:
-    truth = kineme.read_segments(bundled_truth())
+def test_the_motion_graph_is_the_same(motion, truth, rooted) -> None:
     graph, other = (kineme.motion_graph([each], [truth]) for each in (motion, rooted))
     assert [(e.tail, e.head, e.leave, e.enter) for e in graph.edges] == [
         (e.tail, e.head, e.leave, e.enter) for e in other.edges

@@ -1,12 +1,23 @@
-"""The synthetic figure at known angles."""
+"""The synthetic figure at known angles, and recordings that not every set has."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from kineme.datasets.figure import ANGLES, compute_joint_rotations, make_figure
 from kineme.recordings import Motion
+
+
+def find_recording(data_dir: Path, name: str) -> Path:
+    """Return the path of a recording; skip the test without it."""
+    path = data_dir / name
+    if not path.exists():
+        pytest.skip(f"no {name} among the recordings")
+    return path
 
 
 def pose_figure(fps: float = 60.0, **angles: NDArray[np.float64]) -> Motion:

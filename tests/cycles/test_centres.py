@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from posed_figures import pose_figure
+from posed_figures import find_recording, pose_figure
 
 import kineme
 from kineme._util import rotations as rot
@@ -18,28 +18,34 @@ from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.kinematics import compute_world_rotations
 
-CLUSTER = np.array([[0.08, -0.1, 0.02], [0.06, -0.2, -0.05], [0.09, -0.3, 0.04]])
+CLUSTER = [(0.08, -0.1, 0.02), (0.06, -0.2, -0.05), (0.09, -0.3, 0.04)]
+Points = dict[str, tuple[str, tuple[float, float, float]]]
+"""Joint of each marker, and its offset from that in metres."""
+
+
+def place_points(motion: Motion, points: Points, noise: float = 0.0) -> Motion:
+    """Return markers that are fixed to joints of a figure, without its rotations."""
+    turned = compute_world_rotations(motion.skeleton, motion.rotations)
+    joints = [motion.skeleton.joint(joint) for joint, _ in points.values()]
+    offsets = np.array([offset for _, offset in points.values()])
+    positions = motion.positions[:, joints] + rot.rotate(turned[:, joints], offsets)
+    positions = positions + noise * np.random.default_rng(1).normal(size=positions.shape)
+    parents = [-1, *[0] * (len(points) - 1)]
+    skeleton = Skeleton(tuple(points), parents, np.zeros((len(points), 3)))
+    return Motion(skeleton, positions, motion.fps)
 
 
 def place_markers(motion: Motion, noise: float = 0.0) -> Motion:
     """Hips, ankles, toes and shoulders of a figure, and three markers on each thigh and shank."""
-    turned = compute_world_rotations(motion.skeleton, motion.rotations)
-    places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
-    for side in ("Left", "Right"):
+    points: Points = {"pelvis": ("Hips", (0, 0, 0))}
+    for side, outwards in (("Left", 1), ("Right", -1)):
         for name, joint in (("hip", "UpLeg"), ("ankle", "Foot"), ("toe", "ToeBase"),
                             ("shoulder", "Arm")):  # fmt: skip
-            joint = motion.skeleton.joint(f"{side}{joint}")
-            places[f"{side.lower()}_{name}"] = motion.positions[:, joint]
+            points[f"{side.lower()}_{name}"] = f"{side}{joint}", (0, 0, 0)
         for body, joint in (("Thigh", "UpLeg"), ("Shank", "Leg")):
-            j = motion.skeleton.joint(f"{side}{joint}")
-            for n, offset in enumerate(CLUSTER * [1 if side == "Left" else -1, 1, 1]):
-                at = rot.rotate(turned[:, j], np.broadcast_to(offset, (motion.n_frames, 3)))
-                places[f"{side}{body}{n}"] = motion.positions[:, j] + at
-    positions = np.stack([*places.values()], axis=1)
-    positions = positions + noise * np.random.default_rng(1).normal(size=positions.shape)
-    parents = [-1, *[0] * (len(places) - 1)]
-    skeleton = Skeleton(tuple(places), parents, np.zeros((len(places), 3)))
-    return Motion(skeleton, positions, motion.fps)
+            for n, (x, y, z) in enumerate(CLUSTER):
+                points[f"{side}{body}{n}"] = f"{side}{joint}", (outwards * x, y, z)
+    return place_points(motion, points, noise)
 
 
 @pytest.mark.parametrize(("noise", "most"), [(0.0, 2.0), (0.003, 3.0)])
@@ -59,22 +65,18 @@ def test_a_knee_that_is_not_bent_has_no_centre() -> None:
     assert not any(channel.name.startswith("knee") for channel in channels_of(still))
 
 
-def place_skin_markers(motion: Motion) -> Motion:
+def place_skin_markers(motion: Motion, more: Points | None = None) -> Motion:
     """Centres of hips of a figure, and markers beside thighs, knees and ankles, on its skin."""
-    turned = compute_world_rotations(motion.skeleton, motion.rotations)
-    places: dict[str, np.ndarray] = {"pelvis": motion.positions[:, 0]}
+    points: Points = {"pelvis": ("Hips", (0, 0, 0))}
     for side, outwards in (("Left", 1), ("Right", -1)):
-        for name, joint, offset in (
+        for name, joint, (x, y, z) in (
             ("HJC", "UpLeg", (0, 0, 0)),
             ("THI", "UpLeg", (0.1, -0.2, -0.03)),
             ("KNE", "Leg", (0.06, 0, 0)),
             ("ANK", "Leg", (0.05, -0.4, 0)),
         ):
-            j = motion.skeleton.joint(f"{side}{joint}")
-            local = np.broadcast_to(np.array(offset) * [outwards, 1, 1], (motion.n_frames, 3))
-            places[f"{side[0]}{name}"] = motion.positions[:, j] + rot.rotate(turned[:, j], local)
-    skeleton = Skeleton(tuple(places), [-1, *[0] * (len(places) - 1)], np.zeros((len(places), 3)))
-    return Motion(skeleton, np.stack([*places.values()], axis=1), motion.fps)
+            points[f"{side[0]}{name}"] = f"{side}{joint}", (outwards * x, y, z)
+    return place_points(motion, points | (more or {}))
 
 
 @pytest.mark.parametrize("spread", [0.0, 25.0])
@@ -87,37 +89,26 @@ def test_a_marker_beside_the_knee_does_not_bend_a_straight_leg(spread: float) ->
 
 
 def test_a_knee_that_hardly_moves_is_bent_about_the_line_of_the_hips() -> None:
-    found = channels_of(place_skin_markers(pose_figure(left_knee=np.full(50, -8.0))), ["knee_l"])[
-        0
-    ].values()
-    np.testing.assert_allclose(found, -8, atol=1.5)
+    still = place_skin_markers(pose_figure(left_knee=np.full(50, -8.0)))
+    np.testing.assert_allclose(channels_of(still, ["knee_l"])[0].values(), -8, atol=1.5)
 
 
 def test_a_pelvis_with_markers_gives_hips_without_a_trunk() -> None:
     true = 20 * np.sin(np.linspace(0, 4 * np.pi, 200)) + 10
     tilt = 15 * np.cos(np.linspace(0, 2 * np.pi, 200))
     motion = pose_figure(left_hip=true, left_knee=true + 30, tilt=tilt)
-    skin = place_skin_markers(motion)
-    turned = compute_world_rotations(motion.skeleton, motion.rotations)[:, 0]
-    offsets = {"LASI": (0.12, 0.05, 0.1), "RASI": (-0.12, 0.05, 0.1),
-               "LPSI": (0.05, 0.05, -0.1), "RPSI": (-0.05, 0.05, -0.1)}  # fmt: skip
-    at = [motion.positions[:, 0] + rot.rotate(turned, np.broadcast_to(offset, (200, 3)))
-          for offset in offsets.values()]  # fmt: skip
-    names = (*skin.skeleton.names, *offsets)
-    skeleton = Skeleton(names, [-1, *[0] * (len(names) - 1)], np.zeros((len(names), 3)))
-    positions = np.concatenate([skin.positions, np.stack(at, axis=1)], axis=1)
-    found = channels_of(Motion(skeleton, positions, skin.fps), ["hip_l"])[0]
+    pelvis = {"LASI": (0.12, 0.05, 0.1), "RASI": (-0.12, 0.05, 0.1),
+              "LPSI": (0.05, 0.05, -0.1), "RPSI": (-0.05, 0.05, -0.1)}  # fmt: skip
+    skin = place_skin_markers(motion, {name: ("Hips", at) for name, at in pelvis.items()})
+    found = channels_of(skin, ["hip_l"])[0]
     assert found.source.startswith("against the pelvis")
     assert np.sqrt(np.mean((found.values() - true) ** 2)) < 2
 
 
 def test_knees_and_hips_of_walks_are_those_of_plug_in_gait(data_dir: Path) -> None:
     """All walks, and ankles, too: a benchmark."""
-    folder = data_dir / "gait" / "overground"
-    if not folder.is_dir():
-        pytest.skip("no gait/overground among the recordings")
     for name in ("HC030A05", "HC038A11"):
-        path = folder / f"{name}.c3d"
+        path = find_recording(data_dir, f"gait/overground/{name}.c3d")
         file = parse_c3d(load(path))
         for side, joint in product("LR", ("Knee", "Hip")):
             true = file.points[:, file.labels.index(f"{side}{joint}Angles"), 0]

@@ -10,19 +10,14 @@ from matplotlib.figure import Figure
 from scipy.stats import ttest_ind
 
 import kineme
-from kineme.cycles import (
-    Cycles,
-    channels_of,
-    compare_curves,
-    compare_sessions,
-    compare_sides,
-)
+from kineme.cycles import Cycles, channels_of, compare_curves, compare_sessions, compare_sides
 from kineme.cycles.channels import make_contact_channels
 from kineme.cycles.comparison import pair_sides
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.plot import plot_sides
 from kineme.recordings import Signals
+from rows import pick_row
 
 
 @pytest.fixture(scope="module")
@@ -73,42 +68,35 @@ def test_one_cycle_has_no_bounds_and_none_no_means(cycles: Cycles) -> None:
     assert np.isnan(none["left"]).all()
 
 
+def compare_peaks(cycles: Cycles, left: float, right: list[float]) -> dict[str, float]:
+    """Compare the sides of walks in which the knees have their maxima at these times."""
+    n = len(cycles)
+    times = {"knee_l.max_at": np.full(n, left), "knee_r.max_at": np.resize(right, n)}
+    sides = compare_sides(replace(cycles, columns=cycles.columns | times), ends=True)
+    return pick_row(sides, group="walk", measure="max_at")
+
+
 def test_times_on_both_sides_of_the_end_are_near(cycles: Cycles) -> None:
-    columns = {
-        **cycles.columns,
-        "knee_l.max_at": np.full(len(cycles), 99.0),
-        "knee_r.max_at": np.full(len(cycles), 2.0),
-    }
-    sides = compare_sides(replace(cycles, columns=columns))
-    at = (sides["measure"] == "max_at") & (sides["group"] == "walk")
-    assert np.allclose(sides["difference"][at], -3)
-    assert np.allclose([sides["left"][at], sides["right"][at]], [[99], [2]])
+    walk = compare_peaks(cycles, 99.0, [2.0])
+    assert (walk["difference"], walk["left"], walk["right"]) == pytest.approx((-3, 99, 2))
 
 
 def test_sides_in_antiphase_differ_by_half_a_cycle(cycles: Cycles) -> None:
-    columns = {
-        **cycles.columns,
-        "knee_l.max_at": np.full(len(cycles), 72.0),
-        "knee_r.max_at": np.resize([23.0, 21.0, 22.0, 20.5], len(cycles)),
-    }
-    sides = compare_sides(replace(cycles, columns=columns), ends=True)
-    at = (sides["measure"] == "max_at") & (sides["group"] == "walk")
-    assert np.abs(sides["difference"][at]) == pytest.approx(50, abs=1)
-    assert (sides["high"] - sides["low"])[at] < 3
+    walk = compare_peaks(cycles, 72.0, [23.0, 21.0, 22.0, 20.5])
+    assert abs(walk["difference"]) == pytest.approx(50, abs=1)
+    assert walk["high"] - walk["low"] < 3
 
 
 def test_differences_and_bounds_are_those_of_welch(cycles) -> None:
     duration = cycles.columns["duration_s"]
     slow = duration * np.where(np.arange(len(cycles)) % 2, 1.2, 1.3)
     later = replace(cycles, columns={**cycles.columns, "duration_s": slow})
-    table = compare_sessions(cycles, later)
-    row = np.flatnonzero((table["group"] == "squat") & (table["measure"] == "duration_s"))[0]
+    row = pick_row(compare_sessions(cycles, later), group="squat", measure="duration_s")
     used = cycles.used() & (cycles.columns["group"] == "squat")
     test = ttest_ind(slow[used], duration[used], equal_var=False)
     bounds = test.confidence_interval()
-    assert table["difference"][row] == pytest.approx(slow[used].mean() - duration[used].mean())
-    assert table["low"][row] == pytest.approx(bounds.low)
-    assert table["high"][row] == pytest.approx(bounds.high)
+    assert row["difference"] == pytest.approx(slow[used].mean() - duration[used].mean())
+    assert (row["low"], row["high"]) == pytest.approx((bounds.low, bounds.high))
 
 
 def test_curves_are_compared_group_by_group_whatever_their_order(cycles) -> None:

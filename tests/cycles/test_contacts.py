@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from posed_figures import find_recording
 
 import kineme
 from kineme._util import rotations as rot
@@ -25,19 +26,23 @@ from kineme.cycles import (
 from kineme.datasets import Action, synthesize
 from kineme.errors import KinemeWarning, ParameterError
 from kineme.recordings import Motion, Signals, Skeleton
+from rows import pick_row
 
 FPS = 100.0
 
 
-def make_steps(n: int = 6, period: float = 1.1) -> np.ndarray:
-    """How a foot turns over so many steps, about one axis."""
-    t = np.arange(0, 1 + n * period, 1 / FPS)
-    rate = np.zeros(len(t))
-    for step in range(n):
-        at = 1 + step * period
-        for when, high, wide in ((-0.25, 8.0, 0.05), (0.0, -5.5, 0.09), (0.2, 4.5, 0.03)):
-            rate += high * np.exp(-((t - at - when) ** 2) / 2 / wide**2)
+def make_turns(seconds: float, *turns: tuple[float, float, float]) -> np.ndarray:
+    """How a foot turns about one axis: when, how fast and for how long."""
+    t = np.arange(0, seconds, 1 / FPS)
+    rate = sum(high * np.exp(-((t - when) ** 2) / 2 / wide**2) for when, high, wide in turns)
     return np.column_stack([0 * t, rate, 0 * t])
+
+
+def make_steps(n: int = 6, period: float = 1.1) -> np.ndarray:
+    """How a foot turns over so many steps."""
+    step = (-0.25, 8.0, 0.05), (0.0, -5.5, 0.09), (0.2, 4.5, 0.03)
+    turns = [(1 + k * period + when, *turn) for k in range(n) for when, *turn in step]
+    return make_turns(1 + n * period, *turns)
 
 
 @given(st.floats(0.01, 100), st.tuples(*[st.floats(-3, 3)] * 3))
@@ -58,10 +63,7 @@ def test_a_swing_is_between_the_turns_of_the_foot() -> None:
 
 def test_a_foot_that_is_slow_between_heel_and_swing_takes_one_step() -> None:
     rates = make_steps()
-    t = np.arange(0, 3, 1 / FPS)
-    slow = np.zeros((len(t), 3))
-    for when, high, wide in ((1.0, 3.0, 0.06), (1.5, -3.0, 0.09), (1.72, 3.0, 0.03)):
-        slow[:, 1] += high * np.exp(-((t - when) ** 2) / 2 / wide**2)
+    slow = make_turns(3, (1.0, 3.0, 0.06), (1.5, -3.0, 0.09), (1.72, 3.0, 0.03))
     found = swings_from_gyroscope(np.concatenate([rates, slow]), FPS)
     assert len(found) == 7
     start = len(rates) / FPS
@@ -104,8 +106,12 @@ def test_contacts_of_a_plate_are_those_that_its_file_marks(data_dir: Path) -> No
         assert found.at(name) == pytest.approx([marked[mark]], abs=0.04)
 
 
-def test_a_walk_has_steps_of_both_feet_in_turn() -> None:
-    walk = synthesize([Action("walk", 8)], fps=120, seed=1).motion
+@pytest.fixture(scope="module")
+def walk() -> Motion:
+    return synthesize([Action("walk", 8)], fps=100, seed=1).motion
+
+
+def test_a_walk_has_steps_of_both_feet_in_turn(walk: Motion) -> None:
     events = foot_events(walk)
     left, right = events.at("left foot strike"), events.at("right_foot_contact")
     assert 7 <= len(left) <= 8
@@ -113,7 +119,7 @@ def test_a_walk_has_steps_of_both_feet_in_turn() -> None:
     both = sorted([(at, 0) for at in left] + [(at, 1) for at in right])
     assert all(a[1] != b[1] for a, b in pairwise(both))
     table = gait(events, walk)
-    values = dict(zip(table["measure"].tolist(), table["left_mean"].tolist(), strict=True))
+    values = {name: pick_row(table, measure=name)["left_mean"] for name in table["measure"]}
     assert values["stride_s"] == pytest.approx(1.1, abs=0.03)
     assert values["stance_s"] + values["swing_s"] == pytest.approx(values["stride_s"])
     assert values["cadence_per_min"] == pytest.approx(120 / 1.1, rel=0.03)
@@ -130,22 +136,24 @@ def put_on_a_belt(walk: Motion, speed: float) -> Motion:
     return replace(walk, positions=walk.positions - seconds * speed * forward, rotations=None)
 
 
-def test_a_walk_on_a_treadmill_has_the_contacts_of_the_same_walk_overground() -> None:
-    walk = synthesize([Action("walk", 8)], fps=100, seed=1).motion
+def test_a_walk_on_a_treadmill_has_the_contacts_of_the_same_walk_overground(walk: Motion) -> None:
     travel = (walk.positions[-1, 0] - walk.positions[0, 0]) * [1, 0, 1]
     belt = put_on_a_belt(walk, float(np.linalg.norm(travel)) / walk.duration)
     overground, carried = foot_events(walk), foot_events(belt)
     for name in {*overground.names.tolist()}:
         np.testing.assert_allclose(carried.at(name), overground.at(name), atol=0.03)
-    tables = [gait(overground, walk), gait(carried, belt)]
-    lengths = [dict(zip(t["measure"], t["left_mean"], strict=True))["stride_m"] for t in tables]
+    lengths = [
+        pick_row(gait(*each), measure="stride_m")["left_mean"]
+        for each in ((overground, walk), (carried, belt))
+    ]
     # The feet of the figure slide back by 0.06 m/s while they stand.
     assert lengths[1] == pytest.approx(lengths[0], rel=0.07)
 
 
 @pytest.mark.parametrize("slope", [-0.1, 0.05, 0.15])
-def test_a_walk_on_a_ramp_has_the_contacts_of_the_same_walk_on_level_ground(slope: float) -> None:
-    walk = synthesize([Action("walk", 8)], fps=100, seed=1).motion
+def test_a_walk_on_a_ramp_has_the_contacts_of_the_same_walk_on_level_ground(
+    walk: Motion, slope: float
+) -> None:
     ahead = (walk.positions[-1, 0] - walk.positions[0, 0]) * [1, 0, 1]
     rise = slope * (walk.positions @ ahead) / np.linalg.norm(ahead)
     ramp = walk.positions + rise[..., None] * [0, 1, 0]
@@ -156,28 +164,21 @@ def test_a_walk_on_a_ramp_has_the_contacts_of_the_same_walk_on_level_ground(slop
 
 
 def test_contacts_on_a_treadmill_are_those_that_its_file_marks(data_dir: Path) -> None:
-    path = data_dir / "gait" / "treadmill" / "treadmill_events.c3d"
-    if not path.is_file():
-        pytest.skip("no gait/treadmill among the recordings")
-    motion = kineme.read(path)
+    motion = kineme.read(find_recording(data_dir, "gait/treadmill/treadmill_events.c3d"))
     events = foot_events(replace(motion, provenance=motion.provenance.marked(())))
     near = [np.abs(events.at(name) - at).min() <= 0.05 for at, name in motion.provenance.events]
     assert len(near) == 43
     assert sum(near) >= 41
     assert len(events) <= 45
-    table = gait(events, motion)
-    speed = table["measure"].tolist().index("speed_m_per_s")
+    speed = pick_row(gait(events, motion), measure="speed_m_per_s")
     for side in ("left", "right"):  # heel and toe of a flat foot move at 1.093 to 1.1 m/s
-        assert table[f"{side}_mean"][speed] == pytest.approx(1.095, abs=0.01)
+        assert speed[f"{side}_mean"] == pytest.approx(1.095, abs=0.01)
 
 
 def test_contacts_of_markers_are_near_those_of_plates(data_dir: Path) -> None:
-    folder = data_dir / "gait" / "overground"
-    if not folder.is_dir():
-        pytest.skip("no gait/overground among the recordings")
     apart = []
     for name in ("HC030A05", "HC032A03", "HC038A11"):
-        path = folder / f"{name}.c3d"
+        path = find_recording(data_dir, f"gait/overground/{name}.c3d")
         plates = foot_events(kineme.read(path, columns=["Fz*"]), left="Fz1", right="Fz2")
         motion = kineme.read(path)
         found = foot_events(replace(motion, provenance=motion.provenance.marked(())))
@@ -195,8 +196,9 @@ def pick_markers(walk: Motion, **joints: str) -> Motion:
     return Motion(skeleton, walk.positions[:, chosen], walk.fps)
 
 
-def test_both_feet_are_found_from_the_same_markers_and_a_missing_one_is_warned_of() -> None:
-    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+def test_both_feet_are_found_from_the_same_markers_and_a_missing_one_is_warned_of(
+    walk: Motion,
+) -> None:
     ankles = {"LANK": "LeftFoot", "RANK": "RightFoot"}
     heels, toes = {"LCAL": "LeftFoot", "RCAL": "RightFoot"}, {"LHLX": "LeftToeBase"}
     both = toes | {"RHLX": "RightToeBase"}
@@ -212,8 +214,7 @@ def test_both_feet_are_found_from_the_same_markers_and_a_missing_one_is_warned_o
         foot_events(pick_markers(walk, **unknown))
 
 
-def test_marks_of_people_replace_contacts_that_are_found() -> None:
-    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+def test_marks_of_people_replace_contacts_that_are_found(walk: Motion) -> None:
     found = foot_events(walk)
     first, second, *_ = found.at("left foot strike").tolist()
     marks = [(first + 0.05, "Left Foot Strike"), (second - 0.45, "Left Foot Strike")]
@@ -224,8 +225,7 @@ def test_marks_of_people_replace_contacts_that_are_found() -> None:
     assert events.sources["left"].endswith("2 of them marked in the file")
 
 
-def test_a_gait_that_nobody_has_is_warned_of() -> None:
-    walk = synthesize([Action("walk", 8)], fps=100, seed=1).motion
+def test_a_gait_that_nobody_has_is_warned_of(walk: Motion) -> None:
     events = foot_events(walk)
     with warnings.catch_warnings():
         warnings.simplefilter("error", KinemeWarning)
@@ -236,15 +236,14 @@ def test_a_gait_that_nobody_has_is_warned_of() -> None:
         gait(replace(events, times=times))
 
 
-def test_events_become_labels(tmp_path: Path) -> None:
-    walk = synthesize([Action("walk", 4)], fps=60, seed=1).motion
+def test_events_become_labels(walk: Motion, tmp_path: Path) -> None:
     events = foot_events(walk)
     spans = events.segmentation("left foot strike")
     assert spans.n_frames == walk.n_frames
     named = spans.activities.select(spans.activities.label == "left foot strike")
-    assert named.start_frame.tolist() == np.rint(60 * events.at("left foot strike")).tolist()
+    assert named.start_frame.tolist() == np.rint(100 * events.at("left foot strike")).tolist()
     kineme.write_segments(events.segmentation(), tmp_path / "e.TextGrid")
-    labels = kineme.read_segments(tmp_path / "e.TextGrid", fps=60).activities.label
+    labels = kineme.read_segments(tmp_path / "e.TextGrid", fps=100).activities.label
     assert {*labels.tolist()} >= {"left foot strike", "right foot off"}
     with pytest.raises(ParameterError, match="there is no event hop"):
         events.segmentation("hop")
@@ -293,9 +292,7 @@ def test_gaps_hold_no_steps() -> None:
 
 def test_contacts_checked_by_people_are_found(data_dir: Path) -> None:
     """One recording of people who walk with sensors at their feet; all of them: a benchmark."""
-    folder = data_dir / "sets" / "ipolgait"
-    if not folder.is_dir():
-        pytest.skip("no sets/ipolgait among the recordings")
+    folder = find_recording(data_dir, "sets/ipolgait")
     true = defaultdict(list)
     for line in (folder / "events.csv").read_text().splitlines()[1:]:
         recording, foot, _, on = line.split(",")
@@ -309,8 +306,7 @@ def test_contacts_checked_by_people_are_found(data_dir: Path) -> None:
         assert abs(len(found) - len(times)) <= 1
 
 
-def test_marks_outside_a_cropped_recording_are_left_out() -> None:
-    walk = synthesize([Action("walk", 4)], fps=100, seed=1).motion
+def test_marks_outside_a_cropped_recording_are_left_out(walk: Motion) -> None:
     plain = foot_events(walk)
     mark = float(plain.at("left foot strike")[0])
     events = [(at, "Left Foot Strike") for at in (-0.5, mark, mark, 1000.0)]

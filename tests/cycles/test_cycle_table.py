@@ -16,6 +16,7 @@ from kineme.recordings import Motion, Signals
 from kineme.recordings.operations import cut
 from kineme.segments.editing import exclude
 from kineme.segments.segmentation import Segmentation
+from rows import pick_row
 from segmentations import from_rows, one_activity
 
 
@@ -90,18 +91,14 @@ def test_statistics_are_those_of_the_curve(cycles) -> None:
 
 
 def test_the_summary_is_over_inner_cycles(cycles) -> None:
-    summary = cycles.summary()
-    rows = (summary["group"] == "squat") & (summary["measure"] == "duration_s")
-    durations = cycles.columns["duration_s"][find_rows(cycles, "squat")]
-    assert summary["n"][rows] == [3]
-    assert summary["mean"][rows][0] == pytest.approx(durations[1:-1].mean())
-    assert summary["cv"][rows][0] == pytest.approx(
-        durations[1:-1].std(ddof=1) / durations[1:-1].mean()
-    )
-    whole = cycles.summary(ends=True)
-    assert whole["n"][rows] == [5]
-    cadence = (summary["group"] == "squat") & (summary["measure"] == "cadence_per_min")
-    assert summary["mean"][cadence][0] == pytest.approx((60 / durations[1:-1]).mean())
+    inner = cycles.columns["duration_s"][find_rows(cycles, "squat")][1:-1]
+    duration = pick_row(cycles.summary(), group="squat", measure="duration_s")
+    assert duration["n"] == 3
+    assert duration["mean"] == pytest.approx(inner.mean())
+    assert duration["cv"] == pytest.approx(inner.std(ddof=1) / inner.mean())
+    assert pick_row(cycles.summary(ends=True), group="squat", measure="duration_s")["n"] == 5
+    cadence = pick_row(cycles.summary(), group="squat", measure="cadence_per_min")
+    assert cadence["mean"] == pytest.approx((60 / inner).mean())
 
 
 def test_mean_curves_have_a_band(cycles) -> None:
@@ -178,8 +175,7 @@ def test_a_gap_in_a_cycle_makes_its_values_missing(walks) -> None:
     assert np.isnan(cycles.curves[missing]).any()
     assert cycles.layout("knee_l", "squat").shape[0] in (2, 3)
     summary = cycles.summary(ends=True)
-    rows = (summary["group"] == "squat") & (summary["measure"] == "knee_l.range")
-    assert summary["n"][rows] == [4]
+    assert pick_row(summary, group="squat", measure="knee_l.range")["n"] == 4
 
 
 def test_one_repetition_has_no_deviation_and_none_is_no_error(walks) -> None:
@@ -265,9 +261,8 @@ def test_each_side_begins_at_its_own_foot(walks) -> None:
     assert (in_right | np.isnan(own["knee_r"])).all()
     assert in_right.sum() >= 8
     assert "begin at the contacts of the right foot" in both.provenance["notes"][-1]
-    sides = compare_sides(both)
-    walk = (sides["measure"] == "max_at") & (sides["group"] == "walk")
-    assert sides["difference"][walk] == pytest.approx(0, abs=5)
+    latest = pick_row(compare_sides(both), group="walk", measure="max_at")
+    assert latest["difference"] == pytest.approx(0, abs=5)
 
 
 def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
@@ -281,8 +276,9 @@ def test_seconds_and_events_of_the_file_are_anchors(walks) -> None:
     marked = replace(walks.motion, provenance=provenance)
     by_name = kineme.cycles(marked, walks.truth, channels=["knee_r"], anchor="deepest")
     np.testing.assert_allclose(by_name.columns["start_s"][rows], middles[:-1])
-    with pytest.raises(ParameterError, match="no event 'deepst'; there are Deepest, left foot"):
-        kineme.cycles(marked, walks.truth, anchor="deepst")
+    for anchor in ("deepst", "knee_r > 1.2.3"):
+        with pytest.raises(ParameterError, match=f"no event '{anchor}'; there are Deepest, left"):
+            kineme.cycles(marked, walks.truth, anchor=anchor)
 
 
 def test_an_event_of_the_file_corrects_the_contact_near_it_and_the_others_stay(walks) -> None:
@@ -325,12 +321,10 @@ def test_the_room_can_be_called_whatever_was_imported_first() -> None:
 @pytest.mark.parametrize("shift", [0.0, 30.0])
 def test_places_in_a_cycle_are_averaged_round_its_end(cycles, shift: float) -> None:
     """Least at the start in some and at the end in others is least there, not in the middle."""
-    walking = find_rows(cycles, "walk")
     places = (np.resize([98.0, 2.0, 99.0, 1.0], len(cycles)) + shift) % 100
     moved = replace(cycles, columns={**cycles.columns, "knee_l.min_at": places})
-    summary = moved.summary(ends=True)
-    at = (summary["group"] == "walk") & (summary["measure"] == "knee_l.min_at")
-    assert summary["n"][at] == len(walking)
+    least = pick_row(moved.summary(ends=True), group="walk", measure="knee_l.min_at")
+    assert least["n"] == len(find_rows(cycles, "walk"))
     for name in ("mean", "median", "q25", "q75"):
-        assert abs((summary[name][at][0] - shift + 50) % 100 - 50) <= 2
-    assert summary["sd"][at][0] < 2.5
+        assert abs((least[name] - shift + 50) % 100 - 50) <= 2
+    assert least["sd"] < 2.5

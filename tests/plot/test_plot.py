@@ -19,6 +19,7 @@ import kineme
 from kineme.errors import ParameterError, WriteError
 from kineme.plot import matrix, plot_matrix, plot_segmentation, plot_strip
 from kineme.recordings import Motion, Signals, Skeleton
+from kineme.recordings.operations import turn
 from kineme.segments.display import NO_CLUSTER, PALETTE, TRANSITION
 from kineme.segments.segmentation import Segmentation
 from segmentations import from_rows, segmentations
@@ -152,18 +153,11 @@ def to_lab(rgb: np.ndarray) -> np.ndarray:
     return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
 
 
-def turn_motion(motion: Motion, degrees: float) -> Motion:
-    """The motion of somebody who faces elsewhere."""
-    cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
-    turn = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
-    return Motion(motion.skeleton, motion.positions @ turn.T, motion.fps)
-
-
 def test_poses_look_alike_wherever_somebody_faces() -> None:
     walk = kineme.read(kineme.bundled_recording()).seconds(0.5, 1.6)
     drawn = [
         np.array(plot_strip(each, ax=Figure().subplots()).collections[0].get_segments())
-        for each in (walk, turn_motion(walk, 70))
+        for each in (walk, turn(walk, np.radians(70)))
     ]
     assert len(drawn[0]) == 7 * sum(parent >= 0 for parent in walk.skeleton.parents)
     np.testing.assert_allclose(*drawn, atol=1e-6)

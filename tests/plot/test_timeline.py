@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 import kineme
 from kineme.errors import ParameterError
-from kineme.plot.timeline import match_clusters
 from kineme.segments.display import get_cluster_color
 from kineme.segments.editing import name_segment
 from kineme.segments.segmentation import Segmentation
@@ -71,7 +70,6 @@ def test_a_label_is_no_formula() -> None:
 def test_compared_clusters_take_the_colours_of_those_they_share_time_with() -> None:
     first = make_result([30, 60, 90], [0, 1, 0])
     other = make_result([280, 600, 900, 1000], [7, 2, 7, 4], fps=100.0)
-    assert match_clusters(first.table, other.table) == {7: 0, 2: 1, 4: 2}
     axes = kineme.compare([first, other], ax=Figure().add_subplot())
     top, below = list_bars(axes)
     assert [color for *_, color in top] == [get_cluster_color(c) for c in (0, 1, 0)]

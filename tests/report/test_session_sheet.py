@@ -15,6 +15,7 @@ from kineme.cycles import Cycles, compare_sessions
 from kineme.datasets import Action, synthesize
 from kineme.errors import ParameterError, WriteError
 from kineme.report.sessions import write_sessions
+from rows import pick_row
 
 CHROMIUM = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
 EVIL = "</style><script>alert(1)</script> 3 & $x$"
@@ -38,11 +39,9 @@ def read_text(path: Path) -> str:
 def test_it_has_the_numbers_of_the_table(squats: tuple[Cycles, Cycles], tmp_path: Path) -> None:
     write_sessions(*squats, tmp_path / "sheet.html", names=("May", "June"))
     page = read_text(tmp_path / "sheet.html")
-    table = compare_sessions(*squats)
-    row = np.flatnonzero(table["measure"] == "knee_l.range")[0]
+    row = pick_row(compare_sessions(*squats), measure="knee_l.range")
     mean, sd, difference, low, high = (
-        f"{table[name][row]:.1f}"
-        for name in ("first_mean", "first_sd", "difference", "low", "high")
+        f"{row[name]:.1f}" for name in ("first_mean", "first_sd", "difference", "low", "high")
     )
     assert "squat: 6 → 6 repetitions" in page
     assert f"<td>knee_l range (°)</td><td>{mean} ± {sd}</td>" in page

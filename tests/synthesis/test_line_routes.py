@@ -22,7 +22,7 @@ def measure_distances(motion: Motion, line: list[tuple[float, float]]) -> np.nda
 
 
 def test_a_straight_line_is_walked(exercises: Motion, graph: MotionGraph) -> None:
-    line = parse_line("1,-2;1,6")
+    line = parse_line("1,-2;1,3")
     route, start = line_route(graph, [exercises], line, actions=["walk"])
     assert {graph.nodes[node].name for node in route} <= {"walk", ""}
     motion = synthesize(graph, [exercises], route, start=start)
@@ -53,8 +53,8 @@ def test_with_its_mirror_image_a_recording_turns_to_the_other_side_too(exercises
 
 
 def test_turning_the_line_turns_the_walk(exercises: Motion, graph: MotionGraph) -> None:
-    route, start = line_route(graph, [exercises], [(0, 0), (4, 0)], actions=["walk"])
-    turned, other = line_route(graph, [exercises], [(0, 0), (0, 4)], actions=["walk"])
+    route, start = line_route(graph, [exercises], [(0, 0), (2, 0)], actions=["walk"])
+    turned, other = line_route(graph, [exercises], [(0, 0), (0, 2)], actions=["walk"])
     assert turned == route
     a = synthesize(graph, [exercises], route, start=start).positions[:, 0]
     b = synthesize(graph, [exercises], turned, start=other).positions[:, 0]

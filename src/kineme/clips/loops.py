@@ -111,8 +111,7 @@ def make_loop(motion: Motion) -> tuple[Motion, Carry]:
     if motion.n_frames < 2:
         return motion, Carry(0.0, 0.0, 0.0)
     carry, fps = find_carry(motion), motion.fps
-    note = "ends blended into a loop"
-    provenance = motion.provenance.noted(note)
+    provenance = motion.provenance.noted("ends blended into a loop")
     if motion.rotations is None:
         # Without rotations no joint depends on another: the carry applies to all.
         free = np.ones(motion.positions.shape[1], bool)
@@ -310,15 +309,13 @@ def measure_loop(
     the joints of each foot and the frames in which it is planted.
     """
     end, start = compute_seam_sides(before, fps)
-    # Speeds and accelerations turn with the carry and are not shifted.
-    turned = Carry(carry.turn, 0.0, 0.0)
-    carried = np.stack([carry.apply(start[0]), turned.apply(start[1]), turned.apply(start[2])])
     step, speed_step = _measure_seam_steps(after, carry)
     # A recording without movement has no usual step.
     large, changed = (max(each, 1e-12) for each in usual)
     return LoopQuality(
-        pose_m=_compute_rms(carried[0] - end[0]),
-        speed_m_s=_compute_rms(carried[1] - end[1]) * fps,
+        pose_m=_compute_rms(carry.apply(start[0]) - end[0]),
+        # Speeds turn with the carry and are not shifted.
+        speed_m_s=_compute_rms(rot.rotate(carry.rotation, start[1]) - end[1]) * fps,
         step=step / large,
         speed_step=speed_step / changed,
         slide_m_s=_measure_sliding(after, carry, fps, feet),
@@ -353,22 +350,11 @@ def measure_distances(shapes: Sequence[Floats]) -> list[float]:
     return [_compute_rms(each - typical) for each in sampled]
 
 
-def rank_qualities(qualities: Sequence[LoopQuality]) -> list[int]:
-    """Return the rank of each candidate, 1 for the best."""
-    # The stable sort keeps earlier candidates first at equal cost.
-    order = sorted(range(len(qualities)), key=lambda index: qualities[index].cost)
-    places = [0] * len(order)
-    for place, index in enumerate(order, 1):
-        places[index] = place
-    return places
-
-
 def _measure_seam_steps(after: Floats, carry: Carry) -> tuple[float, float]:
     """Return the RMS step over the seam of a loop, and the larger of its changes to either side."""
-    turned = Carry(carry.turn, 0.0, 0.0)
     step = carry.apply(after[0]) - after[-1]
     # The steps before and after the seam, both in the axes of the last frame.
-    before, behind = after[-1] - after[-2], turned.apply(after[1] - after[0])
+    before, behind = after[-1] - after[-2], rot.rotate(carry.rotation, after[1] - after[0])
     return _compute_rms(step), max(_compute_rms(step - before), _compute_rms(behind - step))
 
 

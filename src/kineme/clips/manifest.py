@@ -20,11 +20,10 @@ import numpy as np
 
 from kineme._util.files import PICTURES
 from kineme._version import __version__
-from kineme.clips.loops import Carry, LoopQuality
+from kineme.clips.loops import Carry
 from kineme.clips.motion_matching import SUFFIXES, Database
 from kineme.clips.options import ClipOptions
-from kineme.clips.root_motion import RootMotion
-from kineme.clips.shaping import ShapedClip
+from kineme.clips.shaping import ClipDetails
 from kineme.errors import WriteError
 from kineme.labels.delimited import write_rows
 from kineme.recordings import Motion
@@ -49,19 +48,10 @@ class Clip:
     name: str
     file: str
     source: str
-    segment: Segment
-    n_frames: int
-    fps: float
-    source_take: str | None = None
-    animation: str | None = None
-    carry: Carry | None = None
-    quality: LoopQuality | None = None
-    rank: int | None = None
-    root: RootMotion | None = None
-    planted: Mapping[str, Sequence[tuple[int, int]]] | None = None
-    poses: Mapping[str, Mapping[str, Any]] | None = None
+    source_take: str | None
+    details: ClipDetails
     changes: tuple[str, ...] = ()
-    tags: tuple[str, ...] = ()
+    animation: str | None = None
 
 
 def name_manifests(file: Path) -> tuple[Path, Path]:
@@ -99,17 +89,19 @@ def _as_text(clip: Clip) -> str:
 
 def _make_sort_key(clip: Clip, *, together: bool) -> tuple[bool, str, str, int, str, int]:
     """Return a sort key: loops by recording, take, cluster and rank, then other clips."""
-    if clip.rank is None:
+    segment, rank = clip.details.segment, clip.details.rank
+    if rank is None:
         return True, "", "", 0, "", 0
     source = ("", "") if together else (clip.source, clip.source_take or "")
-    return False, *source, clip.segment.cluster, clip.segment.label, clip.rank
+    return False, *source, segment.cluster, segment.label, rank
 
 
 def _as_json(clip: Clip) -> dict[str, Any]:
     """Return the entry of a clip in ``manifest.json``, described by its schema."""
-    row, carry, quality, root = clip.segment, clip.carry, clip.quality, clip.root
+    details = clip.details
+    row, carry, quality, root = details.segment, details.carry, details.quality, details.root
     # A round ends one frame after its last pose; a closed loop has an extra frame.
-    round_s = (clip.n_frames - ("close" in clip.changes)) / clip.fps
+    round_s = (details.n_frames - ("close" in clip.changes)) / details.fps
     content = {
         "name": clip.name,
         "file": clip.file,
@@ -120,15 +112,15 @@ def _as_json(clip: Clip) -> dict[str, Any]:
         "stop_frame": row.stop_frame,
         "start_s": row.start_s,
         "stop_s": row.stop_s,
-        "n_frames": clip.n_frames,
-        "fps": clip.fps,
+        "n_frames": details.n_frames,
+        "fps": details.fps,
         "level": row.level,
         "kind": row.kind,
         "cluster": row.cluster,
         "label": row.label,
         "loop": carry is not None,
         "round_s": None if carry is None else round_s,
-        "rank": clip.rank,
+        "rank": details.rank,
         "quality": None if quality is None else {"cost": quality.cost, **asdict(quality)},
         "carry": None if carry is None else dict(zip(CARRY, _format_carry(carry), strict=True)),
         "root": None
@@ -139,10 +131,10 @@ def _as_json(clip: Clip) -> dict[str, Any]:
             "z_m_s": root.z,
             "turn_deg_s": degrees(root.turn),
         },
-        "planted": None if clip.planted is None else dict(clip.planted),
-        "poses": clip.poses,
+        "planted": details.planted,
+        "poses": details.poses,
         "changes": clip.changes,
-        "tags": clip.tags,
+        "tags": details.tags,
     }
     return {name: _round_numbers(value) for name, value in content.items()}
 
@@ -170,12 +162,13 @@ def _write_csv(clips: Sequence[Clip], path: Path, *, loops: bool, animations: bo
     more += [SOURCE_TAKE] if takes else []
 
     def make_cells(clip: Clip) -> list[object]:
-        cells: list[object] = [clip.file, clip.source]
-        cells += [getattr(clip.segment, name) for name in SPANS]
-        cells.append(", ".join(clip.tags))
+        details, cells = clip.details, list[object]([clip.file, clip.source])
+        cells += [getattr(details.segment, name) for name in SPANS]
+        cells.append(", ".join(details.tags))
         if loops:
-            cells += ["", ""] if clip.quality is None else [clip.rank, clip.quality.cost]
-            cells += ["", "", ""] if clip.carry is None else _format_carry(clip.carry)
+            quality, carry = details.quality, details.carry
+            cells += ["", ""] if quality is None else [details.rank, quality.cost]
+            cells += ["", "", ""] if carry is None else _format_carry(carry)
         cells += [clip.animation or ""] if animations else []
         return [*cells, clip.source_take or ""] if takes else cells
 
@@ -207,22 +200,21 @@ class Companions:
         self,
         motion: Motion,
         rows: Sequence[Segment],
-        clips: Iterable[ShapedClip],
-        get_name: Callable[[ShapedClip], str],
-    ) -> Iterator[ShapedClip]:
+        clips: Iterable[tuple[ClipDetails, Motion]],
+        get_name: Callable[[ClipDetails], str],
+    ) -> Iterator[tuple[ClipDetails, Motion]]:
         """Yield the clips of a recording unchanged, and collect data from each."""
         ranges = []
-        for clip in clips:
-            name = get_name(clip)
+        for details, clip in clips:
+            name = get_name(details)
             if self.sheet is not None:
-                title = "   ".join(filter(None, [name, ", ".join(clip.tags)]))
-                n = clip.motion.n_frames
+                title = "   ".join(filter(None, [name, ", ".join(details.tags)]))
+                n = clip.n_frames
                 at = np.linspace(0, n - 1, min(SHOWN, n)).round().astype(int)
-                positions = clip.motion.positions[at]
-                thinned = replace(clip.motion, positions=positions, rotations=None, gaps=())
-                self.strips.append((title, thinned, clip.segment.cluster))
-            ranges.append((name, rows[clip.index], clip.tags))
-            yield clip
+                thinned = replace(clip, positions=clip.positions[at], rotations=None, gaps=())
+                self.strips.append((title, thinned, details.segment.cluster))
+            ranges.append((name, rows[details.index], details.tags))
+            yield details, clip
         if self.matching is not None:
             self.database.add(motion, ranges)
 

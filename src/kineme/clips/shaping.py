@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any, get_args
 
 import numpy as np
@@ -20,7 +20,6 @@ from kineme.clips.loops import (
     measure_distances,
     measure_loop,
     measure_usual_steps,
-    rank_qualities,
     repeat_first_frame,
 )
 from kineme.clips.root_motion import (
@@ -37,7 +36,7 @@ from kineme.cycles.joints import find_feet
 from kineme.errors import EndEffectorError, MotionError, ParameterError
 from kineme.features import PARTS, compute_body_frame, end_effectors
 from kineme.recordings import Motion
-from kineme.recordings.arrays import find_spans, to_samples
+from kineme.recordings.arrays import list_spans, mark_spans, to_samples
 from kineme.recordings.carriers import find_still_joints
 from kineme.recordings.operations import cut, resample
 from kineme.segments.table import Segment
@@ -89,18 +88,23 @@ class Shape:
 
 
 @dataclass(frozen=True)
-class ShapedClip:
-    """A clip ready to be written, with the index of its segment. Only loops have a ``carry``."""
+class ClipDetails:
+    """What is known of a clip; ``index`` is that of its segment.
+
+    Only loops have a ``carry``, ``quality`` and ``rank``. Clips of signals have no other optional
+    fields either.
+    """
 
     index: int
     segment: Segment
-    motion: Motion
-    carry: Carry | None
-    root: RootMotion
-    planted: Mapping[str, Sequence[tuple[int, int]]] | None
+    n_frames: int
+    fps: float
+    carry: Carry | None = None
     quality: LoopQuality | None = None
     rank: int | None = None
-    poses: Mapping[str, Mapping[str, Any]] | None = field(default=None, repr=False)
+    root: RootMotion | None = None
+    planted: Mapping[str, Sequence[tuple[int, int]]] | None = None
+    poses: Mapping[str, Mapping[str, Any]] | None = None
     tags: tuple[Tag, ...] = ()
 
 
@@ -116,7 +120,7 @@ class RankedLoop:
 
 def shape_clips(
     motion: Motion, rows: Sequence[Segment], shape: Shape, loops: Sequence[RankedLoop] | None = None
-) -> Iterator[ShapedClip]:
+) -> Iterator[tuple[ClipDetails, Motion]]:
     """Yield the clips of the segments, in their order.
 
     Only the best loops are included if requested. With ``loops``, already ranked, only these are.
@@ -133,10 +137,30 @@ def shape_clips(
     for index, (row, span) in enumerate(zip(rows, spans, strict=True)):
         rank = ranks.get(index)
         wanted = shape.best is None or (rank is not None and rank <= shape.best)
-        if wanted and (loops is None or rank is not None):
-            clip = _shape_clip(motion, index, span, shape, feet, qualities.get(index), rank)
-            frames = span.start_frame, span.stop_frame
-            yield replace(clip, segment=row, tags=travel.tags(*frames) if travel else ())
+        if not wanted or (loops is not None and rank is None):
+            continue
+        clip, carry, root = _shape_motion(motion, span, shape, is_loop=index in qualities)
+        # Computed before the first frame is repeated, so that `last` is the end of the round.
+        poses = _describe_end_poses(clip)
+        if shape.close and carry is not None:
+            clip = repeat_first_frame(clip, carry)
+        start, stop = span.start_frame, span.stop_frame
+        # Spans of frames of the clip in which each foot is planted.
+        planted = {side: list_spans(mask[start:stop]) for side, (_, mask) in feet.items()}
+        details = ClipDetails(
+            index,
+            row,
+            n_frames=clip.n_frames,
+            fps=clip.fps,
+            carry=carry,
+            quality=qualities.get(index),
+            rank=rank,
+            root=root,
+            planted=planted or None,
+            poses=poses,
+            tags=travel.tags(start, stop) if travel else (),
+        )
+        yield details, clip
 
 
 def _resample_rows(
@@ -159,17 +183,11 @@ def _resample_rows(
 def list_ranked_loops(motion: Motion, rows: Sequence[Segment]) -> list[RankedLoop]:
     """Return all possible loops, grouped by cluster and sorted by rank."""
     qualities = measure_loops(motion, rows, find_planted_feet(motion))
-    ranks = _rank_candidates(rows, qualities)
-    order = [
-        index
-        for members in _group_candidates(rows).values()
-        for index in sorted(members, key=ranks.__getitem__)
-    ]
     loops = []
-    for index in order:
+    for index, rank in _rank_candidates(rows, qualities).items():
         clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
         speed = measure_root_motion(clip, find_carry(clip)).speed
-        loops.append(RankedLoop(index, ranks[index], qualities[index], speed))
+        loops.append(RankedLoop(index, rank, qualities[index], speed))
     return loops
 
 
@@ -188,14 +206,12 @@ def measure_loops(motion: Motion, rows: Sequence[Segment], feet: Feet) -> dict[i
     # The usual steps are those of the whole recording, not of the clip.
     usual, found = measure_usual_steps(motion.positions[:, body]), dict[int, LoopQuality]()
     for members in _group_candidates(rows).values():
-        shapes = []
-        for index in members:
-            clip = cut(motion, rows[index].start_frame, rows[index].stop_frame)
-            # In place, so that candidates with different paths can be compared.
-            shapes.append(remove_root_motion(clip, find_carry(clip))[0].positions[:, body])
-        for index, unlike in zip(members, measure_distances(shapes), strict=True):
+        clips = [cut(motion, rows[index].start_frame, rows[index].stop_frame) for index in members]
+        # In place, so that candidates with different paths can be compared.
+        still = [remove_root_motion(clip, find_carry(clip))[0] for clip in clips]
+        distances = measure_distances([clip.positions[:, body] for clip in still])
+        for index, clip, unlike in zip(members, clips, distances, strict=True):
             row = rows[index]
-            clip = cut(motion, row.start_frame, row.stop_frame)
             closed, carry = make_loop(clip)
             of_clip = [
                 # Joints are counted within the body, and frames within the clip.
@@ -219,10 +235,8 @@ def find_planted_feet(motion: Motion) -> Feet:
     feet: dict[str, tuple[tuple[int, ...], Masks]] = {}
     for side, points in find_feet(motion).items():
         stands = stands_from_positions([motion.positions[:, j] for j in points], motion.fps)
-        mask = np.zeros(motion.n_frames, bool)
-        for start, stop in np.rint(stands * motion.fps).astype(int).tolist():
-            mask[start:stop] = True
-        feet[side] = (points, mask)
+        frames = np.rint(stands * motion.fps).astype(int).tolist()
+        feet[side] = points, mark_spans(frames, motion.n_frames)
     return feet
 
 
@@ -239,25 +253,21 @@ def _group_candidates(rows: Sequence[Segment]) -> dict[Hashable, list[int]]:
 def _rank_candidates(
     rows: Sequence[Segment], qualities: Mapping[int, LoopQuality]
 ) -> dict[int, int]:
-    """Return the rank of each loop in its cluster, by index of its segment."""
+    """Return the rank of each loop in its cluster, by index of its segment: 1 for the best."""
     ranks: dict[int, int] = {}
     for members in _group_candidates(rows).values() if qualities else ():
-        ranks |= zip(members, rank_qualities([qualities[index] for index in members]), strict=True)
+        # The stable sort keeps earlier candidates first at equal cost.
+        ranked = sorted(members, key=lambda index: qualities[index].cost)
+        ranks |= {index: rank for rank, index in enumerate(ranked, 1)}
     return ranks
 
 
-def _shape_clip(
-    motion: Motion,
-    index: int,
-    row: Segment,
-    shape: Shape,
-    feet: Feet,
-    quality: LoopQuality | None,
-    rank: int | None,
-) -> ShapedClip:
-    """Return the clip of a segment in the requested shape; ``quality`` is None if it is no loop."""
-    clip, carry = cut(motion, row.start_frame, row.stop_frame), None
-    if quality is not None:
+def _shape_motion(
+    motion: Motion, span: Segment, shape: Shape, *, is_loop: bool
+) -> tuple[Motion, Carry | None, RootMotion]:
+    """Return the clip of a segment in the requested shape, its carry if it is a loop, its root."""
+    clip, carry = cut(motion, span.start_frame, span.stop_frame), None
+    if is_loop:
         # Loops have a carry of exactly one round after blending.
         clip, carry = make_loop(clip)
     root = measure_root_motion(clip, carry)
@@ -271,26 +281,7 @@ def _shape_clip(
         # A root bone that moves elsewhere in the recording is moved with the body here too.
         clip, root = remove_root_motion(clip, carry, find_still_joints(motion))
         carry = carry and Carry(0.0, 0.0, 0.0)
-    # Computed before the first frame is repeated, so that `last` is the end of the round.
-    poses = _describe_end_poses(clip)
-    if shape.close and carry is not None:
-        clip = repeat_first_frame(clip, carry)
-    # Spans of frames of the clip in which each foot is planted.
-    planted = {
-        side: [(a, b) for a, b in find_spans(mask[row.start_frame : row.stop_frame]).tolist()]
-        for side, (_, mask) in feet.items()
-    }
-    return ShapedClip(
-        index,
-        row,
-        motion=clip,
-        carry=carry,
-        root=root,
-        planted=planted or None,
-        quality=quality,
-        rank=rank,
-        poses=poses,
-    )
+    return clip, carry, root
 
 
 def _describe_end_poses(clip: Motion) -> dict[str, dict[str, Any]] | None:

@@ -31,10 +31,10 @@ The folder is written atomically, and existing files are never changed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Unpack, get_args
+from typing import Unpack, get_args
 
 from kineme._util.checks import is_number, is_one_of
 from kineme._util.files import atomic_folder, atomic_write
@@ -55,7 +55,7 @@ from kineme.clips.options import (
     make_unique_name,
     resolve_options,
 )
-from kineme.clips.shaping import RankedLoop, ShapedClip, shape_clips
+from kineme.clips.shaping import ClipDetails, RankedLoop, shape_clips
 from kineme.errors import MotionError, ParameterError, WriteError
 from kineme.features import mirror as mirrored
 from kineme.formats import write
@@ -71,8 +71,6 @@ Source = (
     | tuple[Motion | Signals, Sequence[Segment], Sequence[RankedLoop]]
 )
 """A recording, its segments, and optionally those that become loops, already ranked."""
-_SHARED = ("carry", "quality", "rank", "root", "planted", "poses", "tags")
-"""Fields that a `ShapedClip` and its entry in the manifest have in common."""
 
 
 def split(
@@ -289,12 +287,12 @@ def _make_clips(
     rows: Sequence[Segment],
     companions: Companions,
     ranked: Sequence[RankedLoop] | None = None,
-) -> Iterator[ShapedClip]:
+) -> Iterator[tuple[ClipDetails, Motion]]:
     """Yield the clips of a recording, passing them through the companions."""
     shape = namer.chosen.shape
     motion = mirrored(recording) if shape.mirror else recording
     shaped = shape_clips(motion, rows, shape, ranked)
-    return companions.collect(motion, rows, shaped, namer.clip_name)
+    return companions.collect(motion, rows, shaped, lambda clip: namer.choose_names(clip)[0])
 
 
 def _refuse_poses(chosen: Chosen) -> None:
@@ -339,11 +337,9 @@ class _ClipNamer:
     def take(self) -> str:
         return self.recording.provenance.take or self.name
 
-    def named(
-        self, index: int, segment: Segment, tags: Sequence[str] = (), *, loop: bool = False
-    ) -> tuple[str, str]:
-        """Return the names of a clip and of its file, for the segment with an index."""
-        number, text = self.first + index, format_text(segment)
+    def choose_names(self, clip: ClipDetails) -> tuple[str, str]:
+        """Return the names of a clip and of its file."""
+        segment, number, text = clip.segment, self.first + clip.index, format_text(clip.segment)
         template = self.chosen.name
         if template is None:
             return make_clip_name(self.stem, number, text), make_file_name(self.stem, number, text)
@@ -354,25 +350,17 @@ class _ClipNamer:
             "n": number,
             "cluster": segment.cluster,
             "level": segment.level,
-            "direction": tags[0] if tags else "",
-            "loop": "loop" if loop else "",
+            "direction": clip.tags[0] if clip.tags else "",
+            "loop": "loop" if clip.carry is not None else "",
         }
         return fill_template(template, fields)
 
-    def clip_name(self, shaped: ShapedClip) -> str:
-        """Return the name of a clip."""
-        is_loop = shaped.carry is not None
-        return self.named(shaped.index, shaped.segment, shaped.tags, loop=is_loop)[0]
+    def make_entry(self, clip: ClipDetails, suffix: str, file: str | None = None) -> Clip:
+        """Return the manifest entry of a clip in a file of its own, or an animation of ``file``.
 
-    def clip(
-        self, index: int, segment: Segment, suffix: str, file: str | None = None, **fields: Any
-    ) -> Clip:
-        """Return the manifest entry of a clip; ``fields`` are other fields of `Clip`.
-
-        Without ``file``, the clip has its own file. Raise ParameterError for a duplicate name.
+        Raise ParameterError for a duplicate name.
         """
-        tags, is_loop = fields.get("tags", ()), fields.get("carry") is not None
-        name, own = self.named(index, segment, tags, loop=is_loop)
+        name, own = self.choose_names(clip)
         for key in {name.casefold(), f"{own.casefold()}{suffix}"} if self.chosen.name else ():
             if key in self.names:
                 raise ParameterError(
@@ -380,25 +368,13 @@ class _ClipNamer:
                 )
             self.names.add(key)
         return Clip(
-            name=name,
-            file=file or f"{own}{suffix}",
+            name,
+            file or f"{own}{suffix}",
             source=self.source.encode(errors="backslashreplace").decode(),
             source_take=self.recording.provenance.take,
-            segment=segment,
-            **fields,
-        )
-
-    def shaped_clip(self, shaped: ShapedClip, file: str | None = None, suffix: str = "") -> Clip:
-        """Return the manifest entry of a shaped clip."""
-        return self.clip(
-            shaped.index,
-            shaped.segment,
-            suffix,
-            file,
-            fps=shaped.motion.fps,
-            n_frames=shaped.motion.n_frames,
+            details=clip,
             changes=self.chosen.shape.changes,
-            **{name: getattr(shaped, name) for name in _SHARED},
+            animation=None if file is None else name,
         )
 
     @property
@@ -411,27 +387,31 @@ def _write_rows(namer: _ClipNamer, signals: Signals, rows: Sequence[Segment]) ->
     shortest = min((row.stop_frame - row.start_frame for row in rows), default=None)
     file_rows = make_rows(signals, shortest=shortest)
     for index, row in enumerate(rows):
-        n_frames = row.stop_frame - row.start_frame
-        clip = namer.clip(index, row, file_rows.suffix, n_frames=n_frames, fps=signals.fps)
-        file_rows.write(namer.folder / clip.file, row.start_frame, row.stop_frame)
-        yield clip
+        clip = ClipDetails(index, row, row.stop_frame - row.start_frame, signals.fps)
+        entry = namer.make_entry(clip, file_rows.suffix)
+        file_rows.write(namer.folder / entry.file, row.start_frame, row.stop_frame)
+        yield entry
 
 
-def _write_files(namer: _ClipNamer, clips: Iterable[ShapedClip], suffix: str) -> Iterator[Clip]:
+def _write_files(
+    namer: _ClipNamer, clips: Iterable[tuple[ClipDetails, Motion]], suffix: str
+) -> Iterator[Clip]:
     """Write each clip to its own file."""
-    for each in clips:
-        entry = namer.shaped_clip(each, suffix=f".{suffix}")
-        write(each.motion, namer.folder / entry.file)
+    for details, clip in clips:
+        entry = namer.make_entry(details, f".{suffix}")
+        write(clip, namer.folder / entry.file)
         yield entry
 
 
 def _add_animations(
-    namer: _ClipNamer, clips: Iterable[ShapedClip], file: str, animations: dict[str, Motion]
+    namer: _ClipNamer,
+    clips: Iterable[tuple[ClipDetails, Motion]],
+    file: str,
+    animations: dict[str, Motion],
 ) -> list[Clip]:
     """Add clips to the animations of a file; return their manifest entries."""
     entries = []
-    for each in clips:
-        entry = namer.shaped_clip(each, file)
-        entries.append(replace(entry, animation=entry.name))
-        animations[entry.name] = each.motion
+    for details, clip in clips:
+        entries.append(namer.make_entry(details, "", file))
+        animations[entries[-1].name] = clip
     return entries

@@ -32,6 +32,8 @@ import numpy as np
 
 from kineme._util.arrays import Floats, interpolate_frames
 
+STEADY_S = 0.08
+"""Standard deviation in seconds of the filter of features before speed is computed."""
 WINDOWS = (0.5, 0.35, 0.25, 0.25)
 """Half-width of the compared window in each step, in cycles. Wide windows are unambiguous; narrow
 ones tolerate changes of pace."""
@@ -51,18 +53,51 @@ INFLATION = 2.0
 on synthetic recordings (`python -m benchmarks cycles`)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Features (samples, dims) of a recording, ``rate`` samples per second.
+
+    ``comparable``: whether they can be compared between recordings.
+    """
+
+    values: Floats
+    rate: float
+    comparable: bool = True
+
+    def at(self, times: Floats) -> Floats:
+        """Return the features at times in seconds, interpolated; clamp at the ends."""
+        frames = np.clip(times * self.rate, 0, len(self.values) - 1)
+        return interpolate_frames(self.values, frames)
+
+    @cached_property
+    def speed(self) -> Floats:
+        """Return the smoothed speed of the features, per second."""
+        from scipy.ndimage import gaussian_filter1d
+
+        if len(self.values) < 2:
+            return np.zeros(len(self.values))
+        # Smoothed once more, since a derivative amplifies noise.
+        steady = gaussian_filter1d(self.values, STEADY_S * self.rate, axis=0, mode="nearest")
+        return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
+
+
+@dataclass(frozen=True, eq=False)
 class Run:
-    """Successive repetitions of one cluster, with n + 1 ``borders`` in seconds.
+    """Successive repetitions of one cluster in a recording, with n + 1 ``borders`` in seconds.
 
     ``uncertainty`` holds the standard deviations of the borders, nan if unknown. ``turned`` is the
     shift of the phase in cycles.
     """
 
-    recording: int
+    features: Features
     borders: Floats
     uncertainty: Floats
     turned: float = 0.0
+
+    @property
+    def n(self) -> int:
+        """Return the number of repetitions."""
+        return len(self.borders) - 1
 
     @cached_property
     def period(self) -> float:
@@ -79,10 +114,9 @@ class Run:
 
         Extrapolate with the median period.
         """
-        n = len(self.borders) - 1
         # `interp` holds the end values constant outside, so whole periods are added there.
-        inside = np.interp(cycles, np.arange(n + 1), self.borders)
-        beyond = np.maximum(cycles - n, 0) + np.minimum(cycles, 0)
+        inside = np.interp(cycles, np.arange(self.n + 1), self.borders)
+        beyond = np.maximum(cycles - self.n, 0) + np.minimum(cycles, 0)
         return inside + beyond * self.period
 
     def to_seconds(self, border: int, offsets: Floats) -> Floats:
@@ -97,30 +131,27 @@ class Run:
         return np.asarray(offsets * np.where(offsets < 0, before, after))
 
 
-def make_run(recording: int, borders: Floats) -> Run:
+def make_run(features: Features, borders: Floats) -> Run:
     """Return a run with the borders of a segmentation method."""
-    return Run(recording, borders, np.full(len(borders), np.nan))
+    return Run(features, borders, np.full(len(borders), np.nan))
 
 
-def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
+def shift_to_common_phase(runs: list[Run]) -> list[Run]:
     """Return the runs of one cluster with refined borders at a common phase.
 
-    ``features`` holds an array (samples, dims) for each recording, with equal dims; ``rates`` their
-    samples per second.
+    The features of all runs have equal dims.
     """
-    runs = _turn_borders(runs, features, rates)
-    n_inner = sum(len(run.borders) - 2 for run in runs)
+    runs = _turn_borders(runs)
+    n_inner = sum(run.n - 1 for run in runs)
     if n_inner < 2:
         return runs
     for step, window in enumerate(WINDOWS):
         # Shares of a cycle before and after a border, symmetric about 0.
         offsets = np.arange(-round(window * POINTS), round(window * POINTS) + 1) / POINTS
-        template, weights = _make_template(runs, features, rates, offsets)
+        template, weights = _make_template(runs, offsets)
         # Halved with each step: the windows become narrower.
         reach = FARTHEST / 2**step
-        moved = [
-            _move_borders(run, features, rates, template, weights, offsets, reach) for run in runs
-        ]
+        moved = [_move_borders(run, template, weights, offsets, reach) for run in runs]
         # The mean move, in cycles: the template must not wander.
         drift = float(np.mean(np.concatenate([
             (new.borders - old.borders)[1:-1] / old.period
@@ -128,7 +159,7 @@ def shift_to_common_phase(runs: list[Run], features: list[Floats], rates: list[f
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
     runs = _extend_ends(runs)
-    by = _measure_landmark_shift(runs, features, rates)
+    by = _measure_landmark_shift(runs)
     return [replace(run, borders=run.borders + by * run.period) for run in runs]
 
 
@@ -158,16 +189,16 @@ def _extend_ends(runs: list[Run]) -> list[Run]:
     return drawn
 
 
-def _measure_landmark_shift(runs: list[Run], features: list[Floats], rates: list[float]) -> float:
+def _measure_landmark_shift(runs: list[Run]) -> float:
     """Return the shift in cycles that moves borders to a reproducible landmark.
 
     If the mean cycle rests at the border, this is the middle of the rest. Otherwise it is the
     nearest reversal of the main movement, the first principal component.
     """
     # Single repetitions have no neighbours that show where the movement reverses.
-    repeated = [run for run in runs if len(run.borders) > 2]
+    repeated = [run for run in runs if run.n > 1]
     # Weighted by repetitions. The sum need not be divided: only its shape counts.
-    mean = sum(_average_cycles(run, features, rates) * (len(run.borders) - 1) for run in repeated)
+    mean = sum(_average_cycles(run) * run.n for run in repeated)
     centred = np.asarray(mean) - np.mean(mean, axis=0)
     # Central differences round the cycle: its end is followed by its start.
     change = np.roll(centred, -1, axis=0) - np.roll(centred, 1, axis=0)
@@ -190,26 +221,24 @@ def _measure_landmark_shift(runs: list[Run], features: list[Floats], rates: list
     return float(min(places, key=abs, default=0.0))
 
 
-def _turn_borders(runs: list[Run], features: list[Floats], rates: list[float]) -> list[Run]:
+def _turn_borders(runs: list[Run]) -> list[Run]:
     """Return the runs with borders at approximately one phase."""
-    repeated = [run for run in runs if len(run.borders) > 2]
+    repeated = [run for run in runs if run.n > 1]
     if len(repeated) < 2:
         return runs
-    means = {id(run): _average_cycles(run, features, rates) for run in repeated}
-    longest = max(repeated, key=lambda run: len(run.borders))
-    # In cycles, relative to the run with the most repetitions.
-    lateness = {id(run): _measure_lateness(means[id(run)], means[id(longest)]) for run in repeated}
-    weights = {id(run): len(run.borders) - 1 for run in repeated}
+    # The phase is measured relative to the run with the most repetitions, in cycles.
+    reference = _average_cycles(max(repeated, key=lambda run: run.n))
+    lateness = {run: _measure_lateness(_average_cycles(run), reference) for run in repeated}
 
     def moves(origin: float) -> float:
-        return sum(weights[key] * abs(_wrap_phase(lateness[key] - origin)) for key in lateness)
+        return sum(run.n * abs(_wrap_phase(late - origin)) for run, late in lateness.items())
 
     origin = min(lateness.values(), key=moves)
     turned = []
     for run in runs:
         # Runs without a phase of their own are not moved.
-        by = _wrap_phase(lateness.get(id(run), origin) - origin)
-        cycles = np.arange(len(run.borders), dtype=np.float64) + by
+        by = _wrap_phase(lateness.get(run, origin) - origin)
+        cycles = np.arange(run.n + 1, dtype=np.float64) + by
         turned.append(replace(run, borders=run.at(cycles), turned=by) if by else run)
     return turned
 
@@ -219,13 +248,11 @@ def _wrap_phase(share: float) -> float:
     return (share + 0.5) % 1 - 0.5
 
 
-def _average_cycles(run: Run, features: list[Floats], rates: list[float]) -> Floats:
+def _average_cycles(run: Run) -> Floats:
     """Return the mean of the repetitions of a run, (points, dims)."""
-    n = len(run.borders) - 1
     # (repetitions, points): phases of all cycles, evenly spaced.
-    cycles = np.arange(n)[:, None] + np.arange(POINTS) / POINTS
-    values = sample_at(features[run.recording], rates[run.recording], run.at(cycles))
-    return np.asarray(values.mean(axis=0))
+    cycles = np.arange(run.n)[:, None] + np.arange(POINTS) / POINTS
+    return np.asarray(run.features.at(run.at(cycles)).mean(axis=0))
 
 
 def _measure_lateness(mean: Floats, reference: Floats) -> float:
@@ -250,65 +277,52 @@ def _measure_lateness(mean: Floats, reference: Floats) -> float:
     return _wrap_phase((best + find_vertex(-left, -correlation[best], -right)) / POINTS)
 
 
-def _make_template(
-    runs: list[Run], features: list[Floats], rates: list[float], offsets: Floats
-) -> tuple[Floats, Floats]:
+def _make_template(runs: list[Run], offsets: Floats) -> tuple[Floats, Floats]:
     """Return the mean around all inner borders (window, dims), and explained variance (dims,)."""
     windows = []
     for run in runs:
-        times = [
-            run.borders[i] + run.to_seconds(i, offsets) for i in range(1, len(run.borders) - 1)
-        ]
+        times = [run.borders[i] + run.to_seconds(i, offsets) for i in range(1, run.n)]
         if times:
-            values, rate = features[run.recording], rates[run.recording]
-            windows.append(sample_at(values, rate, np.array(times)))
+            windows.append(run.features.at(np.array(times)))
     # (borders, window, dims).
     all_windows = np.concatenate(windows)
     template = np.asarray(all_windows.mean(axis=0))
     # Share of the variance explained by the template: high if repetitions agree.
     explained, total = template.var(axis=0), all_windows.var(axis=(0, 1))
-    shares = np.where(total > 0, explained / np.where(total > 0, total, 1.0), 0.0)
-    return template, shares
+    return template, np.divide(explained, total, out=np.zeros_like(total), where=total > 0)
 
 
 def _move_borders(
-    run: Run,
-    features: list[Floats],
-    rates: list[float],
-    template: Floats,
-    weights: Floats,
-    offsets: Floats,
-    reach: float,
+    run: Run, template: Floats, weights: Floats, offsets: Floats, reach: float
 ) -> Run:
     """Return the run with each border at the best match of the template.
 
     ``template`` (window, dims) is compared at ``offsets`` (window,), shares of a cycle from the
     border. Borders move by at most ``reach``, a share of a cycle. ``weights`` are those of dims.
     """
-    values, rate = features[run.recording], rates[run.recording]
     # The gradient per cycle; square roots of the weights go with differences squared later.
     slope, roots = np.gradient(template, axis=0) * POINTS, np.sqrt(weights)
     shifts = np.linspace(-reach, reach, 13)
-    borders, uncertainty = run.borders.copy(), np.full(len(run.borders), np.nan)
+    borders, uncertainty = run.borders.copy(), np.full(run.n + 1, np.nan)
     for i, border in enumerate(run.borders):
         # Outside of the run there is nothing to compare.
         used = np.ones(len(offsets), bool)
         if i == 0:
             used &= offsets >= 0
-        if i == len(borders) - 1:
+        if i == run.n:
             used &= offsets <= 0
         pace = run.to_seconds(i, offsets[used])
         # (shifts, window): times of the window for each tried shift.
         times = border + shifts[:, None] * run.period + pace
         # (shifts,): weighted squared difference to the template.
-        left = ((sample_at(values, rate, times) - template[used]) ** 2).sum(axis=1) @ weights
+        left = ((run.features.at(times) - template[used]) ** 2).sum(axis=1) @ weights
         best = int(left.argmin())
         shift = shifts[best]
         if 0 < best < len(shifts) - 1:
             # Vertex of the parabola through the three best shifts, in units of their spacing.
             shift += find_vertex(*left[best - 1 : best + 2]) * (shifts[1] - shifts[0])
         borders[i] = border + shift * run.period
-        window = sample_at(values, rate, borders[i] + pace)
+        window = run.features.at(borders[i] + pace)
         # Differences that remain at the new border give its uncertainty.
         left = roots * (window - template[used])
         uncertainty[i] = _estimate_deviation(left, roots * slope[used]) * run.period
@@ -331,8 +345,3 @@ def find_vertex(left: float, middle: float, right: float) -> float:
     # Positive curvature only: other parabolas have no minimum.
     curvature = left - 2 * middle + right
     return float(np.clip((left - right) / (2 * curvature), -0.5, 0.5)) if curvature > 0 else 0.0
-
-
-def sample_at(values: Floats, rate: float, times: Floats) -> Floats:
-    """Interpolate values (samples, dims) linearly at times in seconds; clamp at the ends."""
-    return interpolate_frames(values, np.clip(times * rate, 0, len(values) - 1))

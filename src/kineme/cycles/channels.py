@@ -185,7 +185,7 @@ def make_contact_channels(recording: Motion | Signals) -> list[Channel]:
     """Return a stance channel for each foot that is found."""
     return [
         Channel(f"stance_{side[0]}", "%", group=CONTACT, source=", ".join(foot), fps=recording.fps,
-                compute=partial(mark_stance, recording, side), gaps=recording.gaps)
+                compute=partial(mark_stance, recording, foot), gaps=recording.gaps)
         for side in SIDES
         if (foot := find_foot(recording, side))
     ]  # fmt: skip

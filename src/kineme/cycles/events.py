@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import check_type, format_count, join_names
+from kineme._util.checks import check_type, format_count, join_names, warn
 from kineme.cycles.contacts import (
     measure_ground_velocity,
     stands_from_force,
@@ -22,9 +21,10 @@ from kineme.cycles.contacts import (
 )
 from kineme.cycles.joints import OTHER_SIDE, find_feet, landmarks
 from kineme.cycles.table import Columns
-from kineme.errors import KinemeWarning, ParameterError
+from kineme.errors import ParameterError
 from kineme.labels.c3d_events import SAME_S
 from kineme.recordings import Motion, Signals
+from kineme.recordings.arrays import mark_spans
 from kineme.recordings.column_names import COORDINATE
 from kineme.recordings.joint_names import GYROSCOPE, SIDES, has_word, mentions
 from kineme.segments.segmentation import Segmentation
@@ -124,9 +124,9 @@ class Events:
         if not starts:
             raise ParameterError(f"there is no event {name or ''}".rstrip())
         # Before the first event there is a transition without a label.
-        first = [] if 0 in starts else [0]
-        cuts = [*first, *sorted(starts), self.n_frames]
-        labels = [*([""] * len(first)), *(starts[frame] for frame in sorted(starts))]
+        starts = {0: "", **starts}
+        cuts = [*sorted(starts), self.n_frames]
+        labels = [starts[frame] for frame in cuts[:-1]]
         return Segmentation.from_columns(
             {
                 "level": ["activity"] * len(labels),
@@ -192,16 +192,7 @@ def foot_events(
         if not foot:
             continue
         sources[side] = (" and " if is_body else ", ").join(foot)
-        spans, are_stands = _find_contact_spans(recording, foot)
-        starts, stops = spans.T.tolist()
-        if are_stands:
-            # At an end of the recording or a gap the contact itself was not recorded.
-            starts, stops = (
-                [at for at in found if _is_recorded(at * recording.fps, recording)]
-                for found in (starts, stops)
-            )
-        for seconds, event in zip((starts, stops), (STRIKE, OFF) if are_stands else (OFF, STRIKE),
-                                  strict=True):  # fmt: skip
+        for event, seconds in _find_contacts(recording, foot).items():
             name = f"{side} {event}"
             marks = find_marks(recording, name).tolist()
             apart = [at for at in seconds if all(abs(at - mark) >= SAME_S for mark in marks)]
@@ -256,11 +247,9 @@ def _warn_missing_points(motion: Motion, sources: Mapping[str, str]) -> None:
     has_heels = has_bones or all(f"{side}_heel" in joints for side in sources)
     missing = ["heel"] * (not has_heels) + ["toe"] * (min(toes) < 0)
     if missing:
-        warnings.warn(
+        warn(
             f"no {' and no '.join(missing)} was found on both sides: contacts are from "
-            f"{', '.join(sources.values())}, and stances may be 0.1 s too short. {RENAME}.",
-            KinemeWarning,
-            stacklevel=3,
+            f"{', '.join(sources.values())}, and stances may be 0.1 s too short. {RENAME}."
         )
 
 
@@ -295,14 +284,14 @@ def find_foot(recording: Motion | Signals, side: str, pattern: str | None = None
     return []
 
 
-def mark_stance(recording: Motion | Signals, side: str) -> Floats:
-    """Return 100 for each frame in which a foot stands, 0 in which it swings."""
-    spans, are_stands = _find_contact_spans(recording, find_foot(recording, side))
-    inside = 100.0 if are_stands else 0.0
-    values = np.full(recording.n_frames, 100.0 - inside)
-    for start, stop in np.rint(spans * recording.fps).astype(np.intp).tolist():
-        values[start:stop] = inside
-    return values
+def mark_stance(recording: Motion | Signals, foot: Sequence[str]) -> Floats:
+    """Return 100 for each frame in which a foot stands, 0 in which it swings.
+
+    ``foot`` holds its joints or channels, from `find_foot`.
+    """
+    spans, are_stands = _find_contact_spans(recording, foot)
+    frames = np.rint(spans * recording.fps).astype(np.intp).tolist()
+    return np.where(mark_spans(frames, recording.n_frames) == are_stands, 100.0, 0.0)
 
 
 def _find_contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tuple[Floats, bool]:
@@ -323,6 +312,19 @@ def _find_contact_spans(recording: Motion | Signals, foot: Sequence[str]) -> tup
     ]
     # The empty array keeps the shape (0, 2) if there is no span.
     return np.concatenate([np.empty((0, 2)), *swings]), False
+
+
+def _find_contacts(recording: Motion | Signals, foot: Sequence[str]) -> dict[str, list[float]]:
+    """Return the times in seconds of strikes and offs of a foot."""
+    spans, are_stands = _find_contact_spans(recording, foot)
+    starts, stops = spans.T.tolist()
+    if not are_stands:
+        return {OFF: starts, STRIKE: stops}
+    # At an end of the recording or a gap the contact itself was not recorded.
+    return {
+        event: [at for at in times if _is_recorded(at * recording.fps, recording)]
+        for event, times in ((STRIKE, starts), (OFF, stops))
+    }
 
 
 def _is_recorded(frame: float, recording: Motion | Signals) -> bool:
@@ -388,11 +390,9 @@ def _warn_implausible(gait: Columns) -> None:
             unequal.append(f"{measure} differs by {asymmetry:.0f} % between the feet")
     remarks += unequal[:1]
     if remarks:
-        warnings.warn(
+        warn(
             f"implausible for walking: {', '.join(remarks)}. Check the recording's unit and which "
-            "points or channels the feet were found from.",
-            KinemeWarning,
-            stacklevel=3,
+            "points or channels the feet were found from."
         )
 
 

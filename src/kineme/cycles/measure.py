@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_indices, check_flag, check_one_of, check_type
@@ -29,13 +29,14 @@ from kineme.cycles.repetitions import (
     cut_at_events,
     find_repetitions,
     get_movement_key,
-    is_event,
     list_repetitions,
+    parse_channel_anchor,
 )
 from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
+from kineme.segments.table import Segment
 
 Recordings = Motion | Signals | Sequence[Motion | Signals]
 
@@ -141,18 +142,19 @@ def cycles(
                 f"{names[0]} and {name} do not have the same channels: "
                 f"{', '.join(other[:8])}; choose channels that both have with channels="
             )
-    if anchor is not None and is_event(anchor):
+    channel_anchor = parse_channel_anchor(anchor)
+    if anchor is None or channel_anchor is not None:
+        repetitions = (
+            find_repetitions(items, tables, groups) if refine else list_repetitions(tables)
+        )
+        if channel_anchor is not None:
+            repetitions = anchor_repetitions(repetitions, items, groups, channel_anchor, signals)
+    else:
         if not isinstance(anchor, str) and len(items) > 1:
             raise ParameterError(
                 "seconds of events apply to one recording only: give the names of events instead"
             )
         repetitions = cut_at_events(items, tables, anchor)
-    else:
-        repetitions = (
-            find_repetitions(items, tables, groups) if refine else list_repetitions(tables)
-        )
-        if isinstance(anchor, str):
-            repetitions = anchor_repetitions(repetitions, items, groups, anchor, signals)
     columns = _make_columns(repetitions, tables, names, groups)
     provenance = _make_provenance(items, tables, repetitions, columns)
     spans = [(each.recording, each.start, each.stop) for each in repetitions]
@@ -164,13 +166,8 @@ def cycles(
 def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     """Return the cycles with those excluded in the annotations of the tables marked."""
     # In the order of the rows of `cycles`: by recording, then by time.
-    left_out = [
-        table.annotation.excludes(row.start_frame, row.stop_frame)
-        for table in tables
-        for row in table.primitives
-        if row.kind == "primitive"
-    ]
-    reasons = np.where(np.array(left_out, bool), BY_HAND, cycles.columns["excluded"])
+    rows = [(table, row) for table in tables for row in table.primitives if row.kind == "primitive"]
+    reasons = _list_reasons(rows, cycles.columns["excluded"])
     return replace(cycles, columns={**cycles.columns, "excluded": reasons})
 
 
@@ -195,21 +192,21 @@ def _check_inputs(
     points: int,
 ) -> tuple[list[Motion | Signals], list[Segmentation], list[Sequence[Signals]]]:
     """Return recordings, tables and signals as lists; raise ParameterError if they do not match."""
-    items = [recordings] if isinstance(recordings, Motion | Signals) else recordings
-    check_type(items, Sequence, "cycles", "kineme.read(path) gives a recording")
-    tables = [segments] if isinstance(segments, Segmentation) else segments
-    check_type(tables, Sequence, "cycles", "kineme.segment(recording) gives one")
-    check_type(beside, Sequence, "cycles", "beside= takes a list of signals")
-    for recording in items:
-        check_type(recording, (Motion, Signals), "cycles", "kineme.read(path) gives one")
-    for table in tables:
-        check_type(table, Segmentation, "cycles", "kineme.segment(recording) gives one")
+    advice = "beside= takes a list of signals"
+    items = _check_list(
+        [recordings] if isinstance(recordings, Motion | Signals) else recordings,
+        (Motion, Signals),
+        "kineme.read(path) gives a recording",
+    )
+    tables = _check_list(
+        [segments] if isinstance(segments, Segmentation) else segments,
+        (Segmentation,),
+        "kineme.segment(recording) gives one",
+    )
+    check_type(beside, Sequence, "cycles", advice)
     is_nested = bool(beside) and not isinstance(beside[0], Signals)
     lists: list[Any] = [*beside] if is_nested else [beside] * (1 if beside else len(items))
-    for signals in lists:
-        check_type(signals, Sequence, "cycles", "beside= takes a list of signals")
-        for each in signals:
-            check_type(each, Signals, "cycles", "beside= takes a list of signals")
+    lists = [_check_list(each, (Signals,), advice) for each in lists]
     if not items or len(items) != len(tables):
         raise ParameterError(
             f"cycles takes one segmentation per recording, not {len(tables)} of {len(items)}"
@@ -226,7 +223,15 @@ def _check_inputs(
         )
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")
-    return list(items), list(tables), lists
+    return items, tables, lists
+
+
+def _check_list(values: Any, kinds: tuple[type, ...], advice: str) -> list[Any]:
+    """Return the values as a list; raise ParameterError if one is of another type."""
+    check_type(values, Sequence, "cycles", advice)
+    for each in values:
+        check_type(each, kinds, "cycles", advice)
+    return list(values)
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
@@ -276,18 +281,14 @@ def _make_columns(
         key = get_movement_key(each.segment)
         return groups[each.recording].get(key, str(key))
 
-    def name_reason(each: Repetition) -> str:
-        segment, annotation = each.segment, tables[each.recording].annotation
-        is_excluded = annotation.excludes(segment.start_frame, segment.stop_frame)
-        return BY_HAND if is_excluded else each.lacking
-
     # Number of repetitions of each activity so far.
     counts: Counter[tuple[int, int]] = Counter()
     numbers = []
     for each in repetitions:
         numbers.append(counts[each.recording, each.segment.activity])
         counts[each.recording, each.segment.activity] += 1
-    fps = column(float, lambda each: tables[each.recording].fps)
+    rows = [(tables[each.recording], each.segment) for each in repetitions]
+    fps = np.array([table.fps for table, _ in rows], float)
     start, stop = column(float, lambda each: each.start), column(float, lambda each: each.stop)
     return {
         "row": np.arange(len(repetitions)),
@@ -308,12 +309,19 @@ def _make_columns(
         "stop_deviation_s": column(float, lambda each: each.stop_deviation),
         "confidence": column(float, lambda each: each.segment.confidence),
         "border_confidence": column(float, lambda each: each.segment.border_confidence),
-        "activity_confidence": column(
-            float,
-            lambda each: tables[each.recording].activities.confidence[each.segment.activity],
+        "activity_confidence": np.array(
+            [table.activities.confidence[row.activity] for table, row in rows], float
         ),
-        "excluded": column(str, name_reason),
+        "excluded": _list_reasons(rows, [each.lacking for each in repetitions]),
     }
+
+
+def _list_reasons(
+    rows: Iterable[tuple[Segmentation, Segment]], reasons: ArrayLike
+) -> NDArray[np.str_]:
+    """Return why rows are excluded: by the annotation of their table, or for the given reasons."""
+    left_out = [table.annotation.excludes(row.start_frame, row.stop_frame) for table, row in rows]
+    return np.where(np.array(left_out, bool), BY_HAND, np.asarray(reasons, np.str_))
 
 
 def _measure_cycles(

@@ -14,16 +14,16 @@ from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import partial
 from itertools import groupby
 from math import ceil
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import as_floats
-from kineme.cycles.borders import Run, find_vertex, make_run, shift_to_common_phase
+from kineme.cycles.borders import Features, Run, find_vertex, make_run, shift_to_common_phase
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import (
     LONGEST,
@@ -45,8 +45,6 @@ RATE = 250.0
 """Largest number of samples per second; faster recordings are averaged."""
 SMOOTH_S = 0.02
 """Standard deviation in seconds of the Gaussian filter for features."""
-STEADY_S = 0.08
-"""Standard deviation in seconds of the second filter, before speed is computed."""
 PAUSE_S = 0.5
 """Shortest pause between two repetitions, seconds."""
 STILL = 0.1
@@ -57,8 +55,11 @@ ends; beyond that the repetition is incomplete."""
 LONG = "much longer than the others"
 """Reason for excluding a cycle longer than `LONGEST` medians: it contains a stop or lacks an event.
 """
-_EXTREME = re.compile(r"(?P<channel>.+?)[ _]+(?P<which>max|min)")
-_CROSSING = re.compile(r"(?P<channel>.+?)\s*(?P<sign>[<>])\s*(?P<level>[-+]?[\d.]+(?:e[-+]?\d+)?)")
+_CHANNEL_ANCHOR = re.compile(
+    r"(?P<channel>.+?)"
+    r"(?:[ _]+(?P<extreme>max|min)"
+    r"|\s*(?P<sign>[<>])\s*(?P<level>[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?))"
+)
 
 Groups = Sequence[Mapping[int | str, Hashable]]
 """Group of each movement, for each recording. Movements of a group begin at a common phase."""
@@ -66,13 +67,20 @@ Curve = tuple[Floats, float]
 """Values of a channel, and frames per second."""
 
 
+class ChannelAnchor(NamedTuple):
+    """Where cycles begin: at the maximum of a channel times a sign, or where it exceeds a level."""
+
+    channel: str
+    sign: float
+    level: float | None  # times the sign; None for the maximum
+
+
 @dataclass(frozen=True)
 class Repetition:
     """One repetition: its segment, and the seconds between which it is measured.
 
-    ``place`` is ``inner``, or at the ends of its run ``first``, ``last`` or ``only``. Standard
-    deviations are in seconds, nan if unknown. ``lacking`` says why it is excluded from means: it is
-    incomplete, or its event is missing; else it is empty.
+    ``place`` is ``inner``, or at the ends of its run ``first``, ``last`` or ``only``. ``lacking``
+    says why it is excluded from means: it is incomplete, or its event is missing; else it is empty.
     """
 
     recording: int  # number of the recording
@@ -80,8 +88,8 @@ class Repetition:
     place: str
     start: float
     stop: float
-    start_deviation: float
-    stop_deviation: float
+    start_deviation: float = np.nan  # standard deviations in seconds, nan if unknown
+    stop_deviation: float = np.nan
     pause: float = 0.0  # seconds of rest between the previous repetition and this one
     turned: float = 0.0  # shift of its phase relative to the segment, in cycles
     lacking: str = ""
@@ -92,41 +100,37 @@ def find_repetitions(
     recordings: Sequence[Motion | Signals], tables: Sequence[Segmentation], groups: Groups
 ) -> list[Repetition]:
     """Return the repetitions of all recordings, sorted by recording and time."""
-    fine = [_FineFeatures.from_recording(recording) for recording in recordings]
+    features = [_compute_features(recording) for recording in recordings]
     # Runs of one key are shifted to one phase.
-    members: dict[Hashable, list[tuple[Run, list[Segment]]]] = defaultdict(list)
-    for number, table in enumerate(tables):
-        dims, comparable = fine[number].values.shape[1], fine[number].comparable
+    members: dict[Hashable, list[tuple[Run, list[Segment], int]]] = defaultdict(list)
+    for number, (fine, table) in enumerate(zip(features, tables, strict=True)):
         for segments in _list_runs(table):
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
-            run = make_run(number, np.array(frames) / table.fps)
+            run = make_run(fine, np.array(frames) / table.fps)
             what = get_movement_key(segments[0])
             # Runs without cluster or label are aligned alone; runs with features that are not
             # comparable only with others of their recording.
-            alone = id(run) if what == "" else -1 if comparable else number
-            members[groups[number].get(what, what), dims, alone].append((run, segments))
+            alone = id(run) if what == "" else -1 if fine.comparable else number
+            key = groups[number].get(what, what), fine.values.shape[1], alone
+            members[key].append((run, segments, number))
     repetitions: list[Repetition] = []
-    features, rates = [each.values for each in fine], [each.rate for each in fine]
     for runs in members.values():
-        aligned = shift_to_common_phase([run for run, _ in runs], features, rates)
-        still = _measure_stillness(aligned, fine)
-        for run, (_, segments) in zip(aligned, runs, strict=True):
-            each = _cut_to_activity(run, segments, tables[run.recording])
-            repetitions += _trim_pauses(each, fine[run.recording], still)
+        aligned = shift_to_common_phase([run for run, _, _ in runs])
+        still = _measure_stillness(aligned)
+        for run, (_, segments, number) in zip(aligned, runs, strict=True):
+            each = _cut_to_activity(run, segments, number, tables[number])
+            repetitions += _trim_pauses(each, run.features, still)
     return sorted(repetitions, key=lambda each: (each.recording, each.segment.start_frame))
 
 
 def list_repetitions(tables: Sequence[Segmentation]) -> list[Repetition]:
     """Return the repetitions of all recordings with the borders of their tables."""
     return [
-        Repetition(
-            number, row, place=_name_place(i, len(run)), start=row.start_s, stop=row.stop_s,
-            start_deviation=np.nan, stop_deviation=np.nan,
-        )
+        Repetition(number, row, _name_place(i, len(run)), row.start_s, row.stop_s)
         for number, table in enumerate(tables)
         for run in _list_runs(table)
         for i, row in enumerate(run)
-    ]  # fmt: skip
+    ]
 
 
 def as_repetitions(segments: Segmentation) -> Segmentation:
@@ -174,55 +178,35 @@ def get_movement_key(segment: Segment) -> int | str:
     return segment.cluster if segment.cluster >= 0 else segment.label
 
 
-@dataclass(frozen=True)
-class _FineFeatures:
-    """Features (samples, dims) of a recording at its own rate, up to `RATE`.
+def _compute_features(recording: Motion | Signals) -> Features:
+    """Return pose features of a body, or distances of its points, or all channels of signals.
 
-    ``comparable``: whether they can be compared between recordings.
+    They are at the recording's own rate, up to `RATE`.
     """
+    from scipy.ndimage import gaussian_filter1d, uniform_filter1d
 
-    values: Floats
-    rate: float
-    comparable: bool
-
-    @classmethod
-    def from_recording(cls, recording: Motion | Signals) -> _FineFeatures:
-        """Return pose features of a body, or distances of its points; or all channels."""
-        from scipy.ndimage import gaussian_filter1d, uniform_filter1d
-
-        # An odd number of frames, so that each mean is centred on a frame.
-        n_averaged = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
-        rate, comparable = recording.fps / n_averaged, True
-        if isinstance(recording, Signals):
-            values = recording.values
-        else:
-            try:
-                values = pose_features(recording)
-            except (EndEffectorError, MotionError):
-                comparable, positions = False, recording.positions
-                # A single point has no distances: its path is compared.
-                is_point = recording.skeleton.n_joints < 2
-                values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
-        # Average around each frame, then keep every n-th frame.
-        if n_averaged > 1:
-            values = uniform_filter1d(values, n_averaged, axis=0, mode="nearest")[::n_averaged]
-        # Channels have different units: each counts by its own deviation, a constant one is only 0.
-        if isinstance(recording, Signals):
-            deviation = values.std(axis=0)
-            values = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
-        values = gaussian_filter1d(values, SMOOTH_S * rate, axis=0, mode="nearest")
-        return cls(values, rate, comparable)
-
-    @cached_property
-    def speed(self) -> Floats:
-        """Return the smoothed speed of the features, per second."""
-        from scipy.ndimage import gaussian_filter1d
-
-        if len(self.values) < 2:
-            return np.zeros(len(self.values))
-        # Smoothed once more, since a derivative amplifies noise.
-        steady = gaussian_filter1d(self.values, STEADY_S * self.rate, axis=0, mode="nearest")
-        return np.asarray(np.linalg.norm(np.gradient(steady, axis=0), axis=1) * self.rate)
+    # An odd number of frames, so that each mean is centred on a frame.
+    n_averaged = ceil(recording.fps / RATE) // 2 * 2 + 1 if recording.fps > RATE else 1
+    rate, comparable = recording.fps / n_averaged, True
+    if isinstance(recording, Signals):
+        values = recording.values
+    else:
+        try:
+            values = pose_features(recording)
+        except (EndEffectorError, MotionError):
+            comparable, positions = False, recording.positions
+            # A single point has no distances: its path is compared.
+            is_point = recording.skeleton.n_joints < 2
+            values = positions[:, 0] if is_point else compute_distance_features(positions)[0]
+    # Average around each frame, then keep every n-th frame.
+    if n_averaged > 1:
+        values = uniform_filter1d(values, n_averaged, axis=0, mode="nearest")[::n_averaged]
+    # Channels have different units: each counts by its own deviation, a constant one is only 0.
+    if isinstance(recording, Signals):
+        deviation = values.std(axis=0)
+        values = (values - values.mean(axis=0)) / np.where(deviation > 0, deviation, 1)
+    values = gaussian_filter1d(values, SMOOTH_S * rate, axis=0, mode="nearest")
+    return Features(values, rate, comparable)
 
 
 def _list_runs(table: Segmentation) -> list[list[Segment]]:
@@ -250,10 +234,10 @@ def _name_place(i: int, n: int) -> str:
 
 
 def _cut_to_activity(
-    run: Run, segments: Sequence[Segment], table: Segmentation
+    run: Run, segments: Sequence[Segment], recording: int, table: Segmentation
 ) -> list[Repetition]:
     """Return the repetitions of a run, cut at the ends of its activity."""
-    n, found = len(segments), []
+    found = []
     activity = table.activities[segments[0].activity]
     least, most, end = activity.start_s, activity.stop_s, table.n_frames / table.fps
     # Borders were moved, and may lie a little outside of their activity.
@@ -264,15 +248,14 @@ def _cut_to_activity(
         if not complete:
             start, stop = max(start, least), min(stop, most)
         start, stop = min(max(start, 0.0), end), min(max(stop, 0.0), end)
-        first, last = i == 0, i == n - 1
         # Only the first and the last can be cut short by an end.
-        if first or last:
+        if i in (0, run.n - 1):
             complete &= stop - start >= (1 - OUTSIDE) * run.period
         found.append(
             Repetition(
-                recording=run.recording,
+                recording=recording,
                 segment=segment,
-                place=_name_place(i, n),
+                place=_name_place(i, run.n),
                 start=start,
                 stop=max(start, stop),
                 start_deviation=float(run.uncertainty[i]),
@@ -284,19 +267,18 @@ def _cut_to_activity(
     return found
 
 
-def _measure_stillness(runs: Sequence[Run], fine: Sequence[_FineFeatures]) -> float:
+def _measure_stillness(runs: Sequence[Run]) -> float:
     """Return the speed below which these runs stand still."""
     total, count = 0.0, 0
     # The root mean square over all frames of all runs.
     for run in runs:
-        rate = fine[run.recording].rate
-        frames = slice(max(0, int(run.borders[0] * rate)), int(run.borders[-1] * rate) + 1)
-        speed = fine[run.recording].speed[frames]
+        first, last = (run.borders[[0, -1]] * run.features.rate).astype(int).tolist()
+        speed = run.features.speed[max(0, first) : last + 1]
         total, count = total + float(np.square(speed).sum()), count + len(speed)
     return STILL * float(np.sqrt(total / max(count, 1)))
 
 
-def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> list[Repetition]:
+def _trim_pauses(run: list[Repetition], fine: Features, still: float) -> list[Repetition]:
     """Return the repetitions of a run without pauses.
 
     A pause is at least `PAUSE_S` of rest around a border, both sides together.
@@ -317,9 +299,7 @@ def _trim_pauses(run: list[Repetition], fine: _FineFeatures, still: float) -> li
     return trimmed
 
 
-def _find_movement(
-    repetition: Repetition, fine: _FineFeatures, still: float
-) -> tuple[float, float]:
+def _find_movement(repetition: Repetition, fine: Features, still: float) -> tuple[float, float]:
     """Return the times at which movement in a repetition begins and ends; its borders if none."""
     # The frames of `speed` that lie within the repetition.
     first = max(0, int(np.ceil(repetition.start * fine.rate)))
@@ -334,33 +314,26 @@ def anchor_repetitions(
     repetitions: Sequence[Repetition],
     recordings: Sequence[Motion | Signals],
     groups: Groups,
-    anchor: str,
+    anchor: ChannelAnchor,
     beside: Sequence[Sequence[Signals]],
 ) -> list[Repetition]:
-    """Return the repetitions from extremes or crossings of the channel that ``anchor`` names."""
-    extreme = _EXTREME.fullmatch(anchor.strip())
+    """Return the repetitions from extremes or crossings of a channel."""
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(repetitions):
         what = get_movement_key(each.segment)
         members.setdefault(groups[each.recording].get(what, what), []).append(i)
+    curves = [
+        _sample_curve(recording, anchor, others)
+        for recording, others in zip(recordings, beside, strict=True)
+    ]
     starts = np.full(len(repetitions), np.nan)
-    if extreme is not None:
-        sign = 1.0 if extreme["which"] == "max" else -1.0
-        curves = [
-            _sample_curve(each, extreme["channel"], others)
-            for each, others in zip(recordings, beside, strict=True)
-        ]
-        # Negative for a minimum, so that the largest value is searched in both cases.
-        signed = [(sign * values, fps) for values, fps in curves]
-        for rows in members.values():
-            starts[rows] = _find_maxima([repetitions[i] for i in rows], signed)
+    if anchor.level is None:
+        find_starts = partial(_find_maxima, curves=curves)
     else:
-        times = [
-            _find_crossings(each, anchor, others)
-            for each, others in zip(recordings, beside, strict=True)
-        ]
-        for rows in members.values():
-            starts[rows] = _find_nearest_events([repetitions[i] for i in rows], times)
+        times = [_find_crossings(*curve, anchor.level) for curve in curves]
+        find_starts = partial(_find_nearest_events, times=times)
+    for rows in members.values():
+        starts[rows] = find_starts([repetitions[i] for i in rows])
     anchored = []
     for i, each in enumerate(repetitions):
         # Repetitions are sorted by time, so the next one of the run is the next in the list.
@@ -371,19 +344,33 @@ def anchor_repetitions(
             start, stop, lacking = np.nan, np.nan, "no event"
         anchored.append(
             Repetition(
-                each.recording, each.segment, place=each.place, start=float(start),
-                stop=float(stop), start_deviation=np.nan, stop_deviation=np.nan,
+                each.recording, each.segment, each.place, float(start), float(stop),
                 turned=each.turned, lacking=lacking,
             )
         )  # fmt: skip
     return anchored
 
 
-def _sample_curve(recording: Motion | Signals, name: str, beside: Sequence[Signals]) -> Curve:
-    channels = channels_of(recording, [name], beside=beside)
+def parse_channel_anchor(anchor: str | Sequence[float] | None) -> ChannelAnchor | None:
+    """Return the channel that an anchor names; None if it names events or is their seconds."""
+    found = _CHANNEL_ANCHOR.fullmatch(anchor.strip()) if isinstance(anchor, str) else None
+    if found is None:
+        return None
+    sign = -1.0 if found["extreme"] == "min" or found["sign"] == "<" else 1.0
+    level = None if found["level"] is None else sign * float(found["level"])
+    return ChannelAnchor(found["channel"], sign, level)
+
+
+def _sample_curve(
+    recording: Motion | Signals, anchor: ChannelAnchor, beside: Sequence[Signals]
+) -> Curve:
+    """Return the values of the channel of an anchor, times its sign."""
+    channels = channels_of(recording, [anchor.channel], beside=beside)
     if len(channels) > 1:
-        raise ParameterError(f"an anchor must be one channel, but {name!r} names {len(channels)}")
-    return channels[0].values(), channels[0].fps
+        raise ParameterError(
+            f"an anchor must be one channel, but {anchor.channel!r} names {len(channels)}"
+        )
+    return anchor.sign * channels[0].values(), channels[0].fps
 
 
 def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
@@ -442,13 +429,9 @@ def _find_window(repetition: Repetition, phase: float) -> tuple[float, float]:
     return repetition.start + (phase - 0.5) * length, repetition.start + (phase + 0.5) * length
 
 
-def _find_crossings(recording: Motion | Signals, anchor: str, beside: Sequence[Signals]) -> Floats:
-    """Return the times in seconds at which a channel crosses a level."""
-    crossing = _CROSSING.fullmatch(anchor.strip())
-    if crossing is None:
-        raise ParameterError(f"{anchor!r} is not a level of a channel, such as 'knee_r > 40'")
-    values, fps = _sample_curve(recording, crossing["channel"], beside)
-    over = (values - float(crossing["level"])) * (1.0 if crossing["sign"] == ">" else -1.0)
+def _find_crossings(values: Floats, fps: float, level: float) -> Floats:
+    """Return the times in seconds at which values rise above a level."""
+    over = values - level
     # Comparisons with nan are False: no crossing is found next to a gap.
     frames = np.flatnonzero((over[:-1] <= 0) & (over[1:] > 0))
     # Linear interpolation of the crossing between both frames.
@@ -457,9 +440,7 @@ def _find_crossings(recording: Motion | Signals, anchor: str, beside: Sequence[S
 
 def is_event(anchor: str | Sequence[float]) -> bool:
     """Return whether an anchor names events, or is their seconds, and not a channel."""
-    return not isinstance(anchor, str) or not any(
-        pattern.fullmatch(anchor.strip()) for pattern in (_EXTREME, _CROSSING)
-    )
+    return parse_channel_anchor(anchor) is None
 
 
 def cut_at_events(
@@ -494,8 +475,8 @@ def cut_at_events(
             )  # fmt: skip
             # The first and the last one are as complete as the others: all are inner ones.
             each = Repetition(
-                number, segment, place=INNER, start=start, stop=stop, start_deviation=np.nan,
-                stop_deviation=np.nan, lacking=LONG if stop - start > LONGEST * usual else "",
+                number, segment, INNER, start, stop,
+                lacking=LONG if stop - start > LONGEST * usual else "",
                 right=None if right is None else (float(right[i, 0]), float(right[i, 1])),
             )  # fmt: skip
             repetitions.append(each)

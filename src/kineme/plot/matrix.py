@@ -157,7 +157,6 @@ def plot_segmentation(
     >>> kineme.plot_segmentation(kineme.segment(motion), motion, "segments.png")
     """
     check_type(segmentation, Segmentation, "plot_segmentation", "kineme.segment gives one")
-    _check_recording(recording, segmentation)
     check_path(path, "plot_segmentation")
     if Path(path).suffix.lower() not in PICTURES:
         raise WriteError(path, f"pictures are written as {', '.join(PICTURES)}")

@@ -26,7 +26,7 @@ from kineme.errors import EndEffectorError, ParameterError
 from kineme.features import end_effectors
 from kineme.features.effectors import find_low_and_slow
 from kineme.recordings import Motion, Provenance
-from kineme.recordings.arrays import find_spans
+from kineme.recordings.arrays import list_spans
 from kineme.recordings.carriers import (
     find_carriers,
     find_still_joints,
@@ -280,7 +280,7 @@ def find_foot_contacts(path: Floats, fps: float) -> Spans:
     """
     if len(path) < 2:
         return []
-    spans = find_spans(find_low_and_slow(path, fps, height=HEIGHT, speed=SPEED)).tolist()
+    spans = list_spans(find_low_and_slow(path, fps, height=HEIGHT, speed=SPEED))
     return [(start, stop) for start, stop in spans if stop - start >= SHORTEST * fps]
 
 

@@ -12,7 +12,6 @@ rate of the sources.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -204,50 +203,42 @@ def find_jumps(
     features = np.concatenate([compute_motion_features(motion, POSES) for motion in motions])
     half = round(window * rate / 2)
     ratio = motions[0].fps / rate
-    ends, starts = (
+    # Frames at which nodes may be left and entered, and the nodes of these frames.
+    (ends, tails), (starts, heads) = (
         _sample_ends(nodes, firsts, ratio, half, window * rate, side) for side in (1, 0)
     )
-    if not (len(ends.frames) and len(starts.frames)):
+    if not (len(ends) and len(starts)):
         return []
-    near = neighbor_graph(features[ends.frames], features[starts.frames], radius=RADIUS)
+    near = neighbor_graph(features[ends], features[starts], radius=RADIUS)
     # Row of each neighbour pair, from the counts of the sparse search.
     rows = np.repeat(np.arange(len(near)), near.counts)
     # Encode each pair of nodes as one number.
     pairs = _find_nearest(
-        ends.nodes[rows] * len(nodes) + starts.nodes[near.indices], near.distances, CANDIDATES
+        tails[rows] * len(nodes) + heads[near.indices], near.distances, CANDIDATES
     )
     leave, enter = rows[pairs], near.indices[pairs]
-    distances, angles, shifts = fit_clouds(
-        points, ends.frames[leave], starts.frames[enter], half=half
-    )
+    ends, tails, starts, heads = ends[leave], tails[leave], starts[enter], heads[enter]
+    distances, angles, shifts = fit_clouds(points, ends, starts, half=half)
     # Of the measured pairs below the threshold, the best of each pair of nodes becomes an edge.
     accepted = np.flatnonzero(distances <= threshold)
-    key = ends.nodes[leave[accepted]] * len(nodes) + starts.nodes[enter[accepted]]
+    key = tails[accepted] * len(nodes) + heads[accepted]
     edges = []
     for i in accepted[_find_nearest(key, distances[accepted], 1)].tolist():
-        tail, head = int(ends.nodes[leave[i]]), int(starts.nodes[enter[i]])
-        at = (
-            # Frames are counted within their own recording again, at its own rate.
-            _convert_to_source(ends.frames[leave[i]] - firsts[nodes[tail].source], ratio),
-            _convert_to_source(starts.frames[enter[i]] - firsts[nodes[head].source], ratio),
+        tail, head = int(tails[i]), int(heads[i])
+        # Frames are counted within their own recording again, at its own rate.
+        stop, start = (
+            round(float(frame - firsts[nodes[node].source]) * ratio)
+            for frame, node in ((ends[i], tail), (starts[i], head))
         )
         shift = (float(shifts[i, 0]), float(shifts[i, 1]))
-        edges.append(Edge(tail, head, *at, float(distances[i]), float(angles[i]), shift))
+        edges.append(Edge(tail, head, stop, start, float(distances[i]), float(angles[i]), shift))
     return edges
-
-
-@dataclass(frozen=True)
-class _EndFrames:
-    """Frames at which nodes may be left or entered, and their nodes."""
-
-    frames: Ints
-    nodes: Ints
 
 
 def _sample_ends(
     nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
-) -> _EndFrames:
-    """Return frames near the ends (side 1) or starts (side 0) of all nodes.
+) -> tuple[Ints, Ints]:
+    """Return frames near the ends (side 1) or starts (side 0) of all nodes, and their nodes.
 
     Only frames with a full window inside their recording, and close enough to the border that a
     node is never left before it is entered.
@@ -265,7 +256,7 @@ def _sample_ends(
         )
         frames.append(frames_of_node + firsts[node.source])
         owners.append(np.full(len(frames_of_node), number))
-    return _EndFrames(np.concatenate(frames), np.concatenate(owners))
+    return np.concatenate(frames), np.concatenate(owners)
 
 
 def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> Ints:
@@ -278,7 +269,3 @@ def _find_nearest(groups: Ints, distances: NDArray[np.floating], count: int) -> 
     # The rank within the group.
     chosen: Ints = order[np.arange(len(order)) - starts < count]
     return chosen
-
-
-def _convert_to_source(frame: int, ratio: float) -> int:
-    return round(float(frame) * ratio)

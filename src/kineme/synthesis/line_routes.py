@@ -271,8 +271,8 @@ def _measure_progress(
         if now.point < len(points) - 1:
             # Only search ahead, so that progress never decreases.
             distances = np.abs(points[now.point : now.point + ahead] - place)
-            point = now.point + int(distances.argmin())
-            distance = float(distances.min())
+            nearest = int(distances.argmin())
+            point, distance = now.point + nearest, float(distances[nearest])
             # Integral of the squared distance plus the price of time.
             cost = now.cost + (distance**2 + TIME) * seconds
             # Tuples compare by distance first and keep the point of the largest one.
