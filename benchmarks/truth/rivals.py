@@ -169,8 +169,9 @@ def main() -> None:
     parser.add_argument("--methods", nargs="*", default=[*METHODS, *RIVALS])
     options = parser.parse_args()
     find_data("cmu86")
-    if set(options.methods) & set(RIVALS):
-        need_packages("claspy", "stumpy", "ruptures", "aeon")
+    # The names of rivals begin with that of their package.
+    rivals = [name for name in options.methods if name in RIVALS]
+    need_packages(*sorted({name.partition("_")[0] for name in rivals}))
     trials = load_trials(find_folder(DATA), options.trials)[: choose_size(None, 1)]
     print(f"{'':26}{'time':>11}{'cuts':>12}{'border F1':>11}{'frames':>10}")
     for name in options.methods:
