@@ -20,7 +20,6 @@ from test_hostile_folders import alarm
 import kineme
 from _damage import damage_bytes
 from _restructure import change_structure
-from conftest import find_data_dir
 from kineme import formats
 from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
@@ -49,12 +48,11 @@ LARGEST = 100_000
 """Maximum bytes of a real recording; longer texts are cut."""
 TEXTS = (".bvh", ".amc", ".trc", ".mot", ".txt")
 HANGS_AFTER_S = 60
-INTACT = ("walk.bvh", "cut.bvh")
+KEPT_INTACT = ("walk.bvh", "cut.bvh")
 """Recordings of side files and graphs."""
 
 
-def write_recordings(folder: Path) -> None:
-    data = find_data_dir() or Path("/nowhere")
+def copy_recordings(data: Path, folder: Path) -> None:
     for path in sorted([*data.glob("*formats/*"), *data.glob("timeseries/*")]):
         if path.suffix in TEXTS:
             start = path.read_bytes()[:LARGEST]
@@ -178,62 +176,70 @@ def read_journal(path: Path) -> None:
             journal.undo_or_redo(undo=True)
 
 
-KINDS: dict[str, tuple[Callable[[Path], None], tuple[Callable[[Path], object], ...]]] = {
+READERS: dict[str, tuple[Callable[[Path], object], ...]] = {
     "recordings": (
-        write_recordings,
-        (
-            kineme.read,
-            lambda path: kineme.read(path, fps=60),
-            lambda path: kineme.read(path, columns=[]),
-            lambda path: formats.sketch(path, formats.ReadOptions(), 5),
-            lambda path: scan_folder(path.parent),
-        ),
+        kineme.read,
+        lambda path: kineme.read(path, fps=60),
+        lambda path: kineme.read(path, columns=[]),
+        lambda path: formats.sketch(path, formats.ReadOptions(), 5),
+        lambda path: scan_folder(path.parent),
     ),
-    "labels": (write_labels, (read_labels,)),
-    "annotations": (write_annotations, (is_annotation_file, read_trials)),
-    "pairs": (write_pairs, (read_pair,)),
-    "knowledge": (write_knowledge, (kineme.KnowledgeBase.load,)),
-    "graphs": (write_graphs, (lambda path: load_sources(read_graph(path)),)),
+    "labels": (read_labels,),
+    "annotations": (is_annotation_file, read_trials),
+    "pairs": (read_pair,),
+    "knowledge": (kineme.KnowledgeBase.load,),
+    "graphs": (lambda path: load_sources(read_graph(path)),),
     "library": (
-        write_library,
-        (
-            read_tables,
-            search_library,
-            build_library,
-            lambda path: open_library(path).export(path.parent / "exported.csv"),
-        ),
+        read_tables,
+        search_library,
+        build_library,
+        lambda path: open_library(path).export(path.parent / "exported.csv"),
     ),
-    "studio": (write_studio, (read_side_files, read_journal)),
+    "studio": (read_side_files, read_journal),
 }
-"""Functions that write the files of each kind to a folder, and that read one of them."""
+"""Functions that read a file of each kind."""
+WRITERS: dict[str, Callable[[Path], None]] = {
+    "labels": write_labels,
+    "annotations": write_annotations,
+    "pairs": write_pairs,
+    "knowledge": write_knowledge,
+    "graphs": write_graphs,
+    "library": write_library,
+    "studio": write_studio,
+}
+"""Functions that write the files of a kind to a folder."""
+
+
+@pytest.fixture(scope="module", params=READERS)
+def kind(request: pytest.FixtureRequest) -> str:
+    return request.param
 
 
 @pytest.fixture(scope="module")
-def samples(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[Path, bytes]]:
-    """Return the intact files of each kind."""
-    found = {}
-    for kind, (write, _) in KINDS.items():
-        folder = tmp_path_factory.mktemp("samples") / kind
-        folder.mkdir()
-        write(folder)
-        files = (path for path in sorted(folder.rglob("*")) if path.is_file())
-        intact = {path: path.read_bytes() for path in files if path.name not in INTACT}
-        found[kind] = {path: data for path, data in intact.items() if data}  # locks are empty
-    return found
+def intact(
+    kind: str, tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest
+) -> list[tuple[Path, bytes]]:
+    """Write intact files of a kind; return each with its bytes."""
+    folder = tmp_path_factory.mktemp("samples") / kind
+    folder.mkdir()
+    if kind == "recordings":
+        copy_recordings(request.getfixturevalue("data_dir"), folder)
+    else:
+        WRITERS[kind](folder)
+    paths = (path for path in sorted(folder.rglob("*")) if path.is_file())
+    found = [(path, path.read_bytes()) for path in paths if path.name not in KEPT_INTACT]
+    return [(path, data) for path, data in found if data]  # locks are empty
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
 @given(turn=st.integers(0, 999), seed=st.integers(0, 2**32 - 1), meaning=st.booleans())
 def test_damaged_files(
-    samples: dict[str, dict[Path, bytes]], kind: str, turn: int, seed: int, meaning: bool
+    intact: list[tuple[Path, bytes]], kind: str, turn: int, seed: int, meaning: bool
 ) -> None:
-    if not samples[kind]:
-        pytest.skip("no recordings: set KINEME_DATA to their folder")
-    path, sound = list(samples[kind].items())[turn % len(samples[kind])]
+    path, sound = intact[turn % len(intact)]
     path.write_bytes(change_structure(path, sound, seed) if meaning else damage_bytes(sound, seed))
     try:
-        for read in KINDS[kind][1]:
+        for read in READERS[kind]:
             check_survival(read, path)
     finally:
         path.write_bytes(sound)
