@@ -3,7 +3,7 @@
     python -m benchmarks                            list them, with the time that each takes
     python -m benchmarks sources hugadb --every 6   run one, with its own options
     python -m benchmarks startup,reading --record   run several in turn
-    python -m benchmarks durability --quick         run those of a folder
+    python -m benchmarks speed --quick              run those of a folder
     python -m benchmarks all --quick                run all on little data, several at a time
 
 Each benchmark runs in its own process. ``--quick`` uses so little data that it takes seconds: it
@@ -36,11 +36,10 @@ LIMIT_S = 600.0
 """Time limit of one of several quick benchmarks."""
 RECORDS = re.compile(r"^from _figures import .*\badd_option\b", re.MULTILINE)
 """Matches scripts that accept ``--record``; asking each for its help would take a second."""
-RIVALS = "python benchmarks/rivals/run.py: other packages, in their own environment"
 
 
 class Outcome(NamedTuple):
-    """How a benchmark ended (ok, skipped or failed), its run time and a message."""
+    """How a benchmark ended (well, skipped or wrong), its run time and a message."""
 
     name: str
     status: str
@@ -48,12 +47,12 @@ class Outcome(NamedTuple):
     message: str = ""
 
 
-def main(arguments: Sequence[str], folder: Path = HERE) -> int:
+def main(arguments: Sequence[str]) -> int:
     if not arguments or arguments[0] in HELP:
-        print((__doc__ or "") if arguments else list_benchmarks(folder))
+        print((__doc__ or "") if arguments else list_benchmarks())
         return 0
     selection, *options = arguments
-    chosen = find_scripts(folder, selection)
+    chosen = find_scripts(selection)
     if len(chosen) == 1:
         return run_visibly(chosen[0], options).returncode
     start = perf_counter()
@@ -68,10 +67,9 @@ def main(arguments: Sequence[str], folder: Path = HERE) -> int:
     return 1 if wrong else 0
 
 
-def find_scripts(folder: Path, selection: str) -> list[Path]:
+def find_scripts(selection: str) -> list[Path]:
     """Return all benchmarks, those of a folder, or those named, in that order."""
-    known = {path.stem: path for path in sorted(folder.glob("*/[!_]*.py"))}
-    known = {name: path for name, path in known.items() if path.parent.name != "rivals"}
+    known = {path.stem: path for path in sorted(HERE.glob("*/[!_]*.py"))}
     chosen: list[Path] = []
     for word in selection.split(","):
         within = [path for path in known.values() if word in (ALL, path.parent.name)]
@@ -81,12 +79,12 @@ def find_scripts(folder: Path, selection: str) -> list[Path]:
     return list(dict.fromkeys(chosen))
 
 
-def list_benchmarks(folder: Path) -> str:
+def list_benchmarks() -> str:
     """Return a line for each benchmark: seconds of a quick and a full run, and its summary."""
     times = read_times()
     lines = [f"{'':24}{'quick':>7}{'whole':>8}  (seconds, where recorded)"]
     home = None
-    for script in find_scripts(folder, ALL):
+    for script in find_scripts(ALL):
         if script.parent.name != home:
             home = script.parent.name
             lines += ["", home]
@@ -96,15 +94,13 @@ def list_benchmarks(folder: Path) -> str:
         )
         summary = (ast.get_docstring(ast.parse(read_text(script))) or "").partition("\n")[0]
         lines.append(f"  {script.stem:22}{quick:>7}{whole:>8}  {summary}")
-    return "\n".join([*lines, "", RIVALS])
+    return "\n".join(lines)
 
 
 def run_visibly(script: Path, options: Sequence[str]) -> subprocess.CompletedProcess[bytes]:
     """Run a benchmark, show its output, and record its time if ``--record`` is set."""
     start = perf_counter()
-    done = subprocess.run(
-        build_command(script, options), env=build_environment(script), check=False
-    )
+    done = subprocess.run(build_command(script, options), env=build_environment(), check=False)
     if done.returncode == 0:
         record_time(script.stem, options, perf_counter() - start)
     return done
@@ -132,7 +128,7 @@ def run_quietly(script: Path, options: Sequence[str]) -> Outcome:
     start = perf_counter()
     process = subprocess.Popen(
         build_command(script, options),
-        env=build_environment(script),
+        env=build_environment(),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -160,10 +156,11 @@ def build_command(script: Path, options: Sequence[str]) -> list[str]:
     return [sys.executable, str(script), *(word for word in options if knows or word != RECORD)]
 
 
-def build_environment(script: Path) -> dict[str, str]:
-    """Return the environment in which benchmarks find shared modules and the reproduction."""
-    ours = sorted({path.parent for path in HERE.glob("*/[!_]*.py")})
-    folders = [HERE, *ours, script.parent, HERE.parent / "reproduction"]
+def build_environment() -> dict[str, str]:
+    """Return the environment in which benchmarks find each other, helpers and the reproduction."""
+    ours = sorted({path.parent for path in find_scripts(ALL)})
+    root = HERE.parent
+    folders = [HERE, *ours, root / "reproduction", root / "tests" / "helpers"]
     path = os.pathsep.join([*map(str, folders), os.environ.get("PYTHONPATH", "")])
     return os.environ | {"PYTHONPATH": path.rstrip(os.pathsep)}
 

@@ -1,4 +1,4 @@
-"""Measure time and memory of code and commands."""
+"""Measure time and memory of code and commands, and match times of events."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contextlib import suppress
 from ctypes import CDLL
 from resource import struct_rusage
 from statistics import median
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import NamedTuple
 
 PR_SET_CHILD_SUBREAPER = 36
@@ -32,6 +32,13 @@ def take_medians(rows: Iterable[Duration]) -> Duration:
     return Duration(*map(median, zip(*rows, strict=True)))
 
 
+def time_call(work: Callable[[], object]) -> Duration:
+    """Call a function and return its duration."""
+    clock, processor = perf_counter(), process_time()
+    work()
+    return Duration(perf_counter() - clock, process_time() - processor)
+
+
 def time_in_turn(works: Mapping[str, Callable[[], object]], *, runs: int) -> dict[str, float]:
     """Return the median seconds of each function; run them in turn, so that other load is shared.
 
@@ -51,6 +58,17 @@ def time_in_turn(works: Mapping[str, Callable[[], object]], *, runs: int) -> dic
 def judge(value: float, most: float) -> str:
     """Return whether a value is within its promised limit."""
     return f"at most {most:g} promised: {'kept' if value <= most else 'NOT KEPT'}"
+
+
+def match_times(true: Iterable[float], found: Iterable[float], near_s: float) -> list[float]:
+    """Match true times with found ones in turn, each used once; return the delays."""
+    free, delays = list(found), []
+    for at in true:
+        nearest = min(free, key=lambda other: abs(other - at), default=None)
+        if nearest is not None and abs(nearest - at) <= near_s:
+            free.remove(nearest)
+            delays.append(nearest - at)
+    return delays
 
 
 def run_kineme(*arguments: object) -> tuple[float, float, float]:

@@ -23,6 +23,8 @@ from kineme_reproduction.trials import find_folder, load_trials
 TRIALS = ("86_01", "86_09", "86_10", "86_11", "86_14")
 
 ACTORS = ("bd", "bk", "dg")
+N_EXERCISES = 5
+"""Number of exercises in a sequence."""
 # HDM05 counts single steps in the class name: four steps are two repetitions.
 REPETITIONS = {"jogLeftCircle4StepsRstart": 2}
 
@@ -61,36 +63,38 @@ def join_hdm05(
 
 
 def draw_exercises(
-    takes: list[Exercise], seed: int, runs: int, repeats: tuple[int, int], actions: int = 5
+    takes: dict[str, list[Exercise]], seed: int, runs: int, repeats: tuple[int, int]
 ) -> list[Exercise]:
-    """Draw runs of exercises in random order; no action follows itself."""
-    of_name: dict[str, list[Exercise]] = {}
-    for exercise in takes:
-        of_name.setdefault(exercise.name, []).append(exercise)
+    """Draw runs of five exercises in random order; none follows itself."""
     rng = np.random.default_rng(seed)
     # Sorted, so that the result does not depend on the order of the files.
-    names = rng.permutation(sorted(of_name))[:actions].tolist()
+    names = rng.permutation(sorted(takes))[:N_EXERCISES].tolist()
     order: list[str] = []
     while len(order) < runs:
         again = rng.permutation(names).tolist()
         if order and again[0] == order[-1]:
             again.append(again.pop(0))
         order += again
-    parts = []
-    for name in order[:runs]:
-        count, found = int(rng.integers(repeats[0], repeats[1] + 1)), of_name[name]
-        # Each take is used once before any is used again.
-        places = rng.permutation(len(found))
-        parts += [found[places[i % len(found)]] for i in range(count)]
-    return parts
+    return [part for name in order[:runs] for part in draw_takes(takes[name], repeats, rng)]
+
+
+def draw_takes(
+    takes: list[Exercise], counts: tuple[int, int], rng: np.random.Generator
+) -> list[Exercise]:
+    """Draw some takes of one exercise; each is used once before any is used again."""
+    count = int(rng.integers(counts[0], counts[1] + 1))
+    order = rng.permutation(len(takes))
+    return [takes[order[i % len(takes)]] for i in range(count)]
 
 
 @cache
-def read_exercises(actor: str) -> list[Exercise]:
-    """Read the exercises of one actor of HDM05."""
-    return [
-        Exercise(kind, motion, REPETITIONS.get(kind, 1)) for _, kind, motion in read_hdm05(actor)
-    ]
+def read_exercises(actor: str) -> dict[str, list[Exercise]]:
+    """Read the takes of each exercise of one actor of HDM05."""
+    takes: dict[str, list[Exercise]] = {}
+    for _, name, motion in read_hdm05(actor):
+        exercise = Exercise(name, motion, REPETITIONS.get(name, 1))
+        takes.setdefault(name, []).append(exercise)
+    return takes
 
 
 def read_hdm05(actor: str, *, every: int = 1) -> Iterator[tuple[str, str, Motion]]:

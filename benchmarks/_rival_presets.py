@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from kineme.methods.presets import register
 from kineme.methods.segments import number_by_appearance
-from kineme_reproduction.baselines.constants import ClassCountConstants
-from kineme_reproduction.baselines.presets import BaselinePreset
+from kineme_reproduction.baselines.presets import BaselinePreset, ClassCountPreset
 from kineme_reproduction.baselines.segments import Segments, unclustered
 
 Floats = NDArray[np.float64]
@@ -55,7 +54,7 @@ class ClapPreset(RivalPreset):
 
 
 @dataclass(frozen=True, kw_only=True)
-class KernelChangePreset(ClassCountConstants, RivalPreset):
+class KernelChangePreset(RivalPreset, ClassCountPreset):
     """Change points with an RBF kernel and the usual penalty log n; clusters by Ward's linkage."""
 
     package: ClassVar[str] = "ruptures"
@@ -69,7 +68,7 @@ class KernelChangePreset(ClassCountConstants, RivalPreset):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HiddenMarkovPreset(ClassCountConstants, RivalPreset):
+class HiddenMarkovPreset(RivalPreset, ClassCountPreset):
     """A Gaussian hidden Markov model with the true number of states."""
 
     package: ClassVar[str] = "tsseg"

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 import kineme
-from _joined import Piece, join_signals, parse_person, read_pieces
-from _options import DATA
+from _measure import match_times
+from _options import DATA, choose_size
 from _recordings import Case, join_hdm05, read_rows, read_subject_86, synthesize_cases
 from _sparse_recordings import SparseCase, make_sparse_events, match_events, select_repetitions
 from kineme.evaluation import evaluate_segmentation, one_to_one_accuracy
@@ -26,6 +27,7 @@ from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.folder import find_recordings
 from kineme.evaluation.score import Ratio, pool_scores, scores
 from kineme.labels.collections import LabelSource, find_labels
+from kineme.labels.spans import format_text
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import SegmentTable
@@ -96,13 +98,11 @@ def judge_takes(name: str, every: int) -> Iterator[Sample]:
     """
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
-        count = count_most_repeated(found)
         true = sorted(float(row["start_s"]) for row in rows)[1:]
         own = sorted({row.start_s for row in select_repetitions(found)})[1:]
-        hits = count_near(true, own)
+        hits = len(match_times(true, own, NEAR_S))
         return {
-            "exact": float(count == len(rows)),
-            "within_one": float(abs(count - len(rows)) <= 1),
+            **score_counts([count_most_repeated(found) - len(rows)]),
             "repetitions_f1": Ratio(2 * hits, len(true) + len(own)),
         }
 
@@ -191,7 +191,7 @@ def score_session(found: Segmentation, parts: list[Exercise]) -> Judged:
     right = [count_repetitions(found, part.start, part.stop) == part.count for part in parts]
     return {
         "one_to_one": one_to_one_accuracy(compared),
-        "border_f1": 2 * count_near(true, sorted(starts)) / (len(true) + len(starts)),
+        "border_f1": 2 * len(match_times(true, sorted(starts), NEAR_S)) / (len(true) + len(starts)),
         "counts": Ratio(sum(right), len(right)),
     }
 
@@ -245,57 +245,90 @@ def judge_videos(every: int) -> Iterator[Sample]:
         yield Sample(key, kineme.read(path), partial(judge, rows=rows))
 
 
-def judge_continuous(folder: str, every: int) -> Iterator[Sample]:
-    """Yield uncut recordings of several activities, labelled by people."""
+def judge_labelled(
+    place: str,
+    names: Sequence[str],
+    read: Callable[[Path], Motion | Signals],
+    every: int,
+) -> Iterator[Sample]:
+    """Yield the recordings of a folder that people labelled."""
 
     def judge(found: Segmentation, source: LabelSource) -> Judged:
         truth = source.of(n_frames=found.n_frames, fps=found.fps)
-        compared = compare(truth, found)
-        return {name: scores()[name].function(compared) for name in CONTINUOUS}
+        return compute_scores(names, compare(truth, found))
 
-    labels = find_labels(find_recordings(DATA / folder), DATA / folder / "labels.csv")
+    labels = find_labels(find_recordings(DATA / place), DATA / place / "labels.csv")
     for path, source in list(labels.items())[::every]:
-        yield Sample(path.stem, kineme.read(path), partial(judge, source=source))
+        yield Sample(path.stem, read(path), partial(judge, source=source))
 
 
-def judge_sensors(name: str, every: int) -> Iterator[Sample]:
-    """Yield recordings of sensors, or of joints as channels, labelled by people."""
+def compute_scores(names: Sequence[str], compared: Comparison) -> Judged:
+    return {name: scores()[name].function(compared) for name in names}
 
-    def judge(found: Segmentation, source: LabelSource) -> Judged:
-        truth = source.of(n_frames=found.n_frames, fps=found.fps)
-        return score_labels(compare(truth, found))
 
-    labels = find_labels(
-        find_recordings(DATA / "sets" / name / "recordings"), DATA / "sets" / name / "labels.csv"
-    )
-    for path, source in list(labels.items())[::every]:
-        yield Sample(path.stem, read_sensors(path), partial(judge, source=source))
+def judge_continuous(place: str) -> Callable[[int], Iterator[Sample]]:
+    """Return a source of uncut recordings of several activities."""
+    return partial(judge_labelled, place, CONTINUOUS, kineme.read)
+
+
+def judge_sensors(name: str) -> Callable[[int], Iterator[Sample]]:
+    """Return a source of recordings of sensors, or of joints as channels."""
+    return partial(judge_labelled, f"sets/{name}", LABELLED, read_sensors)
+
+
+class Piece(NamedTuple):
+    """A recording and the class of each frame, `UNLABELLED` without a label."""
+
+    name: str
+    recording: Signals
+    truth: NDArray[np.int64]
+
+
+def read_pieces(folder: Path) -> Iterator[Piece]:
+    """Read the recordings of a set (quick: two)."""
+    sources = find_labels(find_recordings(folder / "recordings"), folder / "labels.csv")
+    for path, source in list(sources.items())[: choose_size(None, 2)]:
+        one = read_sensors(path)
+        if isinstance(one, Signals):
+            truth = source.of(n_frames=one.n_frames, fps=one.fps)
+            yield Piece(path.stem, one, list_classes(truth))
+
+
+def list_classes(truth: Segmentation) -> NDArray[np.int64]:
+    numbers: dict[str, int] = {}
+    classes = np.full(truth.n_frames, UNLABELLED, np.int64)
+    for row in truth.activities:
+        if row.kind != "transition":
+            number = numbers.setdefault(format_text(row), len(numbers))
+            classes[row.start_frame : row.stop_frame] = number
+    return classes
+
+
+def join_signals(pieces: Sequence[Piece]) -> Signals:
+    """Concatenate recordings at the rate of the first."""
+    first = pieces[0].recording
+    values = np.concatenate([piece.recording.values for piece in pieces])
+    return Signals(values, first.fps, first.names)
 
 
 def judge_people(name: str, every: int) -> Iterator[Sample]:
     """Yield the joined recordings of each person, to test whether file length matters."""
     people = defaultdict(list)
     for piece in read_pieces(DATA / "sets" / name):
-        people[parse_person(piece.name)].append(piece)
+        people[piece.name.rpartition("_")[0]].append(piece)
 
     def judge(found: Segmentation, parts: list[Piece]) -> Judged:
         ends = np.cumsum([len(part.truth) for part in parts])[:-1]
         each = zip(parts, np.split(found.per_frame(level="activity"), ends), strict=True)
         judged = [
-            score_labels(Comparison(part.truth[known], clusters[known], found.fps))
+            compute_scores(LABELLED, Comparison(part.truth[known], clusters[known], found.fps))
             for part, clusters in each
             if (known := part.truth != UNLABELLED).any()
         ]
         return {name: pool_scores(one[name] for one in judged) for name in LABELLED}
 
     for who, parts in list(people.items())[::every]:
-        yield Sample(
-            who, join_signals([part.recording for part in parts]), partial(judge, parts=parts)
-        )
-
-
-def score_labels(compared: Comparison) -> Judged:
-    return {name: scores()[name].function(compared) for name in LABELLED}
+        yield Sample(who, join_signals(parts), partial(judge, parts=parts))
 
 
 def judge_barbell(every: int) -> Iterator[Sample]:
@@ -306,8 +339,7 @@ def judge_barbell(every: int) -> Iterator[Sample]:
     ]
 
     def judge(found: Segmentation, planned: int) -> Judged:
-        own = count_most_repeated(found)
-        return {"exact": float(own == planned), "within_one": float(abs(own - planned) <= 1)}
+        return score_counts([count_most_repeated(found) - planned])
 
     for row in rows[::every]:
         recording = read_sensors(folder / "recordings" / f"{row['recording']}.parquet")
@@ -319,17 +351,10 @@ def judge_counted_sets(name: str, every: int) -> Iterator[Sample]:
     folder = DATA / "sets" / name
 
     def judge(found: Segmentation, rows: list[dict[str, str]]) -> Judged:
-        wrong = [
-            abs(
-                count_repetitions(found, *(found.fps * float(row[end]) for end in ENDS))
-                - int(row["count"])
-            )
-            for row in rows
-        ]
-        return {
-            "exact": Ratio(sum(each == 0 for each in wrong), len(wrong)),
-            "within_one": Ratio(sum(each <= 1 for each in wrong), len(wrong)),
-        }
+        spans = [[found.fps * float(row[end]) for end in ENDS] for row in rows]
+        counts = [count_repetitions(found, *span) for span in spans]
+        true = [int(row["count"]) for row in rows]
+        return score_counts([own - count for own, count in zip(counts, true, strict=True)])
 
     files = {path.stem: path for path in find_recordings(folder / "recordings")}
     for key, rows in list(read_rows(folder / "counts.csv").items())[::every]:
@@ -343,22 +368,19 @@ def count_most_repeated(found: Segmentation) -> int:
     return most if most > 1 else 0
 
 
-def count_near(true: list[float], found: list[float]) -> int:
-    """Count true borders that match a found border of their own."""
-    free, hits = list(found), 0
-    for border in true:
-        nearest = min(free, key=lambda other: abs(other - border), default=None)
-        if nearest is not None and abs(nearest - border) <= NEAR_S:
-            free.remove(nearest)
-            hits += 1
-    return hits
+def score_counts(errors: Sequence[int]) -> Judged:
+    """Return how many counts are right, and how many within one, from found minus true counts."""
+    return {
+        "exact": Ratio(sum(each == 0 for each in errors), len(errors)),
+        "within_one": Ratio(sum(abs(each) <= 1 for each in errors), len(errors)),
+    }
 
 
 SOURCES: Mapping[str, Callable[[int], Iterator[Sample]]] = {
     "subject_86": lambda every: judge_cases(read_subject_86(), every),
-    "mocap6": partial(judge_continuous, "mocap6"),
-    "takes": partial(judge_continuous, "rigs/takes"),
-    "tug": partial(judge_continuous, "bodies/tug"),
+    "mocap6": judge_continuous("mocap6"),
+    "takes": judge_continuous("rigs/takes"),
+    "tug": judge_continuous("bodies/tug"),
     "hdm05": lambda every: judge_cases(join_hdm05(50), every),
     "synthetic": lambda every: judge_cases(synthesize_cases("all", 20), every),
     "uiprmd": partial(judge_takes, "uiprmd"),
@@ -368,13 +390,13 @@ SOURCES: Mapping[str, Callable[[int], Iterator[Sample]]] = {
     "msrc12": judge_gestures,
     "countix": judge_videos,
     "sparse_events": partial(judge_sparse_events, 50),
-    "hugadb": partial(judge_sensors, "hugadb"),
-    "hapt": partial(judge_sensors, "hapt"),
-    "ipolgait": partial(judge_sensors, "ipolgait"),
-    "utkinect": partial(judge_sensors, "utkinect"),
+    "hugadb": judge_sensors("hugadb"),
+    "hapt": judge_sensors("hapt"),
+    "ipolgait": judge_sensors("ipolgait"),
+    "utkinect": judge_sensors("utkinect"),
     "hugadb_by_person": partial(judge_people, "hugadb"),
     "barbell": judge_barbell,
-    "swimming": partial(judge_sensors, "swimming"),
+    "swimming": judge_sensors("swimming"),
     "ptex": partial(judge_counted_sets, "ptex"),
     "gym_watch": partial(judge_counted_sets, "gym_watch"),
     "moca": partial(judge_counted_sets, "moca"),

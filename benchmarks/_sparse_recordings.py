@@ -8,14 +8,14 @@ standing, or a movement that occurs only once in the recording.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from _options import choose_size
-from _recordings import ACTORS, read_exercises, read_subject_86
+from _recordings import ACTORS, draw_takes, read_exercises, read_subject_86
 from _sequences import join_recordings
 from kineme.recordings import Motion
 from kineme.recordings.operations import cut
@@ -34,8 +34,7 @@ OVERLAP = 0.5
 """Intersection over union at which a primitive and an event count as the same."""
 
 
-@dataclass(frozen=True)
-class Event:
+class Event(NamedTuple):
     """One occurrence of a target exercise: its name and frames [start, stop)."""
 
     name: str
@@ -43,8 +42,7 @@ class Event:
     stop: int
 
 
-@dataclass(frozen=True)
-class SparseCase:
+class SparseCase(NamedTuple):
     """A recording and its events."""
 
     name: str
@@ -61,26 +59,19 @@ def make_sparse_events(seeds: int) -> Iterator[SparseCase]:
 
 
 def _make_recording(actor: str, rng: np.random.Generator) -> tuple[Motion, tuple[Event, ...]]:
-    takes = _read_takes(actor)
+    takes = read_exercises(actor)
     names = [name for name in sorted(takes) if name not in LOCOMOTION]
     targets = rng.permutation(names)[:TARGETS].tolist()
-    order = [
-        (name, take)
-        for name in targets
-        for take in _draw_takes(
-            takes[name], int(rng.integers(OCCURRENCES[0], OCCURRENCES[1] + 1)), rng
-        )
-    ]
-    singles = [takes[name][0] for name in sorted(takes) if name not in targets]
-    singles = [singles[i] for i in rng.permutation(len(singles))] + [
-        _list_others(actor)[i] for i in rng.permutation(len(_list_others(actor)))
-    ]
+    drawn = [take for name in targets for take in draw_takes(takes[name], OCCURRENCES, rng)]
+    untargeted = [takes[name][0].motion for name in sorted(takes) if name not in targets]
+    others = _list_others(actor)
+    singles = [untargeted[i] for i in rng.permutation(len(untargeted))]
+    singles += [others[i] for i in rng.permutation(len(others))]
     parts = [_make_filler(actor, singles, rng)]
     marked = []
-    for i in rng.permutation(len(order)).tolist():
-        name, take = order[i]
-        marked.append((len(parts), name))
-        parts += [take, _make_filler(actor, singles, rng)]
+    for i in rng.permutation(len(drawn)).tolist():
+        marked.append((len(parts), drawn[i].name))
+        parts += [drawn[i].motion, _make_filler(actor, singles, rng)]
     motion, starts, _ = join_recordings(parts)
     events = (Event(name, int(starts[i]), int(starts[i + 1])) for i, name in marked)
     return motion, tuple(events)
@@ -90,12 +81,11 @@ def _make_filler(actor: str, singles: list[Motion], rng: np.random.Generator) ->
     """Return movement between events; movements that occur once are popped from the list."""
     kind, seconds = rng.random(), float(rng.uniform(*BETWEEN_S))
     if kind < WALKING or (kind >= WALKING + STANDING and not singles):
-        return _cut_randomly(
-            _list_walks(actor)[int(rng.integers(len(_list_walks(actor))))], seconds, rng
-        )
+        walks = [motion for name, motion in _retarget_activities(actor) if name == "walk"]
+        return _cut_randomly(walks[int(rng.integers(len(walks)))], seconds, rng)
     if kind < WALKING + STANDING:
-        stood = _read_takes(actor)["squat1Reps"]
-        return _make_standing(stood[int(rng.integers(len(stood)))], seconds, rng)
+        squats = read_exercises(actor)["squat1Reps"]
+        return _make_standing(squats[int(rng.integers(len(squats)))].motion, seconds, rng)
     return _cut_randomly(singles.pop(), BETWEEN_S[1], rng)
 
 
@@ -120,38 +110,17 @@ def _make_standing(motion: Motion, seconds: float, rng: np.random.Generator) -> 
     return Motion.from_rotations(motion.skeleton, rotations, motion.fps, root)
 
 
-def _draw_takes(takes: list[Motion], count: int, rng: np.random.Generator) -> list[Motion]:
-    """Draw takes; each is used once before any is used again."""
-    order = rng.permutation(len(takes))
-    return [takes[order[i % len(takes)]] for i in range(count)]
-
-
-@cache
-def _read_takes(actor: str) -> dict[str, list[Motion]]:
-    takes: dict[str, list[Motion]] = {}
-    for exercise in read_exercises(actor):
-        takes.setdefault(exercise.name, []).append(exercise.motion)
-    return takes
-
-
-@cache
-def _list_walks(actor: str) -> list[Motion]:
-    return [motion for name, motion in _retarget_activities(actor) if name == "walk"]
-
-
-@cache
 def _list_others(actor: str) -> list[Motion]:
     """Return one part of each activity of subject 86 except walking."""
-    return list(
-        {name: motion for name, motion in _retarget_activities(actor) if name != "walk"}.values()
-    )
+    parts = {name: motion for name, motion in _retarget_activities(actor) if name != "walk"}
+    return list(parts.values())
 
 
 @cache
 def _retarget_activities(actor: str) -> list[tuple[str, Motion]]:
     """Return names and motions of the activities of subject 86 on the skeleton of an actor."""
-    skeleton = next(iter(_read_takes(actor).values()))[0].skeleton
-    height = measure_root_height(next(iter(_read_takes(actor).values()))[0])
+    actors_own = next(iter(read_exercises(actor).values()))[0].motion
+    height = measure_root_height(actors_own)
     found = []
     for case in read_subject_86():
         motion, truth = case.motion, case.truth
@@ -159,7 +128,7 @@ def _retarget_activities(actor: str) -> list[tuple[str, Motion]]:
         starts = np.append(0, truth.latest) * ratio
         stops = np.append(truth.earliest, truth.frames) * ratio
         root = motion.positions[:, 0] * height / measure_root_height(motion)
-        retargeted = Motion.from_rotations(skeleton, motion.rotations, motion.fps, root)
+        retargeted = Motion.from_rotations(actors_own.skeleton, motion.rotations, motion.fps, root)
         for name, start, stop in zip(truth.labels, starts, stops, strict=True):
             found.append((name, cut(retargeted, int(start), min(int(stop), retargeted.n_frames))))
     return found

@@ -92,8 +92,6 @@ def show(name: str, lengths: Sequence[float]) -> None:
         if first is not None:
             times = seconds / first[1], gigabytes / first[2]
             line += f"; {times[0]:.2f} and {times[1]:.2f} times {first[0]:g} h"
-            record(f"{key}.times_{first[0]:g}_h", round(times[0], 2), unit="times")
-            record(f"{key}.memory_times_{first[0]:g}_h", round(times[1], 2), unit="times")
         if name == DEFAULT and hours == 1:
             line += f"; s {judge(seconds, 3)}, GB {judge(gigabytes, 0.5)}"
         if name == DEFAULT and (first or (0,))[0] == 1 and hours == 4:

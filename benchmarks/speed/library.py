@@ -12,13 +12,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from statistics import median
 from tempfile import TemporaryDirectory
-from time import perf_counter, process_time
 
 from _figures import add_option, record
 from _libraries import simulate_library
-from _measure import judge, run_kineme
+from _measure import judge, run_kineme, take_medians, time_call
 from _options import DATA, choose_size, find_data, make_parser
 from kineme import Library, read
 
@@ -76,12 +74,9 @@ def show_search(home: Path, hours: float) -> None:
     print(f"clusters in common of {len(library)} recordings: {seconds:.1f} s")
     name, start_s, stop_s = WALK
     example = read(DATA / "cmu86" / name)
-    taken = []
-    for _ in range(5):
-        start, begun = perf_counter(), process_time()
-        library.search(example, start_s, stop_s)
-        taken.append((perf_counter() - start, process_time() - begun))
-    warm, used = (median(column) for column in zip(*taken, strict=True))
+    warm, used = take_medians(
+        time_call(lambda: library.search(example, start_s, stop_s)) for _ in range(5)
+    )
     print(
         f"search in {library.hours:.0f} h: {warm:.2f} s, {judge(warm, 0.02 * hours)}; "
         f"processor {used:.2f} s"

@@ -19,12 +19,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from time import perf_counter, process_time
-from typing import NamedTuple
 
 import kineme
 from _figures import add_option, record
-from _measure import judge
+from _measure import Duration, judge, time_call
 from _options import choose_size, find_data, make_parser, need_packages, skip
 from kineme.pose.camera import CameraWatch
 from kineme.pose.decoding import Frame, OpenVideo, open_video
@@ -36,20 +34,6 @@ VIDEOS = {"squats_side_view.mp4": 3, "squats_panning.mp4": 6}
 SIZE = (640, 360)
 MAX_S = 30.0
 """Seconds of processor time per minute of video."""
-
-
-class Duration(NamedTuple):
-    """Processor time and wall time in seconds."""
-
-    processor: float
-    wall: float
-
-
-def measure(work: Callable[[], object]) -> Duration:
-    """Call a function and return its duration."""
-    clock, processor = perf_counter(), process_time()
-    work()
-    return Duration(process_time() - processor, perf_counter() - clock)
 
 
 def write_small(source: Path, target: Path) -> None:
@@ -71,31 +55,31 @@ def show_parts(video: Path) -> None:
     """Print and record the time of each part of the work, per minute of video."""
     with open_video(video) as opened:
         minutes, step = opened.duration / 60, opened.find_step(DEFAULT_RATE)
-        parts = {"decoding": measure(lambda: list(opened.frames(3600.0)))}
+        parts = {"decoding": time_call(lambda: list(opened.frames(3600.0)))}
     frames: list[Frame] = []
     with open_video(video) as opened:
-        both = measure(lambda: frames.extend(opened.frames(step)))
+        both = time_call(lambda: frames.extend(opened.frames(step)))
     parts["conversion to RGB"] = Duration(
         *(a - b for a, b in zip(both, parts["decoding"], strict=True))
     )
     camera = CameraWatch()
-    parts["moves of the camera"] = measure(
+    parts["moves of the camera"] = time_call(
         lambda: [camera.measure(frame.picture, frame.time) for frame in frames]
     )
     context = start_mediapipe(None)
-    start = measure(context.__enter__)
+    start = time_call(context.__enter__)
     context.__exit__(None, None, None)
     with start_mediapipe(None) as estimate:
-        parts["MediaPipe"] = measure(
+        parts["MediaPipe"] = time_call(
             lambda: [estimate(frame.picture, frame.time) for frame in frames]
         )
-    parts["as a whole"] = measure(lambda: estimate_poses(video))
+    parts["as a whole"] = time_call(lambda: estimate_poses(video))
     print(f"seconds a minute of {SIZE[0]} x {SIZE[1]} video, {len(frames) / minutes:.0f} poses:")
     for name, duration in parts.items():
-        processor, wall = duration.processor / minutes, duration.wall / minutes
+        processor, wall = duration.processor / minutes, duration.clock / minutes
         print(f"  {name:22}{processor:6.1f} s of processor time, {wall:6.1f} s of wall time")
         record(f"pose.{name.replace(' ', '_')}.processor", round(processor, 1), unit="s")
-    print(f"  start, once           {start.processor:6.1f} s, {start.wall:6.1f} s of wall time")
+    print(f"  start, once           {start.processor:6.1f} s, {start.clock:6.1f} s of wall time")
     whole = parts["as a whole"].processor / minutes
     print(f"  {judge(whole, MAX_S)}, by processor time")
 

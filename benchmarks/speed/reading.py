@@ -15,13 +15,10 @@ import subprocess
 import sys
 import tempfile
 import warnings
-from collections.abc import Callable
 from pathlib import Path
-from statistics import median
-from time import perf_counter
 
 from _figures import add_option, record
-from _measure import judge
+from _measure import judge, time_in_turn
 from _options import choose_size, find_data, make_parser
 from kineme.formats import read
 
@@ -37,16 +34,6 @@ print(size / 1e9, held / 1e9, time.process_time())
 FILES = ("cmu86/86_10.amc", "cmu_formats/49_02.bvh", "formats/aitviewer_sample.bvh")
 MOST_GB = 1.5
 RUNS = choose_size(9, 1)
-
-
-def measure_seconds(work: Callable[[], object]) -> float:
-    def once() -> float:
-        start = perf_counter()
-        work()
-        return perf_counter() - start
-
-    once()
-    return median(once() for _ in range(RUNS))
 
 
 def write_hour(sample: Path, path: Path) -> None:
@@ -89,7 +76,8 @@ def main() -> int:
         path = find_data(name)
         data = path.read_bytes()
         size = len(data) / 1e6
-        took, bare = measure_seconds(lambda path=path: read(path)), measure_seconds(data.split)
+        works = {"read": lambda path=path: read(path), "split": data.split}
+        took, bare = time_in_turn(works, runs=RUNS).values()
         frames = read(path).n_frames
         print(
             f"{name:30} {size:5.1f} {frames:7d} {took:8.3f} {size / took:6.1f} {took / bare:8.1f}"

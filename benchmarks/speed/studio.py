@@ -11,18 +11,13 @@ Compiled code is cached.
 
 from __future__ import annotations
 
-import atexit
 import json
 import os
-import re
-import signal
-import subprocess
-import sys
 import tempfile
 import urllib.request
 from pathlib import Path
 from time import perf_counter, sleep
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -33,47 +28,32 @@ from _options import DATA, choose_size, find_data, make_parser
 from kineme.methods.presets import DEFAULT, PRESETS, PUBLISHED
 from kineme.recordings.operations import cut
 from reading import FILES, write_hour
+from studio_server import StudioServer
 
 TRIALS = ("86_10", "86_14", "86_11")
 WARM = choose_size(25.0, 2.0)  # seconds until compiled code is loaded
 
 
-class Studio(NamedTuple):
-    """A running studio."""
-
-    process: subprocess.Popen[str]
-    base: str
-    token: str
-
-    def ask(self, path: str, sent: Any = None) -> bytes:
-        """Send a request and return the body of the answer."""
-        data = None if sent is None else json.dumps(sent).encode()
-        request = urllib.request.Request(self.base + path, data, {"X-Kineme-Token": self.token})
-        with urllib.request.urlopen(request) as answer:
-            body: bytes = answer.read()
-        return body
-
-    def end(self) -> None:
-        """Stop the studio as Ctrl+C does."""
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait()
+def ask(studio: StudioServer, path: str, sent: Any = None) -> bytes:
+    """Send a request and return the body of the answer."""
+    data = None if sent is None else json.dumps(sent).encode()
+    address = studio.root.rstrip("/") + path
+    request = urllib.request.Request(address, data, {"X-Kineme-Token": studio.token})
+    with urllib.request.urlopen(request) as answer:
+        body: bytes = answer.read()
+    return body
 
 
-def start_studio(folder: Path) -> Studio:
-    """Start ``kineme studio`` for a folder and wait for its address."""
-    command = [sys.executable, "-m", "kineme", "studio", str(folder)]
-    process = subprocess.Popen(
-        [*command, "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True
-    )
-    atexit.register(process.kill)  # stops it if the benchmark fails
-    found = re.search(r"(http://\S+)/\?token=(\S+)", process.stdout.readline())  # type: ignore[union-attr]
-    return Studio(process, found[1], found[2])  # type: ignore[index]
+def find_recordings(studio: StudioServer) -> dict[str, str]:
+    """Return the address of each recording by name."""
+    listed = json.loads(ask(studio, "/api/state"))["recordings"]
+    return {each["name"]: f"/api/recordings/{each['id']}" for each in listed}
 
 
-def time_request(studio: Studio, path: str, sent: Any = None) -> tuple[Duration, bytes]:
+def time_request(studio: StudioServer, path: str, sent: Any = None) -> tuple[Duration, bytes]:
     """Return the duration of a request and its answer."""
     clock, processor = perf_counter(), read_processor_time(studio.process.pid)
-    answer = studio.ask(path, sent)
+    answer = ask(studio, path, sent)
     spent = read_processor_time(studio.process.pid) - processor
     return Duration(perf_counter() - clock, spent), answer
 
@@ -99,18 +79,16 @@ def join_motion(seconds: float) -> kineme.Motion:
 
 def time_first_answers(folder: Path) -> tuple[Duration, ...]:
     """Return the times of segments, figure and a tile in a new studio."""
-    studio = start_studio(folder)
-    listed = json.loads(studio.ask("/api/state"))["recordings"]
-    one = f"/api/recordings/{listed[0]['id']}"
-    sleep(2)  # a person takes about as long to choose
-    took = [time_request(studio, one + part)[0] for part in ("", "/motion", "/matrix/0/0/0")]
-    studio.end()
-    return tuple(took)
+    with StudioServer(folder) as studio:
+        one = find_recordings(studio)["take.bvh"]
+        sleep(2)  # a person takes about as long to choose
+        parts = ("", "/motion", "/matrix/0/0/0")
+        return tuple(time_request(studio, one + part)[0] for part in parts)
 
 
-def wait_for_segments(studio: Studio, one: str) -> int:
+def wait_for_segments(studio: StudioServer, one: str) -> int:
     """Wait until a recording is segmented, as edits need; return its revision."""
-    while (message := json.loads(studio.ask(one))).get("finding"):
+    while (message := json.loads(ask(studio, one))).get("finding"):
         sleep(0.2)
     revision: int = message["revision"]
     return revision
@@ -118,41 +96,36 @@ def wait_for_segments(studio: Studio, one: str) -> int:
 
 def time_segmenting_again(folder: Path, runs: int) -> dict[str, Duration]:
     """Return median times of segmenting again by each preset, each time with another constant."""
-    studio = start_studio(folder)
-    one = f"/api/recordings/{json.loads(studio.ask('/api/state'))['recordings'][0]['id']}"
-    sleep(WARM)
-    revision = wait_for_segments(studio, one)
     found = {}
-    for preset in (DEFAULT, *PUBLISHED):
-        constant = "segment_cost" if preset == "kineme" else "radius"
-        value = getattr(PRESETS[preset], constant)
-        times = []
-        for run in range(runs + 1):
-            parameters = {constant: value * (1 - 0.02 * run)}
-            edit = {"kind": "segment", "preset": preset, "parameters": parameters}
-            took, answer = time_request(
-                studio, f"{one}/edits", {"revision": revision, "edit": edit}
-            )
-            times.append(took)
-            revision = json.loads(answer)["revision"]
-        found[preset] = take_medians(times[1:])
-    studio.end()
+    with StudioServer(folder) as studio:
+        one = find_recordings(studio)["take.bvh"]
+        sleep(WARM)
+        revision = wait_for_segments(studio, one)
+        for preset in (DEFAULT, *PUBLISHED):
+            constant = "segment_cost" if preset == "kineme" else "radius"
+            value = getattr(PRESETS[preset], constant)
+            times = []
+            for run in range(runs + 1):
+                parameters = {constant: value * (1 - 0.02 * run)}
+                edit = {"kind": "segment", "preset": preset, "parameters": parameters}
+                sent = {"revision": revision, "edit": edit}
+                took, answer = time_request(studio, f"{one}/edits", sent)
+                times.append(took)
+                revision = json.loads(answer)["revision"]
+            found[preset] = take_medians(times[1:])
     return found
 
 
 def time_hour(folder: Path) -> Duration:
     """Return the time to the first poses of an hour in a warm studio."""
-    studio = start_studio(folder)
-    sleep(WARM)
-    write_hour(
-        find_data(FILES[1]), folder / "hour.bvh"
-    )  # written late, so that the studio has not opened it
-    listed = json.loads(studio.ask("/api/state"))["recordings"]
-    (one,) = (f"/api/recordings/{each['id']}" for each in listed if each["name"] == "hour.bvh")
-    message, answer = time_request(studio, one)
-    poses = json.loads(answer)["motion"]["n_samples"]
-    motion, _ = time_request(studio, f"{one}/motion?poses={poses}")
-    studio.end()
+    with StudioServer(folder) as studio:
+        sleep(WARM)
+        # Written only now, so that the studio has not opened it.
+        write_hour(find_data(FILES[1]), folder / "hour.bvh")
+        one = find_recordings(studio)["hour.bvh"]
+        message, answer = time_request(studio, one)
+        poses = json.loads(answer)["motion"]["n_samples"]
+        motion, _ = time_request(studio, f"{one}/motion?poses={poses}")
     return Duration(message.clock + motion.clock, message.processor + motion.processor)
 
 
@@ -172,11 +145,7 @@ def main() -> None:
         print(f"two minutes, all three: {judge(sum(took.clock for took in parts), 1.5)}")
         kineme.write(join_motion(choose_size(60, 20)), folder / "take.bvh")
         for preset, took in time_segmenting_again(folder, runs).items():
-            record(
-                f"studio.time_segmenting_again.{preset}.processor",
-                round(took.processor, 2),
-                unit="s",
-            )
+            record(f"studio.segment_again.{preset}", round(took.processor, 2), unit="s")
             print(f"a minute again by {preset}: {took}; {judge(took.clock, 0.5)}")
         took = time_hour(folder)
         print(f"an hour, first poses: {took}; {judge(took.clock, 5)}")

@@ -11,8 +11,10 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -21,27 +23,23 @@ from typing import Any
 import numpy as np
 
 import kineme
-from _browser import DRAWN, FLAGS, SIZE, open_chromium, wait
 from _figures import add_option, record
 from _measure import judge, take_medians
-from _options import choose_size, make_parser
-from kineme.datasets import bundled_recording
+from _options import choose_size, make_parser, need_packages, skip
+from bundled import write_repeated
 from kineme.segments import editing
-from studio import Studio, start_studio, time_request
+from studio import find_recordings, time_request, wait_for_segments
+from studio_server import StudioServer
 
 MINUTES, SEGMENTS, ROUNDS = choose_size((60, (5000, 20000), 7), (1, (100,), 1))
 MOST_S, MOST_BYTES = 0.1, 20_000
+SOFTWARE_RENDERING = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""Options of Chromium, as on a computer without a graphics card."""
+SIZE = {"width": 1280, "height": 720}
+DRAWN = "window.kineme?.hasMotion && window.kineme.drawn > 0"
 EACH = 20
 """Primitives per activity."""
 KEYS = {"a border": "Alt+ArrowRight", "a split": "s", "a check": "k", "an undo": "Control+z"}
-
-
-def repeat_bvh(bvh: str, n_frames: int) -> str:
-    """Repeat the frames of a BVH to so many frames."""
-    head, motion = bvh.split("MOTION\n")
-    _, frame_time, *frames = motion.strip().split("\n")
-    lines = [frames[i % len(frames)] for i in range(n_frames)]
-    return "\n".join([head + "MOTION", f"Frames: {n_frames}", frame_time, *lines, ""])
 
 
 def main() -> None:
@@ -51,16 +49,38 @@ def main() -> None:
     lengths = parser.parse_args().segments
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     n_frames = MINUTES * 60 * 60
-    with tempfile.TemporaryDirectory() as name, open_chromium(*FLAGS) as browser:
-        path = Path(name) / "hour.bvh"
-        path.write_text(repeat_bvh(bundled_recording().read_text(), n_frames))
+    with tempfile.TemporaryDirectory() as name, open_chromium() as browser:
+        path = write_repeated(Path(name) / "hour.bvh", n_frames)
         for n in lengths:
             print(f"{MINUTES} minutes, {n} primitives")
             kineme.write_segments(make_table(n, n_frames), path.with_suffix(".segments.json"))
-            studio = start_studio(Path(name))
-            time_requests(studio, n, n_frames)
-            time_keys(browser.new_page(viewport=SIZE), studio, n)
-            studio.end()
+            with StudioServer(Path(name)) as studio:
+                time_requests(studio, n, n_frames)
+                time_keys(browser.new_page(viewport=SIZE), studio, n)
+
+
+@contextmanager
+def open_chromium() -> Iterator[Any]:
+    """Open a browser; skip the benchmark if none is installed."""
+    need_packages("playwright")
+    from playwright.sync_api import sync_playwright
+
+    program = os.environ.get("KINEME_CHROMIUM") or shutil.which("chromium")
+    if program is None:
+        skip("needs Chromium: install it, or set KINEME_CHROMIUM to its program")
+    sandbox = [] if os.geteuid() else ["--no-sandbox"]
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=program, args=[*SOFTWARE_RENDERING, *sandbox]
+        )
+        yield browser
+        browser.close()
+
+
+def wait(tab: Any, condition: str) -> None:
+    """Wait until the condition holds; poll, because the page's policy forbids evaluated code."""
+    while not tab.evaluate(condition):
+        tab.wait_for_timeout(10)
 
 
 def make_table(n: int, n_frames: int) -> kineme.Segmentation:
@@ -82,12 +102,10 @@ def make_table(n: int, n_frames: int) -> kineme.Segmentation:
     return editing.check(table, "primitive", edges[1:-1:2].tolist(), checked=True)
 
 
-def time_requests(studio: Studio, n: int, n_frames: int) -> None:
+def time_requests(studio: StudioServer, n: int, n_frames: int) -> None:
     """Send edits of each kind over HTTP and print their times."""
-    one = f"/api/recordings/{json.loads(studio.ask('/api/state'))['recordings'][0]['id']}"
-    while (message := json.loads(studio.ask(one))).get("finding"):
-        pass
-    revision = message["revision"]
+    one = find_recordings(studio)["hour.bvh"]
+    revision = wait_for_segments(studio, one)
     for kind, edits in make_edits(n, n_frames).items():
         rows, sizes = [], []
         for edit in edits:
@@ -120,14 +138,14 @@ def make_edits(n: int, n_frames: int) -> dict[str, Iterator[dict[str, Any]]]:
     }  # fmt: skip
 
 
-def time_keys(tab: Any, studio: Studio, n: int) -> None:
+def time_keys(tab: Any, studio: StudioServer, n: int) -> None:
     """Press keys in the page and print the times of edits."""
     line = tab.context.new_cdp_session(tab)
     line.send("Network.enable")
     line.send("Performance.enable")
     received: list[int] = []
     line.on("Network.dataReceived", lambda event: received.append(event["dataLength"]))
-    tab.goto(f"{studio.base}/?token={studio.token}")
+    tab.goto(studio.address)
     wait(tab, DRAWN)
     tab.keyboard.press("End")
     tab.wait_for_timeout(choose_size(3000, 500))

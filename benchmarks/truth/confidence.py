@@ -120,11 +120,11 @@ def convert_truth(case: Case) -> Truth:
 
 def read_single_exercises(every: int) -> Known:
     """Yield recordings of a single exercise."""
-    for one in chain.from_iterable(
-        read_exercises(actor)[:: choose_size(every, 100)] for actor in ACTORS
-    ):
-        whole = [(0.0, one.motion.n_frames / one.motion.fps, one.name)]
-        yield one.motion, Truth(whole, [one.repetitions])
+    for actor in ACTORS:
+        takes = list(chain.from_iterable(read_exercises(actor).values()))
+        for one in takes[:: choose_size(every, 100)]:
+            whole = [(0.0, one.motion.n_frames / one.motion.fps, one.name)]
+            yield one.motion, Truth(whole, [one.repetitions])
 
 
 def read_all_hdm05(every: int) -> Known:

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 import kineme
 from _figures import add_option, record
+from _measure import match_times
 from _options import choose_size, find_data, is_quick, make_parser
 from _recordings import read_rows
 from kineme.cycles import Events, foot_events, stands_from_force
@@ -82,17 +83,6 @@ def is_aligned(signals: Signals, side: str, marked: Floats) -> bool:
     return float(np.mean(speed[middles] > FAST * usual)) < MOVING
 
 
-def match_events(true: Floats, found: Floats) -> list[float]:
-    """Match true and found events one to one and return the delays."""
-    free, late = [*found.tolist()], []
-    for at in true.tolist():
-        nearest = min(free, key=lambda each: abs(each - at), default=None)
-        if nearest is not None and abs(nearest - at) <= NEAR_S:
-            free.remove(nearest)
-            late.append(nearest - at)
-    return late
-
-
 def keep_away_from_turns(times: Floats, turns: list[tuple[float, float]]) -> Floats:
     inside = [any(a - TURN_S <= at <= b + TURN_S for a, b in turns) for at in times.tolist()]
     return times[~np.array(inside, bool)]
@@ -112,7 +102,7 @@ def show(name: str, feet: list[Foot]) -> bool:
                         keep_away_from_turns(marked, foot.turns),
                         keep_away_from_turns(times, foot.turns),
                     )
-                each = match_events(marked, times)
+                each = match_times(marked.tolist(), times.tolist(), NEAR_S)
                 late[event] += each if where == "away" else []
                 found, true, right = found + len(times), true + len(marked), right + len(each)
         score = 2 * right / (found + true)
@@ -183,7 +173,7 @@ def show_markers() -> bool:
     for at, name in motion.provenance.events:
         marked[normalize_event_name(name)].append(at)
     right = sum(
-        len(match_events(np.array(times), events.at(name))) for name, times in marked.items()
+        len(match_times(times, events.at(name).tolist(), NEAR_S)) for name, times in marked.items()
     )
     true = sum(map(len, marked.values()))
     print(f"treadmill: {right} of {true} within 50 ms, {len(events)} found")

@@ -125,8 +125,8 @@ def check_jitter(seeds: int) -> bool:
             apart += distances[distances < NEAR_S].tolist()
     median, most = 1e3 * np.percentile(apart, [50, 95])
     print(f"borders of one recording at several rates: {median:.1f} ms apart, 95 % {most:.1f} ms")
-    record("cycles.check_jitter.median", round(float(median), 1), unit="ms")
-    record("cycles.check_jitter.most", round(float(most), 1), unit="ms")
+    record("cycles.jitter.median", round(float(median), 1), unit="ms")
+    record("cycles.jitter.most", round(float(most), 1), unit="ms")
     return bool(median <= 8 and most <= 20)
 
 
@@ -183,7 +183,7 @@ def check_angles() -> bool:
                 wrong = np.abs(values - given[f"{side} {part}"])
                 worst = max(worst, float(np.sqrt(np.mean(wrong**2))))
         print(f"angles from {kind}: {worst:.2f}° of those that made them (rms, the worst)")
-        record(f"cycles.check_angles.{kind}", round(worst, 2), unit="°")
+        record(f"cycles.angles.{kind}", round(worst, 2), unit="°")
         kept &= worst <= most
     return kept
 
@@ -216,12 +216,12 @@ def check_laboratory() -> bool:
         offset, rest = float(np.mean(offsets)), float(np.mean(rests))
         print(f"Plug-in Gait, {name}: range {mean:+.1f} ± {deviation:.1f}°, offset {offset:+.1f}°, "
               f"without it {rest:.1f}° ({len(ranges)} legs of {len(walks)} walks)")  # fmt: skip
-        key = f"cycles.check_laboratory.{name.replace(', ', '_').replace(' ', '_')}"
+        key = f"cycles.laboratory.{name.replace(', ', '_').replace(' ', '_')}"
         for what, value in (("range", mean), ("range_deviation", deviation), ("offset", offset),
                             ("rest", rest)):  # fmt: skip
             record(f"{key}.{what}", round(value, 1), unit="°")
         kept &= abs(mean) <= most
-    record("cycles.check_laboratory.walks", len(walks))
+    record("cycles.laboratory.walks", len(walks))
     return kept
 
 

@@ -22,7 +22,7 @@ from _options import find_data, make_parser
 from _recordings import Case, read_subject_86
 from kineme.evaluation import Labelling, Truth, evaluate, evaluate_segmentation
 from kineme.methods.presets import DEFAULT, PUBLISHED
-from kineme_reproduction.baselines.uniform import uniform
+from kineme_reproduction.baselines.segments import cut_uniformly
 
 SHOWN = {
     "one_to_one": "one-to-one",
@@ -62,7 +62,7 @@ def score_presets(cases: Iterable[Case]) -> dict[str, Scores]:
 
 def score_uniform_cuts(cases: Iterable[Case]) -> Scores:
     def score(truth: Truth) -> Scores:
-        cuts = uniform(truth.frames, fps=truth.fps, seconds=0.5).cuts
+        cuts = cut_uniformly(truth.frames, fps=truth.fps, seconds=0.5).cuts
         return evaluate(truth, Labelling.from_cuts(cuts, frames=truth.frames, fps=truth.fps))
 
     return average(score(case.truth) for case in cases)

@@ -22,6 +22,7 @@ from sklearn.metrics import adjusted_mutual_info_score
 import kineme
 from _figures import add_option, record
 from _options import choose_size, find_data, make_parser
+from kineme.evaluation import Comparison, covering
 
 Frames = NDArray[np.int64]
 ARCHIVES = ("tssb", "utsa")
@@ -42,14 +43,6 @@ def split_lines(path: Path) -> Iterator[list[str]]:
     return (line.split(",") for line in path.read_text().split())
 
 
-def compute_covering(true: Frames, found: Frames) -> float:
-    """Return the weighted best overlap of true segments; both are given by borders."""
-    start, stop = true[:-1, None], true[1:, None]
-    inner = np.minimum(stop, found[1:]) - np.maximum(start, found[:-1])
-    union = np.maximum(stop, found[1:]) - np.minimum(start, found[:-1])
-    return float(np.average((inner / union).max(axis=1), weights=np.diff(true)))
-
-
 def main() -> None:
     parser = make_parser(__doc__)
     parser.add_argument("--preset", default="series")
@@ -62,13 +55,12 @@ def main() -> None:
             read_series(find_data(f"timeseries/{name}")), choose_size(None, 1)
         ):
             table = kineme.segment(values, fps=1.0, preset=options.preset).activities
-            found = np.append(table.start_frame, table.stop_frame[-1])
-            true = np.repeat(states, np.diff(ends))
-            clusters = np.repeat(table.cluster, np.diff(found))
+            numbers = np.unique(states, return_inverse=True)[1]
+            true = np.repeat(numbers, np.diff(ends))
+            clusters = np.repeat(table.cluster, table.stop_frame - table.start_frame)
+            covered = covering(Comparison(true, clusters, 1.0))
             agreement = adjusted_mutual_info_score(true, clusters)
-            rows.append(
-                (compute_covering(ends, found), agreement, (len(found) - 1) / (len(ends) - 1))
-            )
+            rows.append((covered, agreement, len(table) / len(states)))
         means = np.mean(rows, axis=0)
         print(f"{name:8}{len(rows):8}{means[0]:10.3f}{means[1]:8.3f}{means[2]:16.2f}")
         record(f"series.{name}.covering", means[0])

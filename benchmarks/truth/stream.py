@@ -25,10 +25,9 @@ import numpy as np
 
 import kineme
 from _figures import add_option, record
-from _joined import Piece, join_signals, read_pieces
 from _options import choose_size, find_data, make_parser
 from _recordings import read_subject_86
-from _sources import SOURCES, score_labels
+from _sources import SOURCES, Piece, compute_scores, join_signals, read_pieces
 from kineme.evaluation.comparison import UNLABELLED, Comparison
 from kineme.evaluation.score import pool_scores
 from kineme.live import ActivityStarted, Event, Repetition, Stream
@@ -102,7 +101,7 @@ def replay_hours(hours: float, **options: float) -> None:
         parts.append(piece)
         if sum(each.recording.duration for each in parts) >= choose_size(PART_S, 60.0):
             break
-    part = join_signals([piece.recording for piece in parts])
+    part = join_signals(parts)
     n_parts = max(2, round(hours * 3600 / part.duration))
     stream, memory = make_stream(part, **options), []
     for _ in range(n_parts):
@@ -115,7 +114,7 @@ def replay_hours(hours: float, **options: float) -> None:
     for which, at in (("first", 0), ("last", -1)):
         each = zip(parts, np.split(clusters[at], borders), strict=True)
         mof = pool_scores(
-            score_labels(Comparison(piece.truth[known], own[known], part.fps))["mof"]
+            compute_scores(["mof"], Comparison(piece.truth[known], own[known], part.fps))["mof"]
             for piece, own in each
             if (known := piece.truth != UNLABELLED).any()
         )

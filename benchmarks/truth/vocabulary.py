@@ -11,6 +11,7 @@ runs of a game studio.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -89,12 +90,12 @@ def score(name: str, folder: Path, cases: list[Case]) -> tuple[float, float, int
     return right, agreed, len({*given} - {TRANSITION}), len({*wanted} - {TRANSITION})
 
 
-def show(name: str, folder: Path, cases: list[Case]) -> None:
-    """Score a library of cases and print a line."""
-    right, agreed, clusters, actions = score(name, folder, cases)
+def show(name: str, scores: Sequence[float], note: str = "") -> None:
+    """Print and record the scores of a library."""
+    right, agreed, clusters, actions = scores
     print(
-        f"{name}: one-to-one {right:.3f}, without borders {agreed:.3f}; {clusters} clusters, "
-        f"{actions} actions",
+        f"{name}: one-to-one {right:.3f}, without borders {agreed:.3f}{note}; {clusters:g} "
+        f"clusters, {actions:g} actions",
         flush=True,
     )
     record(f"vocabulary.{name}.one_to_one", round(right, 2))
@@ -104,21 +105,14 @@ def show(name: str, folder: Path, cases: list[Case]) -> None:
 
 
 def show_others(folder: Path) -> None:
-    """Score libraries of other sequences and print a line."""
+    """Show the mean scores of libraries of other sequences."""
     scores = [
         score(f"others_{i}", folder, list(join_hdm05(SEQUENCES, first=i * SEQUENCES)))
         for i in range(1, MORE + 1)
     ]
-    right, agreed, clusters, actions = np.mean(scores, axis=0)
-    shown = " ".join(f"{each[0]:.3f}" for each in scores)
-    print(
-        f"others: one-to-one {right:.3f}, without borders {agreed:.3f} ({shown}); "
-        f"{clusters:.1f} clusters, {actions:.1f} actions"
-    )
-    record("vocabulary.others.one_to_one", round(float(right), 2))
-    record("vocabulary.others.agreed", round(float(agreed), 2))
-    record("vocabulary.others.clusters", round(float(clusters), 1))
-    record("vocabulary.others.actions", round(float(actions), 1))
+    each = " ".join(f"{right:.3f}" for right, *_ in scores)
+    right, agreed, clusters, actions = np.mean(scores, axis=0).tolist()
+    show("others", (right, agreed, round(clusters, 1), round(actions, 1)), f" ({each})")
 
 
 def main() -> None:
@@ -128,13 +122,13 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         home = Path(folder)
         trials, sequences = read_subject_86(), list(join_hdm05(SEQUENCES))
-        show("subject_86", home, trials)
-        show("hdm05", home, sequences)
-        show("both", home, [*trials, *sequences])
+        libraries = {"subject_86": trials, "hdm05": sequences, "both": [*trials, *sequences]}
+        for name, cases in libraries.items():
+            show(name, score(name, home, cases))
         show_others(home)
-        show("uiprmd", home, read_takes("uiprmd"))
-        show("uiprmd_incorrect", home, read_takes("uiprmd_incorrect"))
-        show("gaits", home, read_gaits())
+        for name in ("uiprmd", "uiprmd_incorrect"):
+            show(name, score(name, home, read_takes(name)))
+        show("gaits", score("gaits", home, read_gaits()))
 
 
 if __name__ == "__main__":

@@ -25,7 +25,6 @@ from typing import Any, Literal, TypedDict
 
 import numpy as np
 
-from kineme._util.arrays import Ints
 from kineme._util.json import load_json
 from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
@@ -33,7 +32,6 @@ from kineme.evaluation.folder import check_method, segment_with_method
 from kineme.evaluation.measures import one_to_one_accuracy
 from kineme.evaluation.score import evaluate_segmentation, register
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
-from kineme.methods.base import Preset
 from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation
 from kineme_reproduction import protocols, variance
@@ -78,34 +76,13 @@ def method(name: str) -> Method:
     True
     """
     check_method(name)
-    return partial(_by_name, name)
+    return partial(_segment_trial, name)
 
 
-def preset_method(preset: Preset) -> Method:
-    """Return a method that segments by a preset.
-
-    Parameters
-    ----------
-    preset : Preset
-
-    Returns
-    -------
-    callable
-        From a `Trial` to a `Segmentation`.
-    """
-    return partial(_by_preset, preset)
-
-
-def _by_name(name: str, trial: Trial) -> Segmentation:
+def _segment_trial(name: str, trial: Trial) -> Segmentation:
     n_classes = len(set(trial.truth.labels) - {TRANSITION})
     constants = OF_TRIALS.get((name, trial.name), {})
     return segment_with_method(name, trial.motion, n_classes=n_classes, **constants)
-
-
-def _by_preset(preset: Preset, trial: Trial) -> Segmentation:
-    from kineme.methods.segmenter import segment
-
-    return segment(trial.motion, preset=preset)
 
 
 METHODS: Mapping[str, Method] = MappingProxyType({name: method(name) for name in PRESETS})
@@ -243,29 +220,6 @@ def published() -> dict[str, Any]:
     text = files(__package__).joinpath("published.json").read_text(encoding="utf-8")
     tables: dict[str, Any] = json.loads(text)
     return tables
-
-
-def aca_accuracy(truth: Truth, found: Labelling, *, blocks: Ints | None = None) -> float:
-    """Return the published accuracy of ACA and HACA: right frames, one to one.
-
-    Truth is cut at the mean of the annotators' marks, with no class for
-    transitions. Source: Zhou, De la Torre and Hodgins, TPAMI 35(3), 2013, as in
-    their program (``genConMatrix``, ``matchSeg``).
-
-    Parameters
-    ----------
-    truth : Truth
-        Of one recording at one frame rate.
-    found : Labelling
-        See `truth`.
-    blocks : ndarray, optional
-        First frames of the blocks to which the recording was reduced. The authors count blocks, a
-        border of the truth being that of the block it lies in: a block has the labels of its last
-        frame. None counts frames.
-    """
-    counted = np.arange(found.frames) if blocks is None else np.append(blocks[1:], found.frames) - 1
-    true, given = truth.at_means().numbers(), found.numbers()
-    return one_to_one_accuracy(Comparison(true[counted], given[counted], truth.fps))
 
 
 def _published_cuts(

@@ -1,4 +1,4 @@
-"""The methods kineme is compared with, one file each.
+"""The methods that kineme is compared with.
 
 They are pure functions on arrays (frames, dims) and return `Segments`.
 """

@@ -1,13 +1,19 @@
-"""Aligned cluster analysis (ACA): k-means over the segments of a recording.
+"""Aligned cluster analysis, ACA: k-means over the segments of a recording; and HACA on two levels.
 
+A recording at 120 Hz is thinned to blocks of like poses, each stood for by its first frame.
 Segments are compared by the dynamic time alignment kernel (DTAK): the best sum of
 frame kernel values along a warping path, over the weights of both segments. Given
 the number of classes, borders and classes are improved in turn: all windows up
 to the longest segment are compared with the present segments, and dynamic
 programming picks the windows of least total distance to their class.
 
+HACA is ACA of the segments that ACA found. The first level cuts the recording into short segments;
+their DTAK matrix takes the frame kernel's place on the second level, where a segment weighs as much
+as the blocks it is made of.
+
 Source: Zhou, De la Torre and Hodgins, FG 2008, TPAMI 35(3), 2013, as their
 program does it: the shortest length binds the start only, not the search.
+The blocks are those of ``tempoReduce``, the frame kernel is that of ``conKnl``.
 """
 
 from __future__ import annotations
@@ -18,9 +24,12 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import eigsh
+from scipy.spatial.distance import cdist
+from sklearn.cluster import KMeans
+from threadpoolctl import threadpool_limits
 
+from kineme._util.arrays import Floats, Ints
 from kineme._util.parallel import check_cancelled
 from kineme.errors import ParameterError
 from kineme_reproduction.baselines._kernels import (
@@ -28,18 +37,10 @@ from kineme_reproduction.baselines._kernels import (
     propagate,
     window_alignments,
 )
-from kineme_reproduction.baselines.reduction import (
-    block_starts,
-    frame_kernel,
-    tightest_clusters,
-)
 from kineme_reproduction.baselines.segments import Segments
 
 if TYPE_CHECKING:
-    from kineme_reproduction.baselines.constants import AcaConstants, AlignedConstants
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+    from kineme_reproduction.baselines.presets import AcaPreset, AlignedPreset, HacaPreset
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,14 +57,14 @@ class State:
         )
 
 
-def aca(features: Floats, preset: AcaConstants) -> Segments:
+def aca(features: Floats, preset: AcaPreset) -> Segments:
     """Find segments in ``preset.n_classes`` clusters with the least distance to their class.
 
     Parameters
     ----------
     features : ndarray of shape (frames, dims)
         At 120 Hz, such as `compute_log_maps`.
-    preset : AcaConstants
+    preset : AcaPreset
         Told the number of classes; equal seeds give equal results.
 
     Raises
@@ -83,12 +84,111 @@ def aca(features: Floats, preset: AcaConstants) -> Segments:
     return segments_of(best, np.append(blocks, len(features)))
 
 
+def haca(features: Floats, preset: HacaPreset) -> Segments:
+    """Return segments of the second level (``preset.n_classes`` clusters); see `haca_levels`."""
+    return haca_levels(features, preset)[1]
+
+
+def haca_levels(features: Floats, preset: HacaPreset) -> tuple[Segments, Segments]:
+    """Find short segments in a dozen clusters, and segments of these in ``n_classes`` clusters.
+
+    Parameters
+    ----------
+    features : ndarray of shape (frames, dims)
+        At 120 Hz, such as `compute_log_maps`.
+    preset : HacaPreset
+        Told the number of classes; equal seeds give equal results.
+
+    Raises
+    ------
+    ParameterError
+        The recording is too short for the classes or lengths.
+    """
+    n_classes, fine_classes = preset.required_classes(), preset.fine_classes
+    lengths = preset.fine_lengths
+    random = np.random.RandomState(preset.seed)
+    blocks = block_starts(features, preset, random)
+    check_room(len(blocks), fine_classes, *lengths, preset.longest_block)
+    kernel = frame_kernel(features[blocks], preset.nearest_share)
+    weights = np.ones(len(blocks))
+    levels: list[tuple[State, State]] = []
+    for start in initial_states(kernel, fine_classes, lengths, preset.fine_starts, preset, random):
+        fine = improve(kernel, weights, start, fine_classes, lengths[1], preset)
+        levels.append((fine, second_level(kernel, weights, fine, n_classes, preset, random)))
+    fine, coarse = min(levels, key=lambda both: both[1].objective)
+    block_borders = np.append(blocks, len(features))
+    return segments_of(fine, block_borders), segments_of(coarse, block_borders[fine.borders])
+
+
+def second_level(
+    kernel: Floats,
+    weights: Floats,
+    fine: State,
+    n_classes: int,
+    preset: HacaPreset,
+    random: np.random.RandomState,
+) -> State:
+    """Run ACA on the first-level segments; return the best of all starts."""
+    spans = zip(fine.borders[:-1].tolist(), fine.borders[1:].tolist(), strict=True)
+    longest = int(np.diff(fine.borders).max())
+    windows = [window_alignments(kernel, weights, *span, longest) for span in spans]
+    segments = segment_kernel(fine.borders, windows)
+    segment_weights = np.add.reduceat(weights, fine.borders[:-1])
+    lengths = preset.coarse_lengths
+    check_room(len(segments), n_classes, *lengths, preset.longest_block)
+    first = initial_states(segments, n_classes, lengths, preset.coarse_starts, preset, random)
+    return least(
+        [improve(segments, segment_weights, one, n_classes, lengths[1], preset) for one in first]
+    )
+
+
+def block_starts(features: Floats, preset: AlignedPreset, random: np.random.RandomState) -> Ints:
+    """Return the first frames of blocks of similar poses.
+
+    A block ends where the nearest of the k-means centres changes, or when it
+    has ``preset.longest_block`` frames.
+    """
+    nearest = tightest_clusters(features, preset.centres, preset.kmeans_starts, random)
+    changes = np.flatnonzero(np.diff(nearest, prepend=-1))
+    runs = zip(changes, [*changes[1:], len(features)], strict=True)
+    return np.concatenate([np.arange(start, stop, preset.longest_block) for start, stop in runs])
+
+
+def frame_kernel(features: Floats, nearest: float) -> Floats:
+    """``kernel[a, b] = exp(-|x_a - x_b|^2 / 2 sigma^2)``, (frames, frames).
+
+    sigma is the mean distance of a frame to its nearest frames, itself among
+    them; ``nearest`` is their share of all frames.
+    """
+    distance = cdist(features, features)
+    n = len(features)
+    count = max(1, int(n * nearest))
+    sigma = np.partition(distance, count - 1, axis=0)[:count].mean()
+    kernel: Floats = np.exp(-(distance**2) / (2 * sigma**2 + np.finfo(float).eps))
+    return kernel
+
+
+def tightest_clusters(
+    points: Floats, count: int, starts: int, random: np.random.RandomState
+) -> Ints:
+    """Return the cluster of each point, from the best of several runs of k-means.
+
+    In single precision, which tells poses apart well enough and takes half the
+    time. On one thread: the order of sums, and so the result, would change with
+    the number of cores, and arrays this small gain nothing from more.
+    """
+    means = KMeans(count, init="random", n_init=starts, random_state=random)
+    with threadpool_limits(1):
+        labels: Ints = means.fit_predict(points.astype(np.float32)).astype(np.int64)
+    return labels
+
+
 def initial_states(
     kernel: Floats,
     n_classes: int,
     lengths: tuple[int, int],
     starts: int,
-    preset: AlignedConstants,
+    preset: AlignedPreset,
     random: np.random.RandomState,
 ) -> Iterator[State]:
     """Yield states from spectral clustering of the propagated kernel, one per start."""
@@ -137,7 +237,7 @@ def improve(
     state: State,
     n_classes: int,
     longest: int,
-    preset: AlignedConstants,
+    preset: AlignedPreset,
 ) -> State:
     """Repeat the search until the segments repeat, or ``preset.searches`` times.
 
@@ -170,12 +270,8 @@ def search(state: State, alignments: list[Floats], n_classes: int) -> State:
     """Find the windows that cover all frames with the least distance to the classes of ``state``.
 
     The distance of a window to a class of m segments is 1 - 2/m times the sum of
-    its DTAK with them, plus their mean DTAK among themselves.
-
-    Parameters
-    ----------
-    alignments : list of ndarray
-        Per segment, DTAK with every window, see `window_alignments`.
+    its DTAK with them, plus their mean DTAK among themselves. ``alignments`` has the DTAK of
+    each segment with every window.
     """
     distance = np.full((n_classes, *alignments[0].shape), np.inf)
     among = segment_kernel(state.borders, alignments)

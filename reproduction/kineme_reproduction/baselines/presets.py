@@ -1,36 +1,91 @@
-"""What results are compared with, as presets like any other; see `constants` for their fields."""
+"""The methods that kineme is compared with, as presets.
+
+All of them see a body by the rotations of 14 joints, where it has these, and at 120 Hz, as their
+authors did; any other recording as every method sees it. ACA, HACA and GMM have to be told how
+many actions there are (``n_classes``). Values are those of the papers, lengths that they give in
+frames at 120 Hz in seconds.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
-from kineme.methods.base import Mirror
-from kineme_reproduction.baselines.constants import (
-    AcaConstants,
-    BaselineConstants,
-    GmmConstants,
-    HacaConstants,
-    PcaConstants,
-    PpcaConstants,
-    UniformConstants,
+from kineme.errors import ParameterError
+from kineme.methods.base import (
+    COUNT,
+    FACTOR,
+    RATE,
+    SHARE,
+    SOME,
+    SOME_SHARE,
+    SOME_TIME,
+    Columns,
+    Mirror,
+    Preset,
+    Progress,
+    Unit,
+    View,
+    constant,
+    time_stages,
 )
+from kineme_reproduction.baselines.segments import Segments, cut_uniformly
 
-if TYPE_CHECKING:
-    from kineme.methods.base import Progress
-    from kineme_reproduction.baselines.found import SegmentsFound
-    from kineme_reproduction.baselines.segments import Segments
+Lengths = tuple[int, int]
+VARIANCE_KEPT = "share of the variance that the leading directions keep"
 
-Floats = NDArray[np.float64]
+
+@dataclass(frozen=True, eq=False)
+class SegmentsFound:
+    """Segments of the activity level, each in a cluster.
+
+    Attributes
+    ----------
+    features : (samples, dims) array
+    segments : Segments
+    timings : dict of str to float
+        Seconds per stage.
+    """
+
+    features: Floats
+    segments: Segments
+    timings: dict[str, float] = field(default_factory=dict)
+
+    def columns(self) -> Columns:
+        """Return activities only; methods without clusters number them."""
+        n = len(self.segments.clusters)
+        return {
+            "level": np.full(n, "activity"),
+            "kind": np.full(n, "activity"),
+            "start_frame": self.segments.starts,
+            "stop_frame": self.segments.stops,
+            "cluster": self.segments.clusters,
+            "confidence": np.full(n, np.nan),
+        }
+
+    def doubts(self, columns: Columns, fps: float) -> list[str]:  # noqa: ARG002
+        """Return nothing, as the baselines give no confidence."""
+        return []
 
 
 @dataclass(frozen=True, kw_only=True)
-class BaselinePreset(BaselineConstants):
+class BaselinePreset(Preset):
     """A method by its constants: segments of one level."""
+
+    method: ClassVar[str] = "baselines"
+    units: ClassVar[tuple[Unit, ...]] = ("any",)
+    view: ClassVar[View] = "quaternions"
+
+    unit: Unit = "any"
+    working_fps: float = constant(
+        "samples per second to which the recording is resampled", unit="Hz", limits=RATE,
+        default=120.0,
+    )  # fmt: skip
 
     def analyze(
         self,
@@ -39,10 +94,7 @@ class BaselinePreset(BaselineConstants):
         mirror: Mirror | None = None,  # noqa: ARG002 (left and right are told apart)
         progress: Progress | None = None,
     ) -> SegmentsFound:
-        """Segments of the activity level; see the method's own module."""
-        from kineme.methods.base import time_stages
-        from kineme_reproduction.baselines.found import SegmentsFound
-
+        """Return segments of the activity level."""
         rows = as_features(features)
         timings: dict[str, float] = {}
         with time_stages(timings, progress)(self.name):
@@ -50,78 +102,166 @@ class BaselinePreset(BaselineConstants):
         return SegmentsFound(rows, segments, timings)
 
     def segments(self, features: Floats) -> Segments:
-        """The segments in features (samples, dims)."""
+        """Return the segments in features (samples, dims)."""
         raise NotImplementedError
 
     def for_signals(self) -> Self:
-        """The preset at a rate that channels of sensors carry."""
+        """Return the preset at a rate that channels of sensors carry."""
         return replace(self, working_fps=min(self.working_fps, 30.0))
 
 
 @dataclass(frozen=True, kw_only=True)
-class AcaPreset(AcaConstants, BaselinePreset):
-    """Aligned cluster analysis; see `kineme_reproduction.baselines.aca`."""
+class ClassCountPreset(BaselinePreset):
+    """A method that needs the number of actions."""
+
+    n_classes: int | None = constant(
+        "number of actions, which the method has to be told", limits=SOME, default=None
+    )
+    seed: int = constant("of all random starts", limits=COUNT, default=0, fine=True)
+
+    def required_classes(self) -> int:
+        """Return `n_classes`; raise ParameterError if it is not given."""
+        if self.n_classes is None:
+            raise ParameterError(
+                f"{self.name} has to be told the number of actions: give n_classes "
+                "(--set n_classes=4)"
+            )
+        return self.n_classes
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlignedPreset(ClassCountPreset):
+    """What ACA and HACA share."""
+
+    view: ClassVar[View] = "rotation vectors"
+
+    centres: int = constant("k-means centres of the reduction to blocks", limits=SOME, default=20)
+    longest_block: int = constant(
+        "longest block that stands for like samples", unit="samples", limits=SOME, default=5,
+        fine=True,
+    )  # fmt: skip
+    nearest_share: float = constant(
+        "share of the blocks that are nearest to one, whose mean distance is the kernel's width",
+        limits=SOME_SHARE, default=0.02, fine=True,
+    )  # fmt: skip
+    kmeans_starts: int = constant(
+        "random starts of each k-means, of which the tightest is kept", limits=SOME, default=50,
+        fine=True,
+    )  # fmt: skip
+    searches: int = constant(
+        "searches for better segments, unless these repeat before", limits=SOME, default=20,
+        fine=True,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class AcaPreset(AlignedPreset):
+    """Aligned cluster analysis."""
+
+    shortest: int = constant("shortest segment", unit="blocks", limits=SOME, default=32)
+    longest: int = constant("longest segment", unit="blocks", limits=SOME, default=60)
+    starts: int = constant("initialisations, of which the best is kept", limits=SOME, default=1)
 
     def segments(self, features: Floats) -> Segments:
-        """Segments of least total distance to their cluster."""
         from kineme_reproduction.baselines.aca import aca
 
         return aca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
-class HacaPreset(HacaConstants, BaselinePreset):
-    """Hierarchical aligned cluster analysis; see `kineme_reproduction.baselines.haca`."""
+class HacaPreset(AlignedPreset):
+    """Hierarchical aligned cluster analysis."""
+
+    fine_lengths: Lengths = constant(
+        "shortest and longest segment of the first level", unit="blocks", limits=SOME,
+        default=(8, 10),
+    )  # fmt: skip
+    coarse_lengths: Lengths = constant(
+        "shortest and longest segment of the second level, segments of the first", limits=SOME,
+        default=(4, 6),
+    )  # fmt: skip
+    fine_classes: int = constant("clusters of the first level", limits=SOME, default=12)
+    fine_starts: int = constant(
+        "initialisations of the first level, of which the best second level is kept",
+        limits=SOME, default=5,
+    )  # fmt: skip
+    coarse_starts: int = constant(
+        "initialisations of the second level, of which the best is kept", limits=SOME, default=10
+    )
 
     def segments(self, features: Floats) -> Segments:
-        """Segments of the second level."""
-        from kineme_reproduction.baselines.haca import haca
+        from kineme_reproduction.baselines.aca import haca
 
         return haca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
-class GmmPreset(GmmConstants, BaselinePreset):
-    """Gaussian mixture; see `kineme_reproduction.baselines.gmm`."""
+class GmmPreset(ClassCountPreset):
+    """Gaussian mixture."""
+
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
 
     def segments(self, features: Floats) -> Segments:
-        """Runs of samples whose likeliest Gaussian is the same."""
-        from kineme_reproduction.baselines.gmm import gmm
+        from kineme_reproduction.baselines.barbic2004 import gmm
 
         return gmm(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
-class PcaPreset(PcaConstants, BaselinePreset):
-    """Cuts where principal components cease to fit; see `kineme_reproduction.baselines.pca`."""
+class PcaPreset(BaselinePreset):
+    """Cuts where principal components cease to fit."""
+
+    first: float = constant(
+        "first part of a segment, which fixes the number of components", unit="s",
+        limits=SOME_TIME, default=2.0,
+    )  # fmt: skip
+    rise_span: float = constant(
+        "time over which the rise of the error is taken", unit="s", limits=SOME_TIME, default=0.5
+    )
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
+    deviations: float = constant(
+        "standard deviations by which the rise exceeds its mean at a cut", limits=FACTOR,
+        default=3.0,
+    )  # fmt: skip
 
     def segments(self, features: Floats) -> Segments:
-        """Segments that share their principal components."""
-        from kineme_reproduction.baselines.pca import pca
+        from kineme_reproduction.baselines.barbic2004 import pca
 
         return pca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
-class PpcaPreset(PpcaConstants, BaselinePreset):
-    """Cuts where a Gaussian ceases to fit; see `kineme_reproduction.baselines.pca`."""
+class PpcaPreset(BaselinePreset):
+    """Cuts where a Gaussian ceases to fit."""
+
+    ahead: float = constant(
+        "time ahead that is held against the Gaussian, and the first that it is fitted to",
+        unit="s", limits=SOME_TIME, default=1.25,
+    )  # fmt: skip
+    growth_step: float = constant(
+        "steps in which the time grows that the Gaussian is fitted to", unit="s",
+        limits=SOME_TIME, default=1 / 12,
+    )  # fmt: skip
+    variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.95)
+    rise: float = constant(
+        "share of the distance's range by which a peak rises above the valley before it",
+        limits=SHARE, default=0.1,
+    )  # fmt: skip
 
     def segments(self, features: Floats) -> Segments:
-        """Segments that share their Gaussian."""
-        from kineme_reproduction.baselines.pca import ppca
+        from kineme_reproduction.baselines.barbic2004 import ppca
 
         return ppca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
-class UniformPreset(UniformConstants, BaselinePreset):
-    """Cuts at equal distances; see `kineme_reproduction.baselines.uniform`."""
+class UniformPreset(BaselinePreset):
+    """Cuts at equal distances."""
+
+    interval: float = constant("time between two cuts", unit="s", limits=SOME_TIME, default=0.5)
 
     def segments(self, features: Floats) -> Segments:
-        """Segments of equal length."""
-        from kineme_reproduction.baselines.uniform import uniform
-
-        return uniform(len(features), fps=self.working_fps, seconds=self.interval)
+        return cut_uniformly(len(features), fps=self.working_fps, seconds=self.interval)
 
 
 BASELINES: tuple[BaselinePreset, ...] = (

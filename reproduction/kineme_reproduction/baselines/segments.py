@@ -1,13 +1,13 @@
-"""Segments: what every method of this folder returns."""
+"""Segments, which every method of this folder returns, and those of uniform cuts."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
+from kineme._util.arrays import Ints
+from kineme.errors import ParameterError
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,3 +53,21 @@ class Segments:
 def unclustered(cuts: list[int] | Ints, n_frames: int) -> Segments:
     """Make segments from cuts only: each is its own cluster."""
     return Segments(np.asarray(cuts, np.int64), np.arange(len(cuts) + 1), n_frames)
+
+
+def cut_uniformly(n_frames: int, *, fps: float, seconds: float) -> Segments:
+    """Cut at regular intervals, each at the nearest frame; find no clusters.
+
+    Raises
+    ------
+    ParameterError
+        The cuts would be less than a frame apart.
+    """
+    step = seconds * fps
+    if not step >= 1:
+        raise ParameterError(
+            f"cuts every {seconds:g} s are less than a frame apart at {fps:g} fps: use at least "
+            f"{1 / fps:.4g} s"
+        )
+    cuts = np.rint(np.arange(1, int(n_frames / step) + 2) * step).astype(np.int64)
+    return unclustered(cuts[cuts < n_frames], n_frames)

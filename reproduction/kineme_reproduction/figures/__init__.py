@@ -126,27 +126,16 @@ def _uniform_table(trials: Sequence[Trial]) -> str:
 
 
 def _published_table(found: Sequence[PublishedCuts]) -> str:
-    names = ("strict", "tolerant")
+    names, fair = ("strict", "tolerant"), ("one_to_one", "one_to_one_agreed")
     rows = []
     for method in ("aca", "haca"):
-        cuts_of_method = [p for p in found if p.method == method]
-        lines = [(p.trial, p.scores, p.printed) for p in cuts_of_method]
-        lines.append(
-            (
-                "**mean**",
-                mean([p.scores for p in cuts_of_method]),
-                mean([p.printed for p in cuts_of_method]),
-            )
-        )
-        for trial, scores, printed in lines:
-            cells = [format_score(scores[n]) for n in names] + [
-                format_score(printed[n]) for n in names
-            ]
-            cells += [f"{printed[n] - scores[n]:+.3f}" for n in names]
-            cells += [
-                format_score(scores.get(n, np.nan)) or "–"
-                for n in ("one_to_one", "one_to_one_agreed")
-            ]
+        own = [cuts for cuts in found if cuts.method == method]
+        lines = [(cuts.trial, cuts.scores, cuts.printed) for cuts in own]
+        means = mean([cuts.scores for cuts in own]), mean([cuts.printed for cuts in own])
+        for trial, scores, printed in [*lines, ("**mean**", *means)]:
+            cells = [format_score(each[name]) for each in (scores, printed) for name in names]
+            cells += [f"{printed[name] - scores[name]:+.3f}" for name in names]
+            cells += [format_score(scores.get(name, np.nan)) or "–" for name in fair]
             rows.append([f"{method.upper()} {trial}", *cells])
     header = [
         "", "strict", "tolerant", "printed strict", "printed tolerant", "gap strict",

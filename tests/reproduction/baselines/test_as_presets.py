@@ -8,11 +8,10 @@ import pytest
 import kineme
 from kineme.datasets import random_recording
 from kineme.errors import ParameterError
-from kineme_reproduction.baselines.constants import ClassCountConstants
-from kineme_reproduction.baselines.presets import BASELINES
+from kineme_reproduction.baselines.presets import BASELINES, ClassCountPreset
 
 NAMES = [preset.name for preset in BASELINES]
-TOLD = [preset.name for preset in BASELINES if isinstance(preset, ClassCountConstants)]
+TOLD = [preset.name for preset in BASELINES if isinstance(preset, ClassCountPreset)]
 
 
 def told(name: str) -> dict[str, int]:

@@ -17,9 +17,8 @@ from kineme.evaluation import Comparison, Labelling, border_score
 from kineme.evaluation.inputs import read_trials
 from kineme.features.pose import compute_joint_quaternions
 from kineme.methods import PRESETS
-from kineme_reproduction.baselines.gmm import gmm
-from kineme_reproduction.baselines.segments import Segments
-from kineme_reproduction.baselines.uniform import uniform
+from kineme_reproduction.baselines.barbic2004 import gmm
+from kineme_reproduction.baselines.segments import Segments, cut_uniformly
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -49,9 +48,9 @@ def cut(method: str, features: np.ndarray, fps: float = 30.0) -> Segments:
 def test_uniform_cuts_are_evenly_spaced(n_frames, seconds, fps):
     if seconds * fps < 1:
         with pytest.raises(ParameterError, match="less than a frame apart"):
-            uniform(n_frames, fps=fps, seconds=seconds)
+            cut_uniformly(n_frames, fps=fps, seconds=seconds)
         return
-    borders = [0, *uniform(n_frames, fps=fps, seconds=seconds).cuts.tolist(), n_frames]
+    borders = [0, *cut_uniformly(n_frames, fps=fps, seconds=seconds).cuts.tolist(), n_frames]
     lengths = np.diff(borders)
     assert (lengths > 0).all()
     assert (abs(lengths[:-1] - seconds * fps) <= 1).all()
