@@ -18,7 +18,7 @@ from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connect, start_processes
-from kineme.library.gathering import gather
+from kineme.library.gathering import compile_tables, gather, list_activities
 from kineme.library.planning import (
     Entry,
     Plan,
@@ -245,8 +245,6 @@ def _update_tables(
     if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         next_cluster, tables = head["following"], head["tables"]
     else:
-        from kineme.library.gathering import compile_tables, list_activities
-
         progress("clusters in common")
         next_cluster = max(head.get("following", 0), read_edits(plan.folder).next_cluster)
         former = list_activities(plan.folder, head.get("tables"))

@@ -374,7 +374,7 @@ def _make_cluster_set(
         facts = analyses[each.recording].facts
         size = facts["features_fps"], facts["samples"]
         spans = to_samples(each.example, *size), to_samples(each.context, *size)
-        return read_spans(folder, keys[each.recording], spans)
+        return [*read_spans(folder, keys[each.recording], spans)]
 
     embeddings = np.array([analyses[each.recording].embeddings[each.row] for each in local])
     return ClusterSet(local, embeddings, load)

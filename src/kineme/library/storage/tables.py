@@ -20,7 +20,7 @@ import json
 import re
 import secrets
 import shutil
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from hashlib import sha256
@@ -297,22 +297,20 @@ def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
     return windows
 
 
-def read_parts(
-    folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
-) -> None:
-    """Read features of an analysis into arrays (samples, dims), each from a first sample on."""
-    with _open_features(folder, key) as (file, start, _):
-        _read_rows(file, start, starts, into)
-
-
 def read_spans(
-    folder: Path, key: str, spans: Sequence[tuple[int, int]]
-) -> list[NDArray[np.float32]]:
-    """Read the features of an analysis in several spans of samples."""
-    with _open_features(folder, key) as (file, start, dims):
-        parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
-        _read_rows(file, start, [first for first, _ in spans], parts)
-    return parts
+    folder: Path, key: str, spans: Iterable[tuple[int, int]]
+) -> Iterator[NDArray[np.float32]]:
+    """Yield the features of an analysis in each of several spans of samples."""
+    path = folder / f"{key}{FEATURES}"
+    with _open_array(path), copy_nearby(path).open("rb", buffering=0) as file:
+        offset, dims = _read_header(file)
+        for first, stop in spans:
+            part = np.empty((stop - first, dims), np.float32)
+            file.seek(offset + part.itemsize * dims * first)
+            if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
+                raise ValueError("shorter than was written")
+            _check_plausible(part)
+            yield part
 
 
 def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
@@ -339,17 +337,6 @@ def _read_header(file: IO[bytes]) -> tuple[int, int]:
     return 10 + length, int(header[1])
 
 
-def _read_rows(
-    file: IO[bytes], start: int, firsts: Iterable[int], parts: Iterable[NDArray[np.float32]]
-) -> None:
-    """Read rows of an npy file into ``parts``, each from a first row on."""
-    for first, part in zip(firsts, parts, strict=True):
-        file.seek(start + part.itemsize * part.shape[1] * first)
-        if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
-            raise ValueError("shorter than was written")
-        _check_plausible(part)
-
-
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
     with _open_array(path):
         rows: NDArray[Any] = np.load(copy_nearby(path), allow_pickle=False)
@@ -364,14 +351,6 @@ def _check_plausible(features: NDArray[np.float32]) -> None:
     squares = float(np.vdot(features, features))  # not finite if any value is not
     if not squares < LARGEST_SUM:
         raise ValueError("features that no recording has")
-
-
-@contextmanager
-def _open_features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
-    """Open the features of an analysis: the file, the byte at which rows begin, and dims."""
-    path = folder / f"{key}{FEATURES}"
-    with _open_array(path), copy_nearby(path).open("rb", buffering=0) as file:
-        yield file, *_read_header(file)
 
 
 @contextmanager
