@@ -23,8 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Ints
 from kineme._util.checks import as_texts
 from kineme.errors import ParameterError
+from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, SegmentTable, choose_kind
+from kineme.segments.table import Segment, SegmentTable, choose_kind
 
 Texts = NDArray[np.object_]
 Count = int | None
@@ -379,13 +380,8 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
         if all(known_counts[row] is None for row in group) and numbers[i]:
             counts[i] = int(numbers[i])
     joined = [replace(rows[g[0]], stop_frame=rows[g[-1]].stop_frame) for g in groups]
-    names = [name for name in COLUMNS if name != "activity"]
-    return Segmentation.from_columns(
-        {name: [getattr(row, name) for row in (*joined, *primitives)] for name in names},
-        n_frames=labels.n_frames,
-        fps=labels.fps,
-        provenance={**labels.provenance, "labels": {**origin, "counts": counts}},
-    )
+    provenance = {**labels.provenance, "labels": {**origin, "counts": counts}}
+    return replace(replace_rows(labels, [*joined, *primitives]), provenance=provenance)
 
 
 def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:

@@ -172,7 +172,7 @@ def _carry_names(now: Segmentation, before: Segmentation, corrections: int) -> C
             labels[get_span(match)] = row.label
     rows = [replace(row, label=labels.get(get_span(row), row.label)) for row in now]
     # Store empty names for clusters without one, so that none is inferred from labels.
-    now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
+    now = set_cluster_names(replace_rows(now, rows), dict.fromkeys(present, "") | new_names)
     return CarryResult(now, corrections, len(names) + len(singles), lost)
 
 
@@ -196,12 +196,12 @@ def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
     activities = _move_borders_out_of_primitives(list(found.activities), by_level["primitive"])
     activities = _insert_fixed(activities, by_level["activity"])
     if not len(found.primitives):
-        return replace_rows(found, activities, [])
+        return replace_rows(found, activities)
     primitives = _cut_at_borders(activities, list(found.primitives))
     for row in by_level["activity"]:
         primitives = _adopt_primitives(primitives, row, found)
     primitives = _cut_at_borders(activities, _insert_fixed(primitives, by_level["primitive"]))
-    return replace_rows(found, activities, primitives)
+    return replace_rows(found, [*activities, *primitives])
 
 
 def _cut_at_borders(activities: Rows, primitives: Rows) -> Rows:
