@@ -14,10 +14,12 @@ from __future__ import annotations
 import json
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
+from itertools import chain
 from pathlib import Path
 from typing import Any, Literal
 
@@ -229,23 +231,18 @@ def _join_clusters(
     job_results: Sequence[tuple[Job, JobResult]], n_clusters: int | None
 ) -> dict[int, tuple[ComparedSides, Segmentation]]:
     """Return the results with shared clusters, by index of the job."""
+    results = enumerate(result for _, result in job_results)
+    sides = {i: result.sides for i, result in results if result.sides is not None}
     # Group recordings whose clusters can be shared: bodies under (), signals by channels.
-    kinds: dict[tuple[str, ...], list[int]] = {}
-    for i, (_, result) in enumerate(job_results):
-        if result.sides is not None:
-            samples = result.sides.samples
-            kinds.setdefault(samples.names if samples else (), []).append(i)
-    found: dict[int, tuple[ComparedSides, Segmentation]] = {}
-    next_cluster = 0
-    for rows in kinds.values():
-        jobs = [job_results[i][0] for i in rows]
-        sides = [s for i in rows if (s := job_results[i][1].sides) is not None]
-        shared = _share_clusters(jobs, sides, n_clusters)
-        for i, side, one in zip(rows, sides, shared, strict=True):
-            # Clusters of different groups must have different numbers.
-            found[i] = side, _renumber(one, next_cluster)
-        next_cluster += 1 + max(int(one.table.cluster.max()) for one in shared)
-    return dict(sorted(found.items()))
+    kinds: defaultdict[tuple[str, ...], list[int]] = defaultdict(list)
+    for i, one in sides.items():
+        kinds[one.samples.names if one.samples else ()].append(i)
+    groups = [
+        _share_clusters([job_results[i][0] for i in rows], [sides[i] for i in rows], n_clusters)
+        for rows in kinds.values()
+    ]
+    found = dict(zip(chain(*kinds.values()), _number_apart(groups), strict=True))
+    return {i: (one, found[i]) for i, one in sides.items()}
 
 
 def _share_clusters(
@@ -261,16 +258,18 @@ def _share_clusters(
     try:
         return share_clusters(motions, segmentations)
     except MotionError:  # without bodies, movements cannot be compared: share no cluster
-        separate, next_cluster = [], 0
-        for found in segmentations:
-            separate.append(_renumber(found, next_cluster))
-            next_cluster += 1 + int(found.table.cluster.max())
-        return separate
+        return _number_apart([[found] for found in segmentations])
 
 
-def _renumber(found: Segmentation, first: int) -> Segmentation:
-    """Renumber clusters from ``first`` on."""
-    return renumber_clusters(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})
+def _number_apart(groups: Iterable[Sequence[Segmentation]]) -> list[Segmentation]:
+    """Renumber clusters so that segmentations of different groups have none in common."""
+    separate, first = [], 0
+    for group in groups:
+        for found in group:
+            clusters = found.table.cluster.tolist()
+            separate.append(renumber_clusters(found, {c: c + first for c in clusters if c >= 0}))
+        first += 1 + max(int(found.table.cluster.max()) for found in group)
+    return separate
 
 
 def read_selected(
