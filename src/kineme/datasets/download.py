@@ -90,25 +90,25 @@ class _Download:
 
     def _complete(self, url: str) -> None:
         """Retry until the file is complete, or `ATTEMPTS` fail in a row."""
-        furthest, failures = self._size(), 0
+        furthest, failures = self._measure_part(), 0
         while True:
             try:
-                return self._rest(url)
+                return self._request_rest(url)
             except _BrokenOffError as error:
                 # An attempt that received new data resets the count.
-                failures = 0 if self._size() > furthest else failures + 1
-                furthest = max(furthest, self._size())
+                failures = 0 if self._measure_part() > furthest else failures + 1
+                furthest = max(furthest, self._measure_part())
                 if failures == ATTEMPTS:
                     raise ReadError(
                         url, f"gave up after {ATTEMPTS} failed attempts: {error}"
                     ) from error
                 time.sleep(min(self.timeout_s, 2.0**failures) / 4)
 
-    def _rest(self, url: str) -> None:
+    def _request_rest(self, url: str) -> None:
         """Request the missing part, and append it."""
         import requests
 
-        size = self._size()
+        size = self._measure_part()
         headers = {"Accept-Encoding": "identity"}
         if size:
             date = formatdate(self.part.stat().st_mtime, usegmt=True)
@@ -118,12 +118,12 @@ class _Download:
             with requests.get(
                 url, headers=headers, stream=True, timeout=self.timeout_s
             ) as response:
-                start = self._accepted(url, response, size)
+                start = self._check_response(url, response, size)
                 self._append(response, start)
         except requests.RequestException as error:
             raise _BrokenOffError(_explain_error(error, self.timeout_s)) from error
 
-    def _accepted(self, url: str, response: Response, size: int) -> int:
+    def _check_response(self, url: str, response: Response, size: int) -> int:
         """Check the response, and return the byte at which it begins."""
         if response.status_code == 404:
             raise _MissingError
@@ -155,11 +155,11 @@ class _Download:
             complete = total is None or size == total
         finally:
             if not complete:
-                self._date(response)
+                self._set_date(response)
         if not complete:
             raise _BrokenOffError(f"only {size} of {total} bytes arrived")
 
-    def _date(self, response: Response) -> None:
+    def _set_date(self, response: Response) -> None:
         """Set the file's date to the server's, which a later request needs to continue it.
 
         Delete the file if the server tells none.
@@ -171,7 +171,7 @@ class _Download:
         else:
             os.utime(self.part, (date, date))
 
-    def _size(self) -> int:
+    def _measure_part(self) -> int:
         return self.part.stat().st_size if self.part.is_file() else 0
 
 
