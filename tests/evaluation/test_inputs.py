@@ -25,12 +25,11 @@ def result(n_frames: int = 60, fps: float = 10.0) -> Segmentation:
     return one_activity(n_frames, fps, cluster=0)
 
 
-@pytest.mark.parametrize("separator", [",", "\t"])
-def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path, separator) -> None:
+def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path) -> None:
     rows = ["start_s,stop_s,label,count", "0,2,walk,4", "2.5,4,jump,", "4,4.4,transition,",
             "4.4,6,walk,3"]  # fmt: skip
     path = tmp_path / "truth.csv"
-    path.write_text("\n".join(rows).replace(",", separator))
+    path.write_text("\n".join(rows))
     truth = read_truth(path, result())
     assert truth.labels == ("walk", "jump", "walk")
     assert truth.earliest.tolist() == [20, 40]
@@ -38,16 +37,6 @@ def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path, separat
     assert truth.latest.tolist() == [25, 44]
     assert truth.counts == (4, None, 3)
     assert truth.labelling().labels == ("walk", TRANSITION, "jump", TRANSITION, "walk")
-
-
-def test_the_activities_of_a_segment_table_are_a_truth(tmp_path) -> None:
-    path = tmp_path / "truth.csv"
-    path.write_text(
-        "level,kind,start_s,stop_s,label\nactivity,activity,0,2,walk\n"
-        "activity,transition,2,3,\nactivity,activity,3,6,run\nprimitive,activity,0,1,x\n"
-    )
-    truth = read_truth(path, result())
-    assert (truth.labels, truth.latest.tolist()) == (("walk", "run"), [30])
 
 
 def test_one_label_per_frame_of_another_rate(tmp_path) -> None:
