@@ -376,7 +376,7 @@ def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
         except KinemeError as error:  # missing file: go on with the others
             warn(f"{name} left out: {error}")
             continue
-        own = slice(*tables.rows[name])
+        own = tables.rows[name]
         rows = [*SegmentTable(**{column: segments[column][own] for column in COLUMNS})]
         if isinstance(motion, Motion) and rows[-1].stop_frame <= motion.n_frames:
             yield motion, rows

@@ -148,15 +148,11 @@ def find_hits(
     executor: Executor | None = None,
 ) -> list[Hit]:
     """Return the spans similar to any example, the nearest first."""
-    for name, value in (("top", top), ("max_per_recording", max_per_recording)):
-        if value is not None and not (is_number(value) and value >= 1):
-            raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
+    top = _as_limit(top, "top")
+    max_per_recording = _as_limit(max_per_recording, "max_per_recording")
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     threshold = min(float(threshold), LARGEST)  # no distance is larger
-    top = None if top is None else int(min(top, MOST_HITS))
-    if max_per_recording is not None:
-        max_per_recording = int(min(max_per_recording, MOST_HITS))
     described = describe_examples(tables, examples)
     vocabulary = check_one_vocabulary(described)
     features = [part for _, part in described]
@@ -180,6 +176,15 @@ def find_hits(
         )
     ]
     return [_make_hit(tables, *span) for span in sorted(spans)[:top]]
+
+
+def _as_limit(value: int | None, name: str) -> int | None:
+    """Return a largest number of hits, None for all; raise ParameterError if it is invalid."""
+    if value is None:
+        return None
+    if not (is_number(value) and value >= 1):
+        raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
+    return int(min(value, MOST_HITS))
 
 
 def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
@@ -505,7 +510,7 @@ def _make_hit(tables: OpenTables, distance: float, row: int, start: int, stop: i
     fps, duration_s = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
     start_s, stop_s = start / fps, min(stop / fps, duration_s)
     segments = tables.columns("segments")
-    rows = slice(*tables.rows[recording])
+    rows = tables.rows[recording]
     # Overlap of each segment with the span, rounded so that ties are exact.
     shared = np.minimum(segments["stop_s"][rows], stop_s)
     shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)

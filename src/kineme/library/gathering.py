@@ -17,7 +17,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from hashlib import sha256
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -55,6 +54,7 @@ from kineme.library.storage.layout import (
 )
 from kineme.library.storage.tables import (
     Analysis,
+    find_rows,
     has_analysis,
     make_table,
     read_analysis,
@@ -323,15 +323,12 @@ def list_activities(folder: Path, tables: str | None) -> dict[str, Spans]:
     if tables is None:
         return {}
     table = read_table(folder, tables, "segments")
-    names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
+    names = ("level", "kind", "start_s", "stop_s", "cluster")
     columns = {name: as_array(table.column(name)) for name in names}
-    # Rows are grouped by recording, so first occurrences are the borders.
-    first = np.unique(columns["recording"], return_index=True)[1]
-    edges = [*np.sort(first).tolist(), len(table)]
     found = {}
-    for start, stop in pairwise(edges):
-        rows = {name: column[start:stop] for name, column in columns.items()}
-        found[str(rows["recording"][0])] = list_spans(rows, rows["cluster"])
+    for recording, rows in find_rows(table).items():
+        own = {name: column[rows] for name, column in columns.items()}
+        found[recording] = list_spans(own, own["cluster"])
     return found
 
 

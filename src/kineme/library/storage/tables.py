@@ -25,6 +25,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from hashlib import sha256
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import IO, Any, NamedTuple
@@ -201,6 +202,16 @@ def read_table(folder: Path, folder_name: str, name: str) -> Any:
         if times and not _is_valid(table.column(column), declared.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
+
+
+def find_rows(table: Any) -> dict[str, slice]:
+    """Return the rows of each recording in a table of segments, which are grouped by recording."""
+    names = table.column("recording").combine_chunks().dictionary_encode()
+    # Borders are where the dictionary code changes.
+    codes = np.from_dlpack(names.indices)
+    edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
+    recordings = names.dictionary.to_pylist()
+    return {recordings[codes[a]]: slice(a, b) for a, b in pairwise(edges)}
 
 
 def _is_valid(column: Any, kind: type) -> bool:
