@@ -1,6 +1,8 @@
-"""Segmentation: invariants, and errors."""
+"""Segmentation: invariants, errors, and what notebooks show."""
 
 from __future__ import annotations
+
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
@@ -8,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kineme.errors import ParameterError
+from kineme.segments import display
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, SegmentTable
-from segmentations import segmentations
+from segmentations import make_activities, segmentations
 
 WALK_JUMP = {
     "level": ["activity"] * 3 + ["primitive"] * 5,
@@ -180,3 +183,36 @@ def test_kinds_are_those_of_the_levels() -> None:
     assert kinds("transition", "transition") == ["transition", "transition"]
     with pytest.raises(ParameterError, match="not a primitive"):
         kinds("primitive", "primitive")
+
+
+def parsed(page: str) -> ET.Element:
+    return ET.fromstring(page)
+
+
+@given(segmentations())
+def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None:
+    page = parsed(result._repr_html_())
+    assert len(page.findall(".//tbody/tr")) == min(display.FIRST_ROWS, len(result.activities))
+    bars = page.findall(".//rect")
+    colors = {bar.get("fill") for bar in bars}
+    labels = display.choose_label_colors(result)
+    assert colors <= {display.get_segment_color(segment, labels) for segment in result}
+    assert len(bars) == len(result)
+    for table in (result.table, result.activities, result.table[:0]):
+        parsed(table._repr_html_())
+
+
+def test_a_label_cannot_be_markup() -> None:
+    page = make_activities(9, label=["<script>alert(1)</script>"])._repr_html_()
+    assert "<script>" not in page
+    assert "&lt;script&gt;" in page
+
+
+def test_hours_of_segments_stay_small() -> None:
+    n = 20_000
+    result = make_activities(*range(1, n + 1), fps=1.0, cluster=np.arange(n) % 5)
+    page = result._repr_html_()
+    bars = parsed(page).findall(".//rect")
+    assert len(bars) <= 1 + display.WIDTH
+    assert len(page) < 200_000
+    assert f"and {n - display.FIRST_ROWS} more" in result.table._repr_html_()

@@ -188,11 +188,9 @@ def _upload_tables(home: Path, tables: Mapping[str, Any]) -> str:
 
 def read_table(folder: Path, folder_name: str, name: str) -> Any:
     """Read a table from the folder of tables ``named``, as a pyarrow.Table."""
-    pa, parquet = import_arrow()
     path = folder / TABLES / folder_name / f"{name}.parquet"
     with translate_read_errors(path):
-        content = pa.BufferReader(path.read_bytes())
-        table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
+        table = _read_parquet(path)
         table.validate(full=True)
     for column, declared in DESCRIBED[name].items():
         times = table.column_names.count(column)
@@ -202,6 +200,12 @@ def read_table(folder: Path, folder_name: str, name: str) -> Any:
         if times and not _is_valid(table.column(column), declared.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
+
+
+def _read_parquet(path: Path) -> Any:
+    pa, parquet = import_arrow()
+    content = pa.BufferReader(path.read_bytes())
+    return parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
 
 
 def find_rows(table: Any) -> dict[str, slice]:
@@ -285,11 +289,9 @@ def has_analysis(folder: Path, key: str) -> bool:
 
 def read_analysis(folder: Path, key: str) -> Analysis:
     """Read the analysis with this key."""
-    pa, parquet = import_arrow()
     path = folder / f"{key}.parquet"
     with translate_read_errors(path):
-        content = pa.BufferReader(path.read_bytes())
-        table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
+        table = _read_parquet(path)
         facts = decode_json(table.schema.metadata[METADATA], path, dict[str, Any])
         columns = {name: _read_column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
