@@ -172,6 +172,7 @@ def evaluate_folder(
     True
     """
     options, others = read_options or ReadOptions(), dict(constants or {})
+    tell = progress or (lambda _: None)
     for name in methods:
         check_method(name)
     # One job for each recording and method; results arrive in any order.
@@ -191,14 +192,12 @@ def evaluate_folder(
     job_results: dict[Job, JobResult] = {}
     for done, (job, result) in enumerate(run_jobs(jobs, processes), 1):
         job_results[job] = result
-        if progress is not None:
-            progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
+        tell(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
     results: dict[str, list[RecordingScores]] = {}
     for name in methods:
         own_results = [(job, job_results[job]) for job in jobs if job.method == name]
-        if progress is not None and mapping == "folder":
-            progress(f"joining the clusters of all recordings, {name}")
         if mapping == "folder":
+            tell(f"joining the clusters of all recordings, {name}")
             compared = join_comparisons(own_results, n_clusters)
         else:
             compared = [result.compared for _, result in own_results]
