@@ -56,8 +56,7 @@ class Executor(Protocol):
 
         The result is None for a task whose process died; other tasks are not affected. An exception
         in ``work``, a module-level function, ends all; closing the iterator cancels the rest.
-        ``workers`` limits the processes to start for these tasks, unlimited by default; with 0
-        only existing processes are used.
+        ``workers`` limits the processes to start for these tasks, unlimited by default.
         """
         ...
 
@@ -88,7 +87,7 @@ class Processes:
 
         A single task runs in this process unless other processes exist already.
         """
-        if not (self._pool or _STARTED.is_set()) and (workers == 0 or len(tasks) == 1):
+        if len(tasks) == 1 and not (self._pool or _STARTED.is_set()):
             yield from InProcess().completed(work, tasks)
             return
         waiting = list(reversed(tasks))
