@@ -320,7 +320,7 @@ def read_spans(
         for first, stop in spans:
             part = np.empty((stop - first, dims), np.float32)
             file.seek(offset + part.itemsize * dims * first)
-            if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
+            if file.readinto(part.data) != part.nbytes:
                 raise ValueError("shorter than was written")
             _check_plausible(part)
             yield part
