@@ -32,6 +32,7 @@ from kineme.library.planning import (
 from kineme.library.storage.layout import (
     ANALYSES,
     HEAD,
+    KEY_LENGTH,
     LOCK_EDITS,
     MOST_CLUSTERS,
     SCHEMA,
@@ -45,7 +46,6 @@ from kineme.library.storage.layout import (
     write_json,
 )
 from kineme.library.storage.tables import (
-    KEY_LENGTH,
     has_analysis,
     is_analysis,
     is_table_file,

@@ -29,14 +29,13 @@ from kineme._util.checks import is_text
 from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, ReadError, WriteError
-from kineme.formats import ReadOptions, read_quietly
+from kineme.formats import read_quietly
 from kineme.library.executors import Executor, Progress, track_progress
 from kineme.library.planning import (
     Entry,
     Plan,
     compute_digest,
     fetch,
-    make_analysis_key,
     measure_size,
     read_states,
 )
@@ -63,7 +62,6 @@ from kineme.library.storage.tables import (
     read_table,
     write_analysis,
 )
-from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings.arrays import to_samples
 from kineme.segments.table import COLUMNS
 from kineme.transfer.clusters import (
@@ -132,13 +130,10 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
 
 @dataclass(frozen=True)
 class Task:
-    """A recording of ``size`` bytes to analyse; ``analyses`` is the folder for the result."""
+    """A recording of ``size`` bytes to analyse."""
 
     path: Path
-    analyses: Path
-    read_options: ReadOptions
-    segment_options: SegmentOptions
-    options_digest: str
+    plan: Plan
     size: int
 
     def __hash__(self) -> int:
@@ -202,8 +197,8 @@ def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) ->
 
 def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
     """Return tasks for recordings, the largest first, so that processes finish together."""
-    common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
-    tasks = [Task(path, *common, measure_size(path)) for path in paths]
+    _ = plan.options_digest  # cached in the plan before it is sent to other processes
+    tasks = [Task(path, plan, measure_size(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
@@ -268,14 +263,14 @@ def analyze_recording(task: Task) -> Outcome:
 
         with warnings.catch_warnings(), threadpool_limits(1):  # rounding depends on BLAS threads
             warnings.simplefilter("ignore", KinemeWarning)
-            options = task.read_options
+            plan, options = task.plan, task.plan.read_options
             with fetch(task.path, options.skeleton) as path:
                 digest = compute_digest(path, options.skeleton)
-                key = make_analysis_key(task.options_digest, digest)
-                if has_analysis(task.analyses, key):
+                key = plan.key(digest)
+                if has_analysis(plan.analyses, key):
                     return Outcome(digest)
                 recording = read_quietly(path, options)
-            write_analysis(task.analyses, key, *make_analysis(recording, task.segment_options))
+            write_analysis(plan.analyses, key, *make_analysis(recording, plan.segment_options))
     except Exception as error:  # noqa: BLE001 (one recording must not end a build)
         reason = " ".join(str(error).split())
         if not isinstance(error, KinemeError):

@@ -84,7 +84,7 @@ class Hierarchy:
         for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
             if not _have_same_spans(tables[detail], tables[kept_details[0]]):
                 kept_details.insert(0, detail)
-            elif kept_details[0] < DEFAULT_DETAIL:  # of equal ones, keep the coarsest
+            elif kept_details[0] < DEFAULT_DETAIL:  # keep the coarsest of equal ones, and 1
                 kept_details[0] = detail
         return cls(tuple(kept_details), tuple(tables[detail] for detail in kept_details))
 

@@ -41,6 +41,7 @@ from kineme.library.storage.layout import (
     ANALYSES,
     BODIES,
     EMBEDDED,
+    KEY_LENGTH,
     TABLES,
     as_array,
     as_column,
@@ -109,8 +110,6 @@ ADDED = ("label", "action_label")
 """Columns that `apply_edits` adds if a table lacks them."""
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
-KEY_LENGTH = 32
-"""Length of the key of an analysis; see `kineme.library.planning.make_analysis_key`."""
 _FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
 LARGEST_SUM = 1e30
 """Largest sum of squares of a recording's features for which no distance overflows."""
