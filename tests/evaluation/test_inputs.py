@@ -1,15 +1,19 @@
-"""Compare a result with its truth, from label files."""
+"""Compare a result with its truth, from label files and from annotations of the benchmark."""
 
 from __future__ import annotations
 
+import json
+
+import numpy as np
 import pytest
 
-from kineme.errors import ReadError
+from kineme.errors import KinemeWarning, ReadError
 from kineme.evaluation import TRANSITION
 from kineme.evaluation.comparison import compare
 from kineme.evaluation.inputs import (
     find_differences,
     read_result,
+    read_trials,
     read_truth,
     score,
     score_agreement,
@@ -25,12 +29,11 @@ def result(n_frames: int = 60, fps: float = 10.0) -> Segmentation:
     return one_activity(n_frames, fps, cluster=0)
 
 
-@pytest.mark.parametrize("separator", [",", "\t"])
-def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path, separator) -> None:
+def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path) -> None:
     rows = ["start_s,stop_s,label,count", "0,2,walk,4", "2.5,4,jump,", "4,4.4,transition,",
             "4.4,6,walk,3"]  # fmt: skip
     path = tmp_path / "truth.csv"
-    path.write_text("\n".join(rows).replace(",", separator))
+    path.write_text("\n".join(rows))
     truth = read_truth(path, result())
     assert truth.labels == ("walk", "jump", "walk")
     assert truth.earliest.tolist() == [20, 40]
@@ -38,16 +41,6 @@ def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path, separat
     assert truth.latest.tolist() == [25, 44]
     assert truth.counts == (4, None, 3)
     assert truth.labelling().labels == ("walk", TRANSITION, "jump", TRANSITION, "walk")
-
-
-def test_the_activities_of_a_segment_table_are_a_truth(tmp_path) -> None:
-    path = tmp_path / "truth.csv"
-    path.write_text(
-        "level,kind,start_s,stop_s,label\nactivity,activity,0,2,walk\n"
-        "activity,transition,2,3,\nactivity,activity,3,6,run\nprimitive,activity,0,1,x\n"
-    )
-    truth = read_truth(path, result())
-    assert (truth.labels, truth.latest.tolist()) == (("walk", "run"), [30])
 
 
 def test_one_label_per_frame_of_another_rate(tmp_path) -> None:
@@ -196,3 +189,74 @@ def test_where_two_people_differ_is_told_but_not_what_borders_leave_open(tmp_pat
     ann, bob = (read_result(path, fps=10) for path in (first, second))
     assert find_differences(ann, bob) == [(5.0, 6.0)]
     assert find_differences(ann, ann) == []
+
+
+TEXT = """86_01 two actions
+walk 500 550 600
+jump up 1100 1150 1200
+walk 1930 1930 1930
+
+86_02
+punch 700 700 700
+"""
+
+
+def write(tmp_path, text, name="labels.csv"):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_text_and_json_of_the_benchmark_say_the_same(tmp_path, data_dir):
+    source = data_dir / "cmu86" / "annotations.json"
+    lines = []
+    for name, rows in json.loads(source.read_text())["trials"].items():
+        lines.append(f"{name} {len(rows)}")
+        lines += [
+            f"{r['label']}\t{r['end_earliest']} {r['end_mean']} {r['end_latest']}" for r in rows
+        ]
+    text, stored = read_trials(write(tmp_path, "\n".join(lines), "m.txt")), read_trials(source)
+    assert list(text) == list(stored)
+    for name, truth in stored.items():
+        assert text[name].labels == truth.labels
+        for marks in ("earliest", "mean", "latest"):
+            np.testing.assert_array_equal(getattr(text[name], marks), getattr(truth, marks))
+
+
+def test_marks_become_frames_from_0_halves_up(tmp_path):
+    truth = read_trials(write(tmp_path, TEXT, "mocap.txt"))["86_01"]
+    assert truth.labels == ("walk", "jump up", "walk")
+    assert truth.earliest.tolist() == [124, 274]
+    assert truth.mean.tolist() == [137, 287]  # 550 / 4 = 137.5 is 138 from 1
+    assert truth.latest.tolist() == [149, 299]
+    assert truth.frames == 483
+    assert read_trials(tmp_path / "mocap.txt", fps=120)["86_01"].latest.tolist() == [599, 1199]
+
+
+def test_known_errors_are_mended_and_told(tmp_path):
+    rows = ["walk 970 1019 1100", "stretch 2180 2250 2295", "punch 3368 3440 3500",
+            "stand 4000 4074 4130", "walk 4060 5050 5090", "walk 10078 10078 10078"]  # fmt: skip
+    path = write(tmp_path, "\n".join(["86_04", *rows]), "mocap.txt")
+    with pytest.warns(KinemeWarning, match="86_04, row 5 .*corrected to \\(5052, 5052, 5092\\)"):
+        truth = read_trials(path)["86_04"]
+    assert truth.latest[-1] == 1272
+    path = write(tmp_path, "86_06\nstand 1540 1690 1685\nwalk 2000 2000 2000", "mocap.txt")
+    with pytest.warns(
+        KinemeWarning, match="\\(1540, 1690, 1685\\) corrected to \\(1540, 1690, 1690\\)"
+    ):
+        read_trials(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "contains no trial"),
+        ("86_01\n", "trial 86_01 has no rows"),
+        ("86_01\nwalk 1 2\n", "line 2: expected the name of a trial or"),
+        ("86_01\nwalk 500 550 600\nrun 400 420 440\nsit 900 900 900\n", "would last"),
+        ("86_01\nwalk 500 550 600\nrun 580 580 580\n", "is not before the end"),
+    ],
+)
+def test_broken_texts_are_one_clear_error(tmp_path, text, words):
+    with pytest.raises(ReadError, match=words):
+        read_trials(write(tmp_path, text, "mocap.txt"))

@@ -53,9 +53,12 @@ def make_activities(*stops: int, fps: float = 30.0, **columns: Any) -> Segmentat
 
 
 @st.composite
-def segmentations(draw: st.DrawFn) -> Segmentation:
-    """Random cuts of both levels, clusters, labels, confidences, provenance."""
-    n_frames = draw(st.integers(1, 60))
+def segmentations(draw: st.DrawFn, like: Segmentation | None = None) -> Segmentation:
+    """Random cuts of both levels, clusters, labels, confidences, provenance.
+
+    The length and the rate are random, too, or those of another segmentation.
+    """
+    n_frames = draw(st.integers(1, 60)) if like is None else like.n_frames
     cuts = st.sets(st.integers(1, max(1, n_frames - 1)), max_size=6)
     inner = sorted(cut for cut in draw(cuts) if cut < n_frames)
     finer = sorted({*inner, *(cut for cut in draw(cuts) if cut < n_frames)})
@@ -83,7 +86,7 @@ def segmentations(draw: st.DrawFn) -> Segmentation:
             "border_confidence": column(shares),
         },
         n_frames=n_frames,
-        fps=draw(RATES),
+        fps=draw(RATES) if like is None else like.fps,
         provenance=draw(st.dictionaries(UNKNOWN, JSON, max_size=3)),
         timings=draw(st.dictionaries(st.text(max_size=5), st.floats(0, 1e3), max_size=3)),
     )

@@ -41,14 +41,12 @@ def test_every_package_gives_the_borders_back(result, level) -> None:
         assert back.activities.start_frame.tolist() == rows.start_frame.tolist()
         assert back.n_frames == result.n_frames
     assert to_mir_eval(back)[1] == texts
-
-
-@given(segmentations())
-def test_conventions_of_the_ends(result) -> None:
-    assert to_ruptures(result)[-1] == result.n_frames
-    assert 0 not in to_ruptures(result)
-    assert not {0, result.n_frames} & set(to_aeon(result).tolist())
-    assert to_sktime(result).ilocs.array.closed == "left"
+    mir_eval.segment.validate_structure(intervals, texts, intervals, texts)
+    assert intervals[0, 0] == 0
+    assert to_ruptures(result, level=level)[-1] == result.n_frames
+    assert 0 not in to_ruptures(result, level=level)
+    assert not {0, result.n_frames} & set(to_aeon(result, level=level).tolist())
+    assert to_sktime(result, level=level).ilocs.array.closed == "left"
 
 
 def test_ruptures_takes_and_gives_our_breakpoints() -> None:
@@ -57,13 +55,6 @@ def test_ruptures_takes_and_gives_our_breakpoints() -> None:
     ours = from_ruptures(found, fps=30)
     assert hausdorff(to_ruptures(ours), truth) <= 2
     assert ours.n_frames == 300
-
-
-@given(segmentations())
-def test_mir_eval_accepts_our_intervals(result) -> None:
-    intervals, labels = to_mir_eval(result)
-    mir_eval.segment.validate_structure(intervals, labels, intervals, labels)
-    assert intervals[0, 0] == 0
 
 
 def test_wrong_ends_are_named() -> None:

@@ -23,13 +23,14 @@ from kineme.labels.c3d_events import read_events, write_events
 ezc3d = pytest.importorskip("ezc3d")
 
 
-def write_c3d(path: Path, events: list[tuple[float, str, str]], *, fps=100.0, frames=200) -> Path:
-    """A file with one marker and these events: second, side, name."""
+def write_c3d(
+    path: Path, events: list[tuple[float, str, str]], *, fps=100.0, markers=("LASI",), points=None
+) -> Path:
+    """A file with points (4, markers, frames) and these events: second, side, name."""
     file = ezc3d.c3d()
     file["parameters"]["POINT"]["RATE"]["value"] = [fps]
-    file["parameters"]["POINT"]["LABELS"]["value"] = ["LASI"]
-    points = np.ones((4, 1, frames))
-    file["data"]["points"] = points
+    file["parameters"]["POINT"]["LABELS"]["value"] = [*markers]
+    file["data"]["points"] = np.ones((4, 1, 200)) if points is None else points
     if events:
         file.add_parameter("EVENT", "USED", [len(events)])
         times = np.array([[0.0, at] for at, _, _ in events]).T
@@ -233,14 +234,10 @@ def test_the_command_writes_them(tmp_path: Path) -> None:
     names = {"LeftFoot": "LHEE", "LeftToeBase": "LTOE", "RightFoot": "RHEE", "RightToeBase": "RTOE",
              "LeftUpLeg": "LASI", "RightUpLeg": "RASI", "Head": "HEAD"}  # fmt: skip
     joints = [walk.skeleton.names.index(name) for name in names]
-    file = ezc3d.c3d()
-    file["parameters"]["POINT"]["RATE"]["value"] = [100.0]
-    file["parameters"]["POINT"]["UNITS"]["value"] = ["m"]
-    file["parameters"]["POINT"]["LABELS"]["value"] = [*names.values()]
-    points = walk.positions[:, joints][..., [2, 0, 1]].transpose(2, 1, 0)
-    file["data"]["points"] = np.concatenate([points, np.ones((1, *points.shape[1:]))])
+    points = 1000 * walk.positions[:, joints][..., [2, 0, 1]].transpose(2, 1, 0)
+    points = np.concatenate([points, np.ones((1, *points.shape[1:]))])
     source, copy = tmp_path / "walk.c3d", tmp_path / "copy.c3d"
-    file.write(str(source))
+    write_c3d(source, [], markers=names.values(), points=points)
     done = CliRunner().invoke(app, ["events", str(source), "--c3d", str(copy)])
     assert done.exit_code == 0, done.output
     assert "copy.c3d" in done.output

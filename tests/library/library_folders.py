@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,15 @@ def write_channels(path: Path, seed: int = 0) -> None:
     shape = np.where(times < 20, slow, 0.4 * fast) + 0.02 * random.normal(size=1200)
     lines = [f"{t:.4f},{x:.5f},{y:.5f}" for t, x, y in zip(times, shape, 1.5 - shape)]
     path.write_text("\n".join(["time_s,gyro_x,gyro_y", *lines]))
+
+
+def copy_takes(takes: Path, home: Path, **named: str) -> Path:
+    """Return a new folder with copies of some recordings, each under a new stem."""
+    own = home / "takes"
+    own.mkdir()
+    for stem, name in named.items():
+        shutil.copy(takes / name, own / f"{stem}{Path(name).suffix}")
+    return own
 
 
 def contents(folder: Path) -> dict[str, bytes]:

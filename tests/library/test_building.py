@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from library_folders import contents, write_channels
+from library_folders import contents, copy_takes, write_channels
 
 import kineme
 from kineme.errors import ReadError, WriteError
@@ -52,22 +52,11 @@ def test_an_unchanged_library_is_left_as_it_is(folder: Path) -> None:
     assert {path: path.stat().st_mtime_ns for path in folder.rglob("*.*")} == before
 
 
-def test_a_file_that_was_only_touched_is_not_segmented_again(
-    built: Path, takes: Path, tmp_path: Path
-) -> None:
-    own = shutil.copytree(takes, tmp_path / "takes")
-    folder = tmp_path / "library"
-    build(own / "wrist.csv", folder)
-    os.utime(own / "wrist.csv", (1, 1))
-    assert build((), folder).new == 0
-
-
 def test_recordings_come_and_go(takes: Path, tmp_path: Path) -> None:
-    own = tmp_path / "takes"
-    own.mkdir()
-    shutil.copy(takes / "wrist.csv", own / "a.csv")
-    folder = tmp_path / "library"
+    own, folder = copy_takes(takes, tmp_path, a="wrist.csv"), tmp_path / "library"
     assert build(own, folder).new == 1
+    os.utime(own / "a.csv", (1, 1))  # the content is the same
+    assert build((), folder).new == 0
     shutil.copy(takes / "walk.bvh", own / "b.bvh")
     assert build((), folder).new == 1
     (own / "a.csv").unlink()
@@ -120,10 +109,7 @@ def test_a_library_keeps_segments_of_the_detail_asked_for(tmp_path: Path) -> Non
 def test_a_source_that_is_gone_keeps_its_recordings_until_it_is_removed(
     takes: Path, tmp_path: Path
 ) -> None:
-    own = tmp_path / "takes"
-    own.mkdir()
-    shutil.copy(takes / "wrist.csv", own)
-    folder = tmp_path / "library"
+    own, folder = copy_takes(takes, tmp_path, wrist="wrist.csv"), tmp_path / "library"
     build(own, folder)
     own.rename(tmp_path / "elsewhere")
     kept = build((), folder)
@@ -141,12 +127,11 @@ def test_a_mistyped_source_is_said_and_forgotten(folder: Path, tmp_path: Path) -
 def test_recordings_of_one_name_are_told_apart_and_keep_their_names(
     takes: Path, tmp_path: Path
 ) -> None:
-    for place in ("a", "b"):
+    folder = tmp_path / "library"
+    for place in ("b", "a"):
         (tmp_path / place).mkdir()
         shutil.copy(takes / "wrist.csv", tmp_path / place)
-    folder = tmp_path / "library"
-    build(tmp_path / "b", folder)
-    build(tmp_path / "a", folder)
+        build(tmp_path / place, folder)
     paths = dict(zip(Library(folder).recordings["recording"], Library(folder).recordings["path"]))
     assert paths == {
         "wrist.csv": str(tmp_path / "b" / "wrist.csv"),
@@ -224,22 +209,16 @@ def test_clusters_of_channels_do_not_depend_on_names_of_files(tmp_path: Path) ->
 def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
     takes: Path, tmp_path: Path
 ) -> None:
-    own, folder = tmp_path / "takes", tmp_path / "library"
-    own.mkdir()
+    own, folder = copy_takes(takes, tmp_path, walk="walk.bvh"), tmp_path / "library"
     write_channels(own / "wrist.csv")
-    shutil.copy(takes / "walk.bvh", own)
     build(own, folder)
 
     def clusters() -> dict[str, list[tuple[int, float, int]]]:
-        rows = Library(folder).table("segments").to_pylist()
-        return {
-            suffix: [
-                (row["segment"], row["start_s"], row["cluster"])
-                for row in rows
-                if row["recording"].endswith(suffix)
-            ]
-            for suffix in (".csv", ".bvh")
-        }
+        found: dict[str, list[tuple[int, float, int]]] = {".csv": [], ".bvh": []}
+        for row in Library(folder).table("segments").to_pylist():
+            suffix = Path(row["recording"]).suffix
+            found[suffix].append((row["segment"], row["start_s"], row["cluster"]))
+        return found
 
     before = clusters()
     number = next(cluster for *_, cluster in before[".csv"] if cluster >= 0)
@@ -309,12 +288,10 @@ def test_a_worker_that_dies_costs_its_recording_only(takes: Path, tmp_path: Path
     info = site / "deadly-1.0.dist-info"
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: deadly\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text("[kineme.formats]\ndeadly = deadly:FORMAT\n")
-    own = tmp_path / "takes"
-    own.mkdir()
-    for name in ("a.csv", "c.csv", "d.csv"):
-        shutil.copy(takes / "wrist.csv", own / name)
-        with (own / name).open("a") as file:
-            file.write("\n" * len(list(own.iterdir())))
+    own = copy_takes(takes, tmp_path, a="wrist.csv", c="wrist.csv", d="wrist.csv")
+    for number, path in enumerate(own.iterdir()):
+        with path.open("a") as file:
+            file.write("\n" * number)
     (own / "b.deadly").write_text("b")
     ours = Path(kineme.__file__).parents[1]
     done = subprocess.run(
@@ -351,10 +328,8 @@ def test_one_build_at_a_time(folder: Path) -> None:
 
 
 def test_copies_are_worked_on_once_and_each_is_named(takes: Path, tmp_path: Path) -> None:
-    own = tmp_path / "takes"
-    own.mkdir()
-    for name in ("a", "b", "c"):
-        shutil.copy(takes / "wrist.csv", own / f"{name}.csv")
+    own = copy_takes(takes, tmp_path, **dict.fromkeys("abc", "wrist.csv"))
+    for name in "abc":
         shutil.copy(takes / "broken.bvh", own / f"{name}.bvh")
     made = build(own, tmp_path / "library", jobs=1)
     assert made.new == 1

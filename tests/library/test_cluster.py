@@ -46,12 +46,12 @@ def test_a_library_is_the_same_though_a_worker_was_killed(
 
 
 def test_a_task_that_ends_its_workers_costs_itself_only(client: Any) -> None:
-    from kineme.library.executors import Cluster
+    from kineme.library.executors import DaskCluster
 
     client.run_on_scheduler(_bear_deaths, most=0)
-    assert list(Cluster(client).completed(os._exit, [1])) == [(1, None)]
+    assert list(DaskCluster(client).completed(os._exit, [1])) == [(1, None)]
     client.run_on_scheduler(_bear_deaths, most=3)
-    assert dict(Cluster(client).completed(abs, [-2, -3])) == {-2: 2, -3: 3}
+    assert dict(DaskCluster(client).completed(abs, [-2, -3])) == {-2: 2, -3: 3}
 
 
 def _bear_deaths(dask_scheduler: Any, most: int) -> None:

@@ -1,4 +1,4 @@
-"""A library, asked, searched and edited."""
+"""A library, asked, searched, edited and cut into clips."""
 
 from __future__ import annotations
 
@@ -8,15 +8,19 @@ import shutil
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from library_folders import write_channels
 from matplotlib.image import imread
 from pyarrow import parquet
 
 import kineme
+import naive
 from kineme.errors import KinemeWarning, ParameterError, ReadError, WriteError
-from kineme.library import Example, Library, build
-from kineme.library.storage.tables import DESCRIBED
+from kineme.library import Example, Library, build, finding
+from kineme.library._kernels import find_smallest_distances
+from kineme.library.storage import tables as storage
+from kineme.library.windows import FINER, LENGTHS, describe_at_speeds, describe_windows
 from kineme.segments.table import COLUMNS
 
 
@@ -230,7 +234,7 @@ def test_readers_of_another_schema_are_told_to_build_anew(folder: Path) -> None:
 def test_columns_of_the_docs_are_those_of_the_tables() -> None:
     text = (Path(__file__).parents[2] / "docs" / "library.md").read_text(encoding="utf-8")
     types = {str: "text", int: "whole number", float: "number"}
-    for name, columns in DESCRIBED.items():
+    for name, columns in storage.DESCRIBED.items():
         for column, known in columns.items():
             if (name, column) != ("embeddings", "embedding") and column not in COLUMNS:
                 assert f"| `{column}` | {types[known.type]} | {known.meaning} |" in text
@@ -283,3 +287,86 @@ def test_an_exercise_is_found_in_those_of_other_people(exercises: Library) -> No
     hits = exercises.search(example, max_per_recording=1, top=None)
     others = {hit.recording for hit in hits if "_bd_" not in hit.recording}
     assert others == {name for name in names if "rotate" in name and "_bd_" not in name}
+
+
+def test_what_is_searched_first_holds_what_an_exact_search_finds(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    exact = Library(folder)
+    monkeypatch.setattr(storage, "FROM_HOURS", 0.0)
+    monkeypatch.setattr(finding, "SHARE", 0.2)
+    monkeypatch.setattr(finding, "MORE", 1)
+    storage.write_index(folder, exact.head["tables"], exact.recordings)
+    indexed = Library(folder)
+    for example in (Example("walk.bvh", 2.0, 3.2), Example("jacks.bvh", 4.0, 7.5)):
+        few, all_ = (
+            {(hit.recording, hit.start_s): hit.distance for hit in library.search(example, top=5)}
+            for library in (indexed, exact)
+        )
+        assert len(few.keys() & all_.keys()) >= 0.8 * len(all_)
+        assert min(few.values()) < 0.01
+    clean = indexed.search("wrist.csv", 2.0, 4.0, top=3)  # channels have no index
+    assert clean == exact.search("wrist.csv", 2.0, 4.0, top=3)
+
+
+def test_the_window_that_is_the_example_is_the_nearest() -> None:
+    features = np.random.default_rng(1).normal(size=(300, 40)).astype(np.float32)
+    step = LENGTHS[1] // 2
+    example = features[4 * step : 4 * step + LENGTHS[1]]
+    windows, parts = describe_windows(features, LENGTHS[1]), describe_at_speeds(example)
+    least = np.empty(len(windows), np.int32)
+    find_smallest_distances(windows, parts, np.int32(FINER), least)
+    assert least.tolist() == naive.find_smallest_distances(windows.tolist(), parts.tolist(), FINER)
+    assert least.argmin() == 4
+    windows[:], parts[:] = -127, 127 * FINER  # the farthest there is
+    find_smallest_distances(windows, parts, np.int32(FINER), least)
+    assert least.tolist() == naive.find_smallest_distances(windows.tolist(), parts.tolist(), FINER)
+
+
+@pytest.fixture(scope="module")
+def twice(tmp_path_factory: pytest.TempPathFactory) -> Library:
+    """A library of the same recording under two names, one of them cut a bit shorter."""
+    home = tmp_path_factory.mktemp("twice")
+    (home / "takes").mkdir()
+    shutil.copy(kineme.bundled_recording(), home / "takes" / "a.bvh")
+    kineme.write(kineme.read(kineme.bundled_recording())[:2890], home / "takes" / "b.bvh")
+    build(home / "takes", home / "library", jobs=1)
+    return Library(home / "library")
+
+
+def test_duplicates_are_left_out_and_ranks_go_over_all(twice: Library, tmp_path: Path) -> None:
+    paths = twice.loops(tmp_path / "clips", best=2)
+    clips = json.loads((tmp_path / "clips" / "manifest.json").read_text())["clips"]
+    assert len(clips) == len(paths)
+    spans = [(clip["start_frame"], clip["stop_frame"]) for clip in clips]
+    assert len(spans) == len(set(spans))  # each of them is in both recordings
+    for cluster in {clip["cluster"] for clip in clips}:
+        ranks = [clip["rank"] for clip in clips if clip["cluster"] == cluster]
+        assert ranks in ([1], [1, 2])
+    with pytest.raises(ParameterError, match="choose from cluster, direction, recording"):
+        twice.loops(tmp_path / "more", per="take")  # type: ignore[arg-type]
+
+
+def test_each_recording_can_have_its_own(twice: Library, tmp_path: Path) -> None:
+    twice.loops(tmp_path / "clips", best=1, per="recording", target="unreal")
+    clips = json.loads((tmp_path / "clips" / "manifest.json").read_text())["clips"]
+    assert len({Path(clip["source"]).name for clip in clips}) == 2
+    assert all(clip["file"].startswith("AS_") for clip in clips)
+
+
+def test_coverage_tells_directions_speeds_and_turns(twice: Library) -> None:
+    covered = twice.coverage()
+    fast = max(covered, key=lambda each: each.fastest_m_s)
+    assert fast.direction == "forwards"
+    assert 2.2 < fast.fastest_m_s < 3.2
+    assert max(each.left_deg for each in covered) > 90
+    assert {"forwards", "in place"} == {each.direction for each in covered}
+
+
+def test_a_search_finds_those_with_a_tag(twice: Library) -> None:
+    hits = twice.search("a.bvh", 0.5, 1.6, top=4, tag="turn left")
+    every = twice.search("a.bvh", 0.5, 1.6, top=None)
+    assert 0 < len(hits) <= 4
+    assert {*hits} < {*every}
+    with pytest.raises(ParameterError, match="choose from forwards, backwards"):
+        twice.search("a.bvh", 0.5, 1.6, tag="north")  # type: ignore[arg-type]

@@ -36,6 +36,10 @@ def search(client: TestClient, *like: dict[str, Any], **rest: Any) -> Any:
     return client.post("/api/library/search", json=sent)
 
 
+def edit_clusters(client: TestClient, kind: str, **rest: Any) -> Any:
+    return client.post("/api/library/edits", json={"kind": kind, **rest})
+
+
 def test_a_library_is_told_with_its_recordings_and_clusters(client, folder, takes):
     assert client.get("/api/library", headers={"x-kineme-token": "no"}).status_code == 403
     told = client.get("/api/library").json()
@@ -59,19 +63,16 @@ def test_clusters_are_named_merged_and_split_as_on_the_command_line(client, fold
     wide = next(c["cluster"] for c in bodies if len(c["recordings"]) == 2)
     other = next(c["cluster"] for c in bodies if c["cluster"] != wide)
 
-    def edit(kind: str, **rest: Any) -> Any:
-        return client.post("/api/library/edits", json={"kind": kind, **rest})
-
-    told = edit("name", cluster=wide, name=" 7 ").json()
+    told = edit_clusters(client, "name", cluster=wide, name=" 7 ").json()
     assert {c["label"] for c in told["clusters"] if c["cluster"] == wide} == {"7"}
     assert Library(folder).numbers("7") == [wide]
-    parted = edit("split", cluster=wide, recordings=["walk.bvh"]).json()
+    parted = edit_clusters(client, "split", cluster=wide, recordings=["walk.bvh"]).json()
     assert len(parted["clusters"]) == len(told["clusters"]) + 1
     Library(folder).name(other, "said elsewhere")  # on the command line, meanwhile
-    joined = edit("merge", cluster=other, others=[wide]).json()
+    joined = edit_clusters(client, "merge", cluster=other, others=[wide]).json()
     assert wide not in [c["cluster"] for c in joined["clusters"]]
     assert "said elsewhere" in [c["label"] for c in joined["clusters"]]
-    refused = edit("split", cluster=other, recordings=["none"])
+    refused = edit_clusters(client, "split", cluster=other, recordings=["none"])
     assert refused.status_code == 400
     assert "there is no recording 'none' in the library" in refused.json()["error"]
 
@@ -157,8 +158,7 @@ def test_recordings_have_the_clusters_and_names_of_the_library(client, folder):
     walk = shown(client, "walk.bvh")
     assert clusters_of(walk) == in_library(folder, "walk.bvh")
     assert walk["saved"] == ""
-    edit = {"kind": "name", "cluster": clusters_of(walk)[0], "name": "stroll"}
-    client.post("/api/library/edits", json=edit)
+    edit_clusters(client, "name", cluster=clusters_of(walk)[0], name="stroll")
     again = shown(client, "walk.bvh")
     assert again["revision"] > walk["revision"]
     assert again["segmentation"]["cluster_names"][str(clusters_of(walk)[0])] == "stroll"
@@ -166,17 +166,15 @@ def test_recordings_have_the_clusters_and_names_of_the_library(client, folder):
     assert {each["id"] for each in tables if each["table"]} == {each["id"] for each in tables}
 
     before = in_library(folder, "walk.bvh"), in_library(folder, "jacks.bvh")
-    merge = {"kind": "merge", "cluster": first, "others": [second]}
-    assert "merged into" in client.post("/api/library/edits", json=merge).json()["undo"]
+    merged = edit_clusters(client, "merge", cluster=first, others=[second]).json()
+    assert "merged into" in merged["undo"]
     assert second not in clusters_of(shown(client, "walk.bvh"))
-    undone = client.post("/api/library/edits", json={"kind": "undo"}).json()
-    assert "stroll" in undone["undo"]
+    assert "stroll" in edit_clusters(client, "undo").json()["undo"]
     assert (in_library(folder, "walk.bvh"), in_library(folder, "jacks.bvh")) == before
     assert clusters_of(shown(client, "walk.bvh")) == before[0]
     Library(folder).name(first, "said elsewhere")
     assert client.get("/api/library").json()["undo"] == ""
-    refused = client.post("/api/library/edits", json={"kind": "undo"})
-    assert refused.status_code == 400
+    assert edit_clusters(client, "undo").status_code == 400
 
 
 def correct(client: TestClient, message: dict[str, Any], kind: str, **edit: Any) -> dict[str, Any]:
@@ -192,13 +190,10 @@ def test_saved_tables_take_numbers_and_names_when_they_are_told_to(client, folde
     members = [each for each in rows if each["cluster"] == cluster]
     alone = {"level": members[0]["level"], "frame": members[0]["start_frame"], "label": "limp"}
     correct(client, walk, "name_segment", **alone)
-    edit = {"kind": "name", "cluster": cluster, "name": "stroll"}
-    client.post("/api/library/edits", json=edit)
+    edit_clusters(client, "name", cluster=cluster, name="stroll")
     assert "stroll" not in labels_of(shown(client, "walk.bvh"))
     others = {row["cluster"] for row in rows} - {cluster, -1}
-    client.post(
-        "/api/library/edits", json={"kind": "merge", "cluster": cluster, "others": [*others][:1]}
-    )
+    edit_clusters(client, "merge", cluster=cluster, others=[*others][:1])
     brought = client.post("/api/library/tables", json={"names": False}).json()
     assert brought == {"tables": 1, "others": 0, "left": []}
     after = shown(client, "walk.bvh")

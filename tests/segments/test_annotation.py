@@ -48,7 +48,7 @@ def walk() -> Segmentation:
 
 @pytest.mark.parametrize("suffix", [".csv", ".json", ".parquet"])
 @given(segmentations(), ANNOTATIONS)
-def test_it_is_kept_in_files(folder: Path, suffix: str, table, annotation) -> None:
+def test_files_keep_segments_and_annotation(folder: Path, suffix: str, table, annotation) -> None:
     path = folder / f"table{suffix}"
     annotated = replace(table, annotation=annotation)
     write_segments(annotated, path)

@@ -177,6 +177,8 @@ def test_a_transition_that_grows_is_one_primitive() -> None:
     made = editing.set_kind(walk_pause_jump(), "activity", 0, "transition")
     assert spans(made, "activity").startswith("0-30 t walk | ")
     assert spans(made, "primitive").startswith("0-30 t walk | 30-40 t | ")
+    back = editing.set_kind(made, "activity", 0, "primitive")  # means the kind of its level
+    assert spans(back, "activity").startswith("0-30 walk | 30-40 t | ")
 
 
 def test_clusters_take_their_primitives_with_them() -> None:

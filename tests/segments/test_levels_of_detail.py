@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -38,9 +39,9 @@ def wandering(seed: int, seconds: float) -> kineme.Signals:
     return kineme.Signals(values + 0.05 * rng.standard_normal(values.shape), FPS)
 
 
+@cache
 def found(seed: int, seconds: float, preset: str) -> Segmentation:
-    chosen = kineme.PRESETS[preset]
-    return kineme.segment(wandering(seed, seconds), preset=chosen)
+    return kineme.segment(wandering(seed, seconds), preset=kineme.PRESETS[preset])
 
 
 @given(

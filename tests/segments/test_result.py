@@ -1,6 +1,8 @@
-"""Segmentation: invariants, and errors."""
+"""Segmentation: invariants, errors, and what notebooks show."""
 
 from __future__ import annotations
+
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
@@ -8,22 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kineme.errors import ParameterError
+from kineme.segments import display
+from kineme.segments.editing.borders import replace_columns
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, SegmentTable
-from segmentations import segmentations
+from segmentations import from_rows, make_activities, segmentations
 
 WALK_JUMP = {
     "level": ["activity"] * 3 + ["primitive"] * 5,
-    "kind": [
-        "activity",
-        "transition",
-        "activity",
-        "activity",
-        "activity",
-        "transition",
-        "activity",
-        "activity",
-    ],
+    "kind": ["activity", "transition"] + ["activity"] * 3 + ["transition"] + ["activity"] * 2,
     "start_frame": [0, 40, 50, 0, 20, 40, 50, 70],
     "stop_frame": [40, 50, 90, 20, 40, 50, 70, 90],
     "cluster": [-1, -1, -1, 0, 0, -1, 1, 0],
@@ -100,14 +95,7 @@ def test_row_order_does_not_matter(result: Segmentation, random: object) -> None
     order = list(range(len(result)))
     random.shuffle(order)  # type: ignore[attr-defined]
     columns = {name: column[order] for name, column in result.table.columns().items()}
-    shuffled = Segmentation.from_columns(
-        columns,
-        n_frames=result.n_frames,
-        fps=result.fps,
-        provenance=result.provenance,
-        timings=result.timings,
-    )
-    assert shuffled == result
+    assert replace_columns(result, columns) == result
 
 
 @pytest.mark.parametrize(
@@ -134,14 +122,10 @@ def test_contradictions_are_refused(changes: dict[str, object], message: str) ->
 
 
 def test_a_primitive_may_not_cross_an_activity_border() -> None:
-    columns = {
-        "level": ["activity", "activity", "primitive"],
-        "kind": ["activity"] * 3,
-        "start_frame": [0, 5, 0],
-        "stop_frame": [5, 9, 9],
-    }
+    spans = [("activity", 0, 5), ("activity", 5, 9), ("primitive", 0, 9)]
+    rows = [(level, "activity", start, stop, -1, "") for level, start, stop in spans]
     with pytest.raises(ParameterError, match=r"frames 0 to 9 crosses the border .* at 5"):
-        Segmentation.from_columns(columns, n_frames=9, fps=30.0)
+        from_rows(rows)
 
 
 @pytest.mark.parametrize(("n_frames", "fps"), [(0, 30.0), (90, 0.0), (90, np.nan), (90, np.inf)])
@@ -180,3 +164,36 @@ def test_kinds_are_those_of_the_levels() -> None:
     assert kinds("transition", "transition") == ["transition", "transition"]
     with pytest.raises(ParameterError, match="not a primitive"):
         kinds("primitive", "primitive")
+
+
+def parsed(page: str) -> ET.Element:
+    return ET.fromstring(page)
+
+
+@given(segmentations())
+def test_every_result_is_shown_as_well_formed_html(result: Segmentation) -> None:
+    page = parsed(result._repr_html_())
+    assert len(page.findall(".//tbody/tr")) == min(display.FIRST_ROWS, len(result.activities))
+    bars = page.findall(".//rect")
+    colors = {bar.get("fill") for bar in bars}
+    labels = display.choose_label_colors(result)
+    assert colors <= {display.get_segment_color(segment, labels) for segment in result}
+    assert len(bars) == len(result)
+    for table in (result.table, result.activities, result.table[:0]):
+        parsed(table._repr_html_())
+
+
+def test_a_label_cannot_be_markup() -> None:
+    page = make_activities(9, label=["<script>alert(1)</script>"])._repr_html_()
+    assert "<script>" not in page
+    assert "&lt;script&gt;" in page
+
+
+def test_hours_of_segments_stay_small() -> None:
+    n = 20_000
+    result = make_activities(*range(1, n + 1), fps=1.0, cluster=np.arange(n) % 5)
+    page = result._repr_html_()
+    bars = parsed(page).findall(".//rect")
+    assert len(bars) <= 1 + display.WIDTH
+    assert len(page) < 200_000
+    assert f"and {n - display.FIRST_ROWS} more" in result.table._repr_html_()

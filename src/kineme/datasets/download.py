@@ -3,8 +3,7 @@
 Interrupted downloads continue where they stopped, in the same call or a later one. Incomplete files
 are in the folder ``.partial``, with the server's modification date. The rest is requested if this
 date is still valid (RFC 9110, ``Range`` and ``If-Range``). Servers without ranges or dates send the
-whole file again. ``pooch`` moves files to their final names only if they are complete and pass the
-check.
+whole file again. Files get their final names only if they are complete and pass the check.
 """
 
 from __future__ import annotations
@@ -46,19 +45,30 @@ def fetch(
     is called with name, bytes so far, and total bytes or None. A connection without data for
     ``timeout_s`` is retried.
     """
-    with require_extra("pooch", "data"):
-        import pooch
-    pooch.get_logger().setLevel("WARNING")
-    name = url.rsplit("/", 1)[-1]
-    part = folder / ".partial" / name
+    with require_extra("pooch", "data"):  # it brings requests
+        import requests  # noqa: F401
+    path = folder / url.rsplit("/", 1)[-1]
+    part = folder / ".partial" / path.name
     try:
         part.parent.mkdir(parents=True, exist_ok=True)
-        download = _Download(part, check, progress, timeout_s)
-        return Path(pooch.retrieve(url, None, fname=name, path=folder, downloader=download))
+        _Download(url, part, progress, timeout_s).complete()
+        _check_complete(url, part, check)
+        part.replace(path)
     except _MissingError:
         return None
     except OSError as error:
-        raise WriteError(folder / name, f"cannot be written: {error.strerror or error}") from error
+        raise WriteError(path, f"cannot be written: {error.strerror or error}") from error
+    return path
+
+
+def _check_complete(url: str, part: Path, check: Check) -> None:
+    """Check a complete file; delete it if it is invalid."""
+    try:
+        check(part)
+    except FileError as error:
+        part.unlink()
+        reason = f"the server sent another file: {error.reason}"
+        raise ReadError(url, reason, line=error.line) from error
 
 
 class _MissingError(Exception):
@@ -71,44 +81,33 @@ class _BrokenOffError(Exception):
 
 @dataclass
 class _Download:
-    """Downloader for pooch."""
+    """Download of a file that may have been interrupted before."""
 
+    url: str
     part: Path
-    check: Check
     progress: Progress | None
     timeout_s: float
 
-    def __call__(self, url: str, output_file: str, pooch: object) -> None:  # noqa: ARG002 (pooch's form)
-        self._complete(url)
-        try:
-            self.check(self.part)
-        except FileError as error:
-            self.part.unlink()
-            reason = f"the server sent another file: {error.reason}"
-            raise ReadError(url, reason, line=error.line) from error
-        self.part.replace(output_file)
-
-    def _complete(self, url: str) -> None:
+    def complete(self) -> None:
         """Retry until the file is complete, or `ATTEMPTS` fail in a row."""
-        furthest, failures = self._size(), 0
+        furthest, failures = self._measure_part(), 0
         while True:
             try:
-                return self._rest(url)
+                return self._request_rest()
             except _BrokenOffError as error:
                 # An attempt that received new data resets the count.
-                failures = 0 if self._size() > furthest else failures + 1
-                furthest = max(furthest, self._size())
+                failures = 0 if self._measure_part() > furthest else failures + 1
+                furthest = max(furthest, self._measure_part())
                 if failures == ATTEMPTS:
-                    raise ReadError(
-                        url, f"gave up after {ATTEMPTS} failed attempts: {error}"
-                    ) from error
+                    reason = f"gave up after {ATTEMPTS} failed attempts: {error}"
+                    raise ReadError(self.url, reason) from error
                 time.sleep(min(self.timeout_s, 2.0**failures) / 4)
 
-    def _rest(self, url: str) -> None:
+    def _request_rest(self) -> None:
         """Request the missing part, and append it."""
         import requests
 
-        size = self._size()
+        size = self._measure_part()
         headers = {"Accept-Encoding": "identity"}
         if size:
             date = formatdate(self.part.stat().st_mtime, usegmt=True)
@@ -116,19 +115,19 @@ class _Download:
             headers |= {"Range": f"bytes={size}-", "If-Range": date}
         try:
             with requests.get(
-                url, headers=headers, stream=True, timeout=self.timeout_s
+                self.url, headers=headers, stream=True, timeout=self.timeout_s
             ) as response:
-                start = self._accepted(url, response, size)
-                self._append(response, start)
+                self._append(response, self._check_response(response, size))
         except requests.RequestException as error:
             raise _BrokenOffError(_explain_error(error, self.timeout_s)) from error
 
-    def _accepted(self, url: str, response: Response, size: int) -> int:
+    def _check_response(self, response: Response, size: int) -> int:
         """Check the response, and return the byte at which it begins."""
+        answer = f"the server answers {response.status_code} {response.reason}"
         if response.status_code == 404:
             raise _MissingError
         if response.status_code in TRY_AGAIN:
-            raise _BrokenOffError(f"the server answers {response.status_code} {response.reason}")
+            raise _BrokenOffError(answer)
         if response.status_code == 206:
             if response.headers.get("Content-Range", "").startswith(f"bytes {size}-"):
                 return size
@@ -138,7 +137,7 @@ class _Download:
             self.part.unlink()
             raise _BrokenOffError("the server refused to send the rest")
         if response.status_code != 200:
-            raise ReadError(url, f"the server answers {response.status_code} {response.reason}")
+            raise ReadError(self.url, answer)
         return 0
 
     def _append(self, response: Response, start: int) -> None:
@@ -155,11 +154,11 @@ class _Download:
             complete = total is None or size == total
         finally:
             if not complete:
-                self._date(response)
+                self._set_date(response)
         if not complete:
             raise _BrokenOffError(f"only {size} of {total} bytes arrived")
 
-    def _date(self, response: Response) -> None:
+    def _set_date(self, response: Response) -> None:
         """Set the file's date to the server's, which a later request needs to continue it.
 
         Delete the file if the server tells none.
@@ -171,7 +170,7 @@ class _Download:
         else:
             os.utime(self.part, (date, date))
 
-    def _size(self) -> int:
+    def _measure_part(self) -> int:
         return self.part.stat().st_size if self.part.is_file() else 0
 
 

@@ -330,16 +330,11 @@ def compare(
         else numbers.setdefault(format_text(row), len(numbers))
         for row in truth.activities
     ]
+    rows = found.activities
     # Activities in no cluster get numbers above all clusters.
-    first_free = 1 + max(found.activities.cluster.tolist(), default=0)
-    row_clusters = [
-        UNLABELLED
-        if row.kind == "transition"
-        else row.cluster
-        if row.cluster >= 0
-        else first_free + i
-        for i, row in enumerate(found.activities)
-    ]
+    unique = 1 + rows.cluster.max() + np.arange(len(rows))
+    row_clusters = np.where(rows.cluster >= 0, rows.cluster, unique)
+    row_clusters[rows.kind == "transition"] = UNLABELLED
     labels, clusters = _expand_to_frames(truth, row_classes), _expand_to_frames(found, row_clusters)
     counted = labels != UNLABELLED
     if not counted.any():
@@ -407,7 +402,7 @@ def find_runs(labels: ArrayLike) -> list[Run]:
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
 
 
-def _expand_to_frames(segmentation: Segmentation, values: Sequence[int]) -> Ints:
+def _expand_to_frames(segmentation: Segmentation, values: ArrayLike) -> Ints:
     """Repeat one value per activity for each of its frames."""
     rows = segmentation.activities
     return np.repeat(np.asarray(values, np.int64), rows.stop_frame - rows.start_frame)

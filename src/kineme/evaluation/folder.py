@@ -14,10 +14,12 @@ from __future__ import annotations
 import json
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, as_completed
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
+from itertools import chain
 from pathlib import Path
 from typing import Any, Literal
 
@@ -170,6 +172,7 @@ def evaluate_folder(
     True
     """
     options, others = read_options or ReadOptions(), dict(constants or {})
+    tell = progress or (lambda _: None)
     for name in methods:
         check_method(name)
     # One job for each recording and method; results arrive in any order.
@@ -189,14 +192,12 @@ def evaluate_folder(
     job_results: dict[Job, JobResult] = {}
     for done, (job, result) in enumerate(run_jobs(jobs, processes), 1):
         job_results[job] = result
-        if progress is not None:
-            progress(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
+        tell(f"{done} of {len(jobs)}, {job.path.stem} {job.method}")
     results: dict[str, list[RecordingScores]] = {}
     for name in methods:
         own_results = [(job, job_results[job]) for job in jobs if job.method == name]
-        if progress is not None and mapping == "folder":
-            progress(f"joining the clusters of all recordings, {name}")
         if mapping == "folder":
+            tell(f"joining the clusters of all recordings, {name}")
             compared = join_comparisons(own_results, n_clusters)
         else:
             compared = [result.compared for _, result in own_results]
@@ -229,23 +230,18 @@ def _join_clusters(
     job_results: Sequence[tuple[Job, JobResult]], n_clusters: int | None
 ) -> dict[int, tuple[ComparedSides, Segmentation]]:
     """Return the results with shared clusters, by index of the job."""
+    results = enumerate(result for _, result in job_results)
+    sides = {i: result.sides for i, result in results if result.sides is not None}
     # Group recordings whose clusters can be shared: bodies under (), signals by channels.
-    kinds: dict[tuple[str, ...], list[int]] = {}
-    for i, (_, result) in enumerate(job_results):
-        if result.sides is not None:
-            samples = result.sides.samples
-            kinds.setdefault(samples.names if samples else (), []).append(i)
-    found: dict[int, tuple[ComparedSides, Segmentation]] = {}
-    next_cluster = 0
-    for rows in kinds.values():
-        jobs = [job_results[i][0] for i in rows]
-        sides = [s for i in rows if (s := job_results[i][1].sides) is not None]
-        shared = _share_clusters(jobs, sides, n_clusters)
-        for i, side, one in zip(rows, sides, shared, strict=True):
-            # Clusters of different groups must have different numbers.
-            found[i] = side, _renumber(one, next_cluster)
-        next_cluster += 1 + max(int(one.table.cluster.max()) for one in shared)
-    return dict(sorted(found.items()))
+    kinds: defaultdict[tuple[str, ...], list[int]] = defaultdict(list)
+    for i, one in sides.items():
+        kinds[one.samples.names if one.samples else ()].append(i)
+    groups = [
+        _share_clusters([job_results[i][0] for i in rows], [sides[i] for i in rows], n_clusters)
+        for rows in kinds.values()
+    ]
+    found = dict(zip(chain(*kinds.values()), _number_apart(groups), strict=True))
+    return {i: (one, found[i]) for i, one in sides.items()}
 
 
 def _share_clusters(
@@ -261,16 +257,18 @@ def _share_clusters(
     try:
         return share_clusters(motions, segmentations)
     except MotionError:  # without bodies, movements cannot be compared: share no cluster
-        separate, next_cluster = [], 0
-        for found in segmentations:
-            separate.append(_renumber(found, next_cluster))
-            next_cluster += 1 + int(found.table.cluster.max())
-        return separate
+        return _number_apart([[found] for found in segmentations])
 
 
-def _renumber(found: Segmentation, first: int) -> Segmentation:
-    """Renumber clusters from ``first`` on."""
-    return renumber_clusters(found, {c: c + first for c in found.table.cluster.tolist() if c >= 0})
+def _number_apart(groups: Iterable[Sequence[Segmentation]]) -> list[Segmentation]:
+    """Renumber clusters so that segmentations of different groups have none in common."""
+    separate, first = [], 0
+    for group in groups:
+        for found in group:
+            clusters = found.table.cluster.tolist()
+            separate.append(renumber_clusters(found, {c: c + first for c in clusters if c >= 0}))
+        first += 1 + max(int(found.table.cluster.max()) for found in group)
+    return separate
 
 
 def read_selected(

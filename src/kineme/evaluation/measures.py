@@ -234,14 +234,18 @@ def _count_hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
     labels, starts, stops = np.array(true).T
     hits: set[int] = set()
     for label, start, stop in found:
-        # Negative for disjoint segments, which are never chosen; then the union is wrong.
-        shared = np.minimum(stops, stop) - np.maximum(starts, start)
-        union = np.maximum(stops, stop) - np.minimum(starts, start)
-        overlap = np.where(labels == label, shared / union, -1.0)
+        overlap = np.where(labels == label, _measure_overlaps(start, stop, starts, stops), 0.0)
         best = int(np.argmax(overlap))
         if overlap[best] > 0 and overlap[best] >= least:
             hits.add(best)  # a set: each true segment counts once
     return len(hits)
+
+
+def _measure_overlaps(start: int, stop: int, starts: Ints, stops: Ints) -> Floats:
+    """Return the intersection over union of a span and each of others; 0 for disjoint ones."""
+    shared = np.minimum(stops, stop) - np.maximum(starts, start)
+    union = np.maximum(stops, stop) - np.minimum(starts, start)
+    return np.asarray(np.maximum(shared, 0) / union)
 
 
 class BorderScore(NamedTuple):
@@ -349,12 +353,10 @@ def covering(compared: Comparison) -> float:
     0.5
     """
     actions, found = compared.spans.actions.at_means(), compared.spans.activities.merged()
-    best = []
-    for start, stop in zip(actions.starts, actions.stops, strict=True):
-        # Negative for disjoint intervals, which count as 0 below.
-        shared = np.minimum(stop, found.stops) - np.maximum(start, found.starts)
-        union = np.maximum(stop, found.stops) - np.minimum(start, found.starts)
-        best.append((np.maximum(shared, 0) / union).max())
+    best = [
+        _measure_overlaps(start, stop, found.starts, found.stops).max()
+        for start, stop in zip(actions.starts, actions.stops, strict=True)
+    ]
     return float(np.average(best, weights=np.diff(actions.borders)))
 
 

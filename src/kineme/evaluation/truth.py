@@ -23,8 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Ints
 from kineme._util.checks import as_texts
 from kineme.errors import ParameterError
+from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import COLUMNS, Segment, SegmentTable, choose_kind
+from kineme.segments.table import Segment, SegmentTable, choose_kind
 
 Texts = NDArray[np.object_]
 Count = int | None
@@ -72,9 +73,9 @@ class Labelling:
         object.__setattr__(self, "labels", tuple(map(str, self.labels)))
         if self.borders.size < 2 or self.borders[0] != 0:
             raise ParameterError("labels must start at frame 0 and have at least one interval")
-        falls = np.flatnonzero(np.diff(self.borders) <= 0)
-        if falls.size:
-            before, after = self.borders[falls[0] : falls[0] + 2]
+        # Report the first fault, if any.
+        for i in np.flatnonzero(np.diff(self.borders) <= 0)[:1]:
+            before, after = self.borders[i : i + 2]
             raise ParameterError(f"borders must increase: {after} follows {before}")
         if len(self.labels) != self.borders.size - 1:
             raise ParameterError(
@@ -238,26 +239,21 @@ class Truth:
                     f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
                     f"them, not {frames.size} ({name})"
                 )
-        # The mean must lie within the span.
-        backwards = np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))
-        if backwards.size:
-            i = backwards[0]
+        # Report the first border whose mean is outside the span.
+        for i in np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))[:1]:
             raise ParameterError(
                 f"the border after action {i + 1} ({self.labels[i]}) is not in order: "
                 f"earliest {self.earliest[i]}, mean {self.mean[i]}, latest {self.latest[i]}"
             )
-        # Certain part of each action: from its latest start to its earliest end.
-        begins = np.concatenate([[0], self.latest])
-        ends = np.concatenate([self.earliest, [self.frames]])
-        if self.latest.size and self.latest.max() >= self.frames:
-            i = int(np.argmax(self.latest >= self.frames))
+        for i in np.flatnonzero(self.latest >= self.frames)[:1]:
             raise ParameterError(
                 f"the border after action {i + 1} ({self.labels[i]}) at frame {self.latest[i]} "
                 f"is not before the end of the recording, frame {self.frames}"
             )
-        overlap = np.flatnonzero(ends <= begins)
-        if overlap.size:
-            i = overlap[0]
+        # Certain part of each action: from its latest start to its earliest end.
+        begins = np.concatenate([[0], self.latest])
+        ends = np.concatenate([self.earliest, [self.frames]])
+        for i in np.flatnonzero(ends <= begins)[:1]:
             raise ParameterError(
                 f"action {i + 1} ({self.labels[i]}) would last from frame {begins[i]} to "
                 f"{ends[i]}: its borders overlap"
@@ -379,13 +375,8 @@ def add_repetitions(labels: Segmentation) -> Segmentation:
         if all(known_counts[row] is None for row in group) and numbers[i]:
             counts[i] = int(numbers[i])
     joined = [replace(rows[g[0]], stop_frame=rows[g[-1]].stop_frame) for g in groups]
-    names = [name for name in COLUMNS if name != "activity"]
-    return Segmentation.from_columns(
-        {name: [getattr(row, name) for row in (*joined, *primitives)] for name in names},
-        n_frames=labels.n_frames,
-        fps=labels.fps,
-        provenance={**labels.provenance, "labels": {**origin, "counts": counts}},
-    )
+    provenance = {**labels.provenance, "labels": {**origin, "counts": counts}}
+    return replace(replace_rows(labels, [*joined, *primitives]), provenance=provenance)
 
 
 def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:

@@ -236,9 +236,7 @@ def _parse_count(row: dict[str, str], path: Path, line: int) -> int | None:
     return int(text) if text else None
 
 
-def _list_columns(
-    rows: csv.DictReader[str], path: Path, *, commas: bool = False
-) -> dict[str, list[Any]]:
+def _list_columns(rows: csv.DictReader[str], path: Path, *, commas: bool) -> dict[str, list[Any]]:
     """Return the known columns of a table as lists."""
     names = rows.fieldnames or ()
     columns: dict[str, list[Any]] = {name: [] for name in (*COLUMNS, COMMENT) if name in names}

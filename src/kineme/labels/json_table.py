@@ -39,8 +39,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import msgspec
-import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.checks import require_extra
@@ -74,11 +72,11 @@ def dumps(segmentation: Segmentation) -> str:
     content = make_head(segmentation)
     levels = content.get("hierarchy", {}).pop("levels", [])
     # Levels and rows are inserted before the closing braces, one per line.
-    head = _indent(content).removesuffix("\n}")
+    head = json.dumps(content, indent=2).removesuffix("\n}")
     if levels:
         lines = ",\n".join(f"      {json.dumps(level)}" for level in levels)
         head = head.removesuffix("\n  }") + f',\n    "levels": [\n{lines}\n    ]\n  }}'
-    rows = ",\n".join(_format_lines(segmentation.table))
+    rows = ",\n".join(f"    {json.dumps(row)}" for row in _make_rows(segmentation.table))
     return f'{head},\n  "segments": [\n{rows}\n  ]\n}}\n'
 
 
@@ -204,35 +202,6 @@ def _make_rows(table: SegmentTable) -> Iterator[dict[str, Any]]:
     """Yield one object per row."""
     columns = [_list_values(column) for column in table.columns().values()]
     return (dict(zip(COLUMNS, cells, strict=True)) for cells in zip(*columns, strict=True))
-
-
-def _indent(content: dict[str, Any]) -> str:
-    """Return the output of `json.dumps` with an indent, but several times faster."""
-    try:
-        return msgspec.json.format(json.dumps(content), indent=2)
-    except msgspec.DecodeError:  # a lone surrogate in a file name
-        return json.dumps(content, indent=2)
-
-
-def _format_lines(table: SegmentTable) -> Iterator[str]:
-    """Return the lines of `json.dumps` for `_make_rows`, but built by columns for speed."""
-    columns = map(_as_text, table.columns().values())
-    line = "    {" + ", ".join(f'"{name}": %s' for name in COLUMNS) + "}"
-    return map(line.__mod__, zip(*columns, strict=True))
-
-
-def _as_text(column: NDArray[Any]) -> list[str]:
-    values: list[Any] = column.tolist()
-    if column.dtype.kind == "U":
-        # Labels repeat in many rows, so quote each only once.
-        quoted = {text: json.dumps(text) for text in {*values}}
-        return [quoted[text] for text in values]
-    texts = msgspec.json.encode(values)[1:-1].decode().split(",") if values else []
-    size = np.abs(column)
-    # msgspec is several times faster but formats exponents differently; rewrite these numbers.
-    for row in np.flatnonzero((size > 0) & (size < 1e-4) | (size >= 1e16)).tolist():
-        texts[row] = json.dumps(values[row])
-    return texts
 
 
 def _list_values(column: NDArray[Any]) -> list[Any]:

@@ -18,7 +18,7 @@ from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import read_edits
 from kineme.library.executors import Executor, Progress, connect, start_processes
-from kineme.library.gathering import gather
+from kineme.library.gathering import compile_tables, gather, list_activities
 from kineme.library.planning import (
     Entry,
     Plan,
@@ -32,6 +32,7 @@ from kineme.library.planning import (
 from kineme.library.storage.layout import (
     ANALYSES,
     HEAD,
+    KEY_LENGTH,
     LOCK_EDITS,
     MOST_CLUSTERS,
     SCHEMA,
@@ -45,7 +46,6 @@ from kineme.library.storage.layout import (
     write_json,
 )
 from kineme.library.storage.tables import (
-    KEY_LENGTH,
     has_analysis,
     is_analysis,
     is_table_file,
@@ -245,8 +245,6 @@ def _update_tables(
     if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         next_cluster, tables = head["following"], head["tables"]
     else:
-        from kineme.library.gathering import compile_tables, list_activities
-
         progress("clusters in common")
         next_cluster = max(head.get("following", 0), read_edits(plan.folder).next_cluster)
         former = list_activities(plan.folder, head.get("tables"))

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
+from kineme._util.json import convert_json
 from kineme.errors import ParameterError, ReadError
 from kineme.library.storage.layout import (
     EDITS,
@@ -26,14 +28,16 @@ from kineme.library.storage.layout import (
 )
 
 SCHEMA = "kineme.library.edits/1"
+Number = Annotated[int, msgspec.Meta(ge=-1, lt=MOST_CLUSTERS)]
+"""Number of a cluster; -1: no cluster."""
 
 
 @dataclass(frozen=True)
 class Split:
     """Move the segments of a cluster in some recordings to another cluster."""
 
-    cluster: int
-    into: int
+    cluster: Number
+    into: Number
     recordings: tuple[str, ...]
 
 
@@ -56,8 +60,8 @@ class Edits:
     (2, 'walk')
     """
 
-    names: Mapping[int, str] = field(default_factory=dict)
-    merged: Mapping[int, int] = field(default_factory=dict)
+    names: Mapping[Number, str] = field(default_factory=dict)
+    merged: Mapping[Number, Number] = field(default_factory=dict)
     splits: tuple[Split, ...] = ()
 
     @property
@@ -106,16 +110,8 @@ class Edits:
 
     def write(self, folder: Path) -> None:
         """Write the edits to the folder of a library."""
-        content = {
-            "schema": SCHEMA,
-            "names": {str(number): name for number, name in sorted(self.names.items())},
-            "merged": {str(old): new for old, new in sorted(self.merged.items())},
-            "splits": [
-                {"cluster": split.cluster, "into": split.into, "recordings": [*split.recordings]}
-                for split in self.splits
-            ],
-        }
-        write_json(folder / EDITS, content)
+        content = msgspec.to_builtins(self, str_keys=True)
+        write_json(folder / EDITS, {"schema": SCHEMA, **content})
 
 
 def read_edits(folder: Path) -> Edits:
@@ -127,30 +123,9 @@ def read_edits(folder: Path) -> Edits:
     if content.get("schema") != SCHEMA:
         raise ReadError(path, f"has schema {content.get('schema')!r:.40}, not {SCHEMA}")
     try:
-        return Edits(
-            names={_parse_cluster(number): str(name) for number, name in content["names"].items()},
-            merged={
-                _parse_cluster(old): _parse_cluster(new) for old, new in content["merged"].items()
-            },
-            splits=tuple(
-                Split(
-                    _parse_cluster(one["cluster"]),
-                    _parse_cluster(one["into"]),
-                    tuple(map(str, one["recordings"])),
-                )
-                for one in content["splits"]
-            ),
-        )
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
+        return convert_json(content, Edits)
+    except ValueError as error:
         raise ReadError(path, "is damaged: its names, merges or splits are not valid") from error
-
-
-def _parse_cluster(written: Any) -> int:
-    """Return a cluster number from JSON; raise ValueError if it is out of range."""
-    number = int(written)
-    if not -1 <= number < MOST_CLUSTERS:
-        raise ValueError(f"there is no cluster {number}")
-    return number
 
 
 def apply_edits(table: Any, edits: Edits) -> Any:
@@ -166,14 +141,12 @@ def apply_edits(table: Any, edits: Edits) -> Any:
         table = table.set_column(table.column_names.index(name), name, as_column(clusters, int))
         if label is not None:
             column = _list_names(clusters, edits)
-            at = table.column_names.index(name)
-            table = (
-                table.set_column(table.column_names.index(label), label, column)
-                if label in table.column_names
-                else table.append_column(label, column)
-                if label == "action_label"
-                else table.add_column(at + 1, label, column)
-            )
+            if label in table.column_names:
+                table = table.set_column(table.column_names.index(label), label, column)
+            elif label == "action_label":
+                table = table.append_column(label, column)
+            else:
+                table = table.add_column(table.column_names.index(name) + 1, label, column)
     return table
 
 

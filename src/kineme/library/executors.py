@@ -1,7 +1,7 @@
 """Run tasks in this process, in several processes or on a cluster, and report progress.
 
 An executor calls a function with each task and yields results as they complete. `InProcess` uses
-this process, `Processes` several on this machine, `Cluster` the workers of a `dask.distributed`
+this process, `Processes` several on this machine, `DaskCluster` the workers of a `dask.distributed`
 scheduler. Other executors implement `Executor`.
 """
 
@@ -56,8 +56,7 @@ class Executor(Protocol):
 
         The result is None for a task whose process died; other tasks are not affected. An exception
         in ``work``, a module-level function, ends all; closing the iterator cancels the rest.
-        ``workers`` limits the processes to start for these tasks, unlimited by default; with 0
-        only existing processes are used.
+        ``workers`` limits the processes to start for these tasks, unlimited by default.
         """
         ...
 
@@ -88,7 +87,7 @@ class Processes:
 
         A single task runs in this process unless other processes exist already.
         """
-        if not (self._pool or _STARTED.is_set()) and (workers == 0 or len(tasks) == 1):
+        if len(tasks) == 1 and not (self._pool or _STARTED.is_set()):
             yield from InProcess().completed(work, tasks)
             return
         waiting = list(reversed(tasks))
@@ -155,7 +154,7 @@ def start_fork_server() -> None:
         _STARTED.set()
 
 
-class Cluster:
+class DaskCluster:
     """Run tasks on the workers of a `dask.distributed.Client`.
 
     Workers need the recordings and the library under the same paths as the client. A worker runs
@@ -206,14 +205,14 @@ def connect(client: Any) -> Iterator[Executor]:
     An executor is passed through.
     """
     if not isinstance(client, str):
-        yield client if isinstance(client, Executor) else Cluster(client)
+        yield client if isinstance(client, Executor) else DaskCluster(client)
         return
     try:
         connection = _import_distributed().Client(client, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ParameterError(f"no scheduler responds at {client:.60}: {error!s:.100}") from error
     with connection:
-        yield Cluster(connection)
+        yield DaskCluster(connection)
 
 
 def _import_distributed() -> Any:

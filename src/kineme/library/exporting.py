@@ -34,7 +34,7 @@ from kineme.library.storage.tables import DESCRIBED
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
 from kineme.recordings.operations import cut
-from kineme.segments.table import COLUMNS, Segment
+from kineme.segments.table import COLUMNS, Segment, SegmentTable
 
 if TYPE_CHECKING:
     from kineme.plot.strips import Strip
@@ -369,16 +369,14 @@ def _read_bodies(tables: OpenTables) -> Iterator[tuple[Motion, list[Segment]]]:
     """Yield recordings of bodies with their edited segments; warn if a file cannot be read."""
     recordings, segments = tables.recordings, tables.columns("segments")
     for name, kind in zip(recordings["recording"], recordings["vocabulary"], strict=True):
-        if kind != BODIES or name not in tables.rows:
+        if kind != BODIES:
             continue
         try:
             motion = tables.read(name)
         except KinemeError as error:  # missing file: go on with the others
             warn(f"{name} left out: {error}")
             continue
-        first, stop = tables.rows[name]
-        columns = [segments[column][first:stop].tolist() for column in COLUMNS]
-        rows = [Segment(**dict(zip(COLUMNS, values, strict=True))) for values in
-                zip(*columns, strict=True)]  # fmt: skip
+        own = tables.rows[name]
+        rows = [*SegmentTable(**{column: segments[column][own] for column in COLUMNS})]
         if isinstance(motion, Motion) and rows[-1].stop_frame <= motion.n_frames:
             yield motion, rows

@@ -31,7 +31,7 @@ from kineme.library.executors import Executor
 from kineme.library.open_library import OpenTables, find_cluster_numbers
 from kineme.library.planning import read_recording
 from kineme.library.storage.layout import ANALYSES, BODIES, make_path
-from kineme.library.storage.tables import Windows, open_index, read_features, read_parts
+from kineme.library.storage.tables import Windows, open_index, read_features, read_spans
 from kineme.library.windows import FINER, choose_length, compute_step, describe_at_speeds
 from kineme.recordings import Motion, Signals
 from kineme.recordings.arrays import to_samples
@@ -148,23 +148,19 @@ def find_hits(
     executor: Executor | None = None,
 ) -> list[Hit]:
     """Return the spans similar to any example, the nearest first."""
-    for name, value in (("top", top), ("max_per_recording", max_per_recording)):
-        if value is not None and not (is_number(value) and value >= 1):
-            raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
+    top = _as_limit(top, "top")
+    max_per_recording = _as_limit(max_per_recording, "max_per_recording")
     if not (is_number(threshold) and threshold > 0):
         raise ParameterError(f"the threshold must be a number above 0, not {threshold!r:.60}")
     threshold = min(float(threshold), LARGEST)  # no distance is larger
-    top = None if top is None else int(min(top, MOST_HITS))
-    if max_per_recording is not None:
-        max_per_recording = int(min(max_per_recording, MOST_HITS))
     described = describe_examples(tables, examples)
-    if mirror and check_one_vocabulary(described) == BODIES:
-        described += [(BODIES, mirror_features(part)) for _, part in described]
     vocabulary = check_one_vocabulary(described)
+    features = [part for _, part in described]
+    if mirror and vocabulary == BODIES:
+        features += [mirror_features(part) for part in features]
     counter_features = [
         part for kind, part in describe_examples(tables, counterexamples) if kind == vocabulary
     ]
-    features = [part for _, part in described]
     query = Query(features, counter_features, threshold, None if max_per_recording else top)
     parts = _list_parts(tables, vocabulary)
     if top is not None and vocabulary == BODIES:
@@ -180,6 +176,15 @@ def find_hits(
         )
     ]
     return [_make_hit(tables, *span) for span in sorted(spans)[:top]]
+
+
+def _as_limit(value: int | None, name: str) -> int | None:
+    """Return a largest number of hits, None for all; raise ParameterError if it is invalid."""
+    if value is None:
+        return None
+    if not (is_number(value) and value >= 1):
+        raise ParameterError(f"{name} must be a whole number above 0, not {value!r:.60}")
+    return int(min(value, MOST_HITS))
 
 
 def select_tagged(tables: OpenTables, hits: Sequence[Hit], tag: Tag, top: int | None) -> list[Hit]:
@@ -432,8 +437,9 @@ def search_parts(task: Task) -> dict[int, Matches]:
     features = np.full((firsts[-1], query.examples[0].shape[1]), BETWEEN_PARTS, np.float32)
     for row, key in sorted(task.analyses.items()):
         at = np.flatnonzero(parts.rows == row)
-        spans = zip(firsts[at].tolist(), (firsts[at] + lengths[at]).tolist(), strict=True)
-        read_parts(task.folder, key, parts.starts[at].tolist(), [features[a:b] for a, b in spans])
+        spans = zip(parts.starts[at].tolist(), parts.stops[at].tolist(), strict=True)
+        for first, part in zip(firsts[at], read_spans(task.folder, key, spans), strict=True):
+            features[first : first + len(part)] = part
     matches = find_matches(
         features, query.examples, query.counterexamples, threshold=query.threshold, top=query.top
     )
@@ -504,11 +510,7 @@ def _make_hit(tables: OpenTables, distance: float, row: int, start: int, stop: i
     fps, duration_s = (tables.recordings[name][row] for name in ("features_fps", "duration_s"))
     start_s, stop_s = start / fps, min(stop / fps, duration_s)
     segments = tables.columns("segments")
-    rows = slice(*tables.rows.get(recording, (0, 0)))
-    if rows.stop == rows.start:
-        return Hit(
-            recording, start_s, stop_s=stop_s, distance=round(distance, 4), cluster=-1, label=""
-        )
+    rows = tables.rows[recording]
     # Overlap of each segment with the span, rounded so that ties are exact.
     shared = np.minimum(segments["stop_s"][rows], stop_s)
     shared = np.round(shared - np.maximum(segments["start_s"][rows], start_s), 6)
@@ -516,6 +518,4 @@ def _make_hit(tables: OpenTables, distance: float, row: int, start: int, stop: i
     covers = int(np.lexsort((segments["level"][rows] == "primitive", shared))[-1])
     cluster = int(segments["cluster"][rows][covers])
     label = tables.edits.name(cluster) if cluster >= 0 else ""
-    return Hit(
-        recording, start_s, stop_s=stop_s, distance=round(distance, 4), cluster=cluster, label=label
-    )
+    return Hit(recording, start_s, stop_s, round(distance, 4), cluster, label)

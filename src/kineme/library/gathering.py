@@ -17,7 +17,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from hashlib import sha256
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,14 +29,13 @@ from kineme._util.checks import is_text
 from kineme._util.files import AnyPath, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, ReadError, WriteError
-from kineme.formats import ReadOptions, read_quietly
+from kineme.formats import read_quietly
 from kineme.library.executors import Executor, Progress, track_progress
 from kineme.library.planning import (
     Entry,
     Plan,
     compute_digest,
     fetch,
-    make_analysis_key,
     measure_size,
     read_states,
 )
@@ -55,6 +53,7 @@ from kineme.library.storage.layout import (
 )
 from kineme.library.storage.tables import (
     Analysis,
+    find_rows,
     has_analysis,
     make_table,
     read_analysis,
@@ -63,7 +62,6 @@ from kineme.library.storage.tables import (
     read_table,
     write_analysis,
 )
-from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings.arrays import to_samples
 from kineme.segments.table import COLUMNS
 from kineme.transfer.clusters import (
@@ -132,13 +130,10 @@ def gather(plan: Plan, found: Sequence[Path], executor: Executor, progress: Prog
 
 @dataclass(frozen=True)
 class Task:
-    """A recording of ``size`` bytes to analyse; ``analyses`` is the folder for the result."""
+    """A recording of ``size`` bytes to analyse."""
 
     path: Path
-    analyses: Path
-    read_options: ReadOptions
-    segment_options: SegmentOptions
-    options_digest: str
+    plan: Plan
     size: int
 
     def __hash__(self) -> int:
@@ -202,8 +197,8 @@ def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) ->
 
 def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
     """Return tasks for recordings, the largest first, so that processes finish together."""
-    common = plan.analyses, plan.read_options, plan.segment_options, plan.options_digest
-    tasks = [Task(path, *common, measure_size(path)) for path in paths]
+    _ = plan.options_digest  # cached in the plan before it is sent to other processes
+    tasks = [Task(path, plan, measure_size(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 
@@ -268,14 +263,14 @@ def analyze_recording(task: Task) -> Outcome:
 
         with warnings.catch_warnings(), threadpool_limits(1):  # rounding depends on BLAS threads
             warnings.simplefilter("ignore", KinemeWarning)
-            options = task.read_options
+            plan, options = task.plan, task.plan.read_options
             with fetch(task.path, options.skeleton) as path:
                 digest = compute_digest(path, options.skeleton)
-                key = make_analysis_key(task.options_digest, digest)
-                if has_analysis(task.analyses, key):
+                key = plan.key(digest)
+                if has_analysis(plan.analyses, key):
                     return Outcome(digest)
                 recording = read_quietly(path, options)
-            write_analysis(task.analyses, key, *make_analysis(recording, task.segment_options))
+            write_analysis(plan.analyses, key, *make_analysis(recording, plan.segment_options))
     except Exception as error:  # noqa: BLE001 (one recording must not end a build)
         reason = " ".join(str(error).split())
         if not isinstance(error, KinemeError):
@@ -323,15 +318,12 @@ def list_activities(folder: Path, tables: str | None) -> dict[str, Spans]:
     if tables is None:
         return {}
     table = read_table(folder, tables, "segments")
-    names = ("recording", "level", "kind", "start_s", "stop_s", "cluster")
+    names = ("level", "kind", "start_s", "stop_s", "cluster")
     columns = {name: as_array(table.column(name)) for name in names}
-    # Rows are grouped by recording, so first occurrences are the borders.
-    first = np.unique(columns["recording"], return_index=True)[1]
-    edges = [*np.sort(first).tolist(), len(table)]
     found = {}
-    for start, stop in pairwise(edges):
-        rows = {name: column[start:stop] for name, column in columns.items()}
-        found[str(rows["recording"][0])] = list_spans(rows, rows["cluster"])
+    for recording, rows in find_rows(table).items():
+        own = {name: column[rows] for name, column in columns.items()}
+        found[recording] = list_spans(own, own["cluster"])
     return found
 
 
@@ -374,7 +366,7 @@ def _make_cluster_set(
         facts = analyses[each.recording].facts
         size = facts["features_fps"], facts["samples"]
         spans = to_samples(each.example, *size), to_samples(each.context, *size)
-        return read_spans(folder, keys[each.recording], spans)
+        return [*read_spans(folder, keys[each.recording], spans)]
 
     embeddings = np.array([analyses[each.recording].embeddings[each.row] for each in local])
     return ClusterSet(local, embeddings, load)

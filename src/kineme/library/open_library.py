@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -25,7 +24,7 @@ from kineme.library.storage.layout import (
     make_path,
     read_head,
 )
-from kineme.library.storage.tables import DESCRIBED, read_table
+from kineme.library.storage.tables import DESCRIBED, find_rows, read_table
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 
@@ -89,14 +88,9 @@ class OpenTables:
         return arrays[name]
 
     @cached_property
-    def rows(self) -> dict[str, tuple[int, int]]:
-        """Return the first row and the end of each recording's segments."""
-        names = self.table("segments").column("recording").combine_chunks().dictionary_encode()
-        # Rows are grouped by recording: borders are where the dictionary code changes.
-        codes = np.from_dlpack(names.indices)
-        edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
-        called = names.dictionary.to_pylist()
-        return {called[codes[a]]: (a, b) for a, b in pairwise(edges)}
+    def rows(self) -> dict[str, slice]:
+        """Return the rows of each recording's segments."""
+        return find_rows(self.table("segments"))
 
     @contextmanager
     def editing(self) -> Iterator[None]:

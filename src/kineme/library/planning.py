@@ -25,6 +25,7 @@ from kineme.formats.skeletons.amc import find_skeleton
 from kineme.library.storage.layout import (
     ANALYSES,
     HEAD,
+    KEY_LENGTH,
     TABLES,
     is_inside,
     is_remote,
@@ -83,7 +84,7 @@ class Plan:
 
     def key(self, digest: str) -> str:
         """Return the name of the analysis of a recording whose files have this digest."""
-        return make_analysis_key(self.options_digest, digest)
+        return sha256(f"{self.options_digest} {digest}".encode()).hexdigest()[:KEY_LENGTH]
 
 
 def make_plan(
@@ -122,11 +123,6 @@ def read_kept_options(folder: Path, head: Mapping[str, Any]) -> tuple[ReadOption
         reason = f"is damaged, build the library again: {error}"
         raise ReadError(folder / HEAD, reason) from error
     return read_options, segment_options
-
-
-def make_analysis_key(options_digest: str, digest: str) -> str:
-    """Return the name of the analysis of a recording whose files have this digest."""
-    return sha256(f"{options_digest} {digest}".encode()).hexdigest()[:32]
 
 
 def list_sources(

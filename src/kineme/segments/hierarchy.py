@@ -82,14 +82,10 @@ class Hierarchy:
             if not _have_same_spans(tables[detail], tables[kept_details[-1]]):
                 kept_details.append(detail)
         for detail in sorted((each for each in tables if each < DEFAULT_DETAIL), reverse=True):
-            # Of two equal neighbours the coarser is kept, except if the finer is detail 1.
-            if (
-                _have_same_spans(tables[detail], tables[kept_details[0]])
-                and kept_details[0] < DEFAULT_DETAIL
-            ):
-                kept_details[0] = detail
-            elif not _have_same_spans(tables[detail], tables[kept_details[0]]):
+            if not _have_same_spans(tables[detail], tables[kept_details[0]]):
                 kept_details.insert(0, detail)
+            elif kept_details[0] < DEFAULT_DETAIL:  # keep the coarsest of equal ones, and 1
+                kept_details[0] = detail
         return cls(tuple(kept_details), tuple(tables[detail] for detail in kept_details))
 
     @property

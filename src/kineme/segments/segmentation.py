@@ -107,19 +107,18 @@ def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
         raise ParameterError("column 'activity' of the activity level must count 0, 1, 2, ...")
     # Activity of each primitive: the last one that begins at or before it.
     enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
-    outside = primitives.stop_frame > activities.stop_frame[enclosing]
-    if outside.any():
-        row = primitives[int(np.argmax(outside))]
+    stops = activities.stop_frame[enclosing]
+    for i in np.flatnonzero(primitives.stop_frame > stops)[:1].tolist():
+        row = primitives[i]
         raise ParameterError(
             f"the primitive of frames {row.start_frame} to {row.stop_frame} crosses the border "
-            f"of an activity at {activities.stop_frame[enclosing[np.argmax(outside)]]}"
+            f"of an activity at {stops[i]}"
         )
-    wrong = primitives.activity != enclosing
-    if wrong.any():
-        row = primitives[int(np.argmax(wrong))]
+    for i in np.flatnonzero(primitives.activity != enclosing)[:1].tolist():
+        row = primitives[i]
         raise ParameterError(
             f"the primitive at frame {row.start_frame} names activity {row.activity}, "
-            f"but lies in activity {enclosing[np.argmax(wrong)]}"
+            f"but lies in activity {enclosing[i]}"
         )
 
 

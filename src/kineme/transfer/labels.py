@@ -358,7 +358,7 @@ def segment_by_matches(segmentation: Segmentation, matches: list[LabelMatch]) ->
         for level, spans in levels
         for start, stop, label in _fill_between(spans, segmentation.n_frames)
     ]
-    return replace_rows(segmentation, rows, [])
+    return replace_rows(segmentation, rows)
 
 
 def _fill_between(rows: list[Row], n_frames: int) -> list[Row]:

@@ -38,6 +38,8 @@ SCHEMA = "kineme.library/5"
 HEAD, EDITS, STATES = "library.json", "edits.json", "seen.json"
 LOCK, LOCK_EDITS = ".lock", ".edits.lock"
 TABLES, ANALYSES = "tables", "pieces"
+KEY_LENGTH = 32
+"""Length of the key of an analysis; see `kineme.library.planning.Plan.key`."""
 EMBEDDED = 32
 """Length of an embedding."""
 BODIES = "bodies"

@@ -20,11 +20,12 @@ import json
 import re
 import secrets
 import shutil
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from hashlib import sha256
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import IO, Any, NamedTuple
@@ -40,6 +41,7 @@ from kineme.library.storage.layout import (
     ANALYSES,
     BODIES,
     EMBEDDED,
+    KEY_LENGTH,
     TABLES,
     as_array,
     as_column,
@@ -108,8 +110,6 @@ ADDED = ("label", "action_label")
 """Columns that `apply_edits` adds if a table lacks them."""
 METADATA = b"kineme.library"
 FEATURES, WINDOWS, SAMPLES = ".npy", ".windows.npy", ".moments.npy"
-KEY_LENGTH = 32
-"""Length of the key of an analysis; see `kineme.library.planning.make_analysis_key`."""
 _FILE = re.compile(rf"[0-9a-f]{{{KEY_LENGTH}}}(\.parquet|(\.windows|\.moments)?\.npy)")
 LARGEST_SUM = 1e30
 """Largest sum of squares of a recording's features for which no distance overflows."""
@@ -187,11 +187,9 @@ def _upload_tables(home: Path, tables: Mapping[str, Any]) -> str:
 
 def read_table(folder: Path, folder_name: str, name: str) -> Any:
     """Read a table from the folder of tables ``named``, as a pyarrow.Table."""
-    pa, parquet = import_arrow()
     path = folder / TABLES / folder_name / f"{name}.parquet"
     with translate_read_errors(path):
-        content = pa.BufferReader(path.read_bytes())
-        table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
+        table = _read_parquet(path)
         table.validate(full=True)
     for column, declared in DESCRIBED[name].items():
         times = table.column_names.count(column)
@@ -201,6 +199,22 @@ def read_table(folder: Path, folder_name: str, name: str) -> Any:
         if times and not _is_valid(table.column(column), declared.type):
             raise ReadError(path, f"is damaged in {column!r}; build the library again")
     return table
+
+
+def _read_parquet(path: Path) -> Any:
+    pa, parquet = import_arrow()
+    content = pa.BufferReader(path.read_bytes())
+    return parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
+
+
+def find_rows(table: Any) -> dict[str, slice]:
+    """Return the rows of each recording in a table of segments, which are grouped by recording."""
+    names = table.column("recording").combine_chunks().dictionary_encode()
+    # Borders are where the dictionary code changes.
+    codes = np.from_dlpack(names.indices)
+    edges = [*np.flatnonzero(np.diff(codes, prepend=-1)).tolist(), len(codes)]
+    recordings = names.dictionary.to_pylist()
+    return {recordings[codes[a]]: slice(a, b) for a, b in pairwise(edges)}
 
 
 def _is_valid(column: Any, kind: type) -> bool:
@@ -274,11 +288,9 @@ def has_analysis(folder: Path, key: str) -> bool:
 
 def read_analysis(folder: Path, key: str) -> Analysis:
     """Read the analysis with this key."""
-    pa, parquet = import_arrow()
     path = folder / f"{key}.parquet"
     with translate_read_errors(path):
-        content = pa.BufferReader(path.read_bytes())
-        table = parquet.ParquetFile(content).read(use_threads=False)  # see `import_arrow`
+        table = _read_parquet(path)
         facts = decode_json(table.schema.metadata[METADATA], path, dict[str, Any])
         columns = {name: _read_column(table, name) for name in COLUMNS}
         flat: NDArray[Any] = np.from_dlpack(table.column("embedding").combine_chunks().flatten())
@@ -297,22 +309,20 @@ def read_windows(folder: Path, key: str) -> NDArray[np.int8]:
     return windows
 
 
-def read_parts(
-    folder: Path, key: str, starts: Iterable[int], into: Iterable[NDArray[np.float32]]
-) -> None:
-    """Read features of an analysis into arrays (samples, dims), each from a first sample on."""
-    with _open_features(folder, key) as (file, start, _):
-        _read_rows(file, start, starts, into)
-
-
 def read_spans(
-    folder: Path, key: str, spans: Sequence[tuple[int, int]]
-) -> list[NDArray[np.float32]]:
-    """Read the features of an analysis in several spans of samples."""
-    with _open_features(folder, key) as (file, start, dims):
-        parts = [np.empty((stop - first, dims), np.float32) for first, stop in spans]
-        _read_rows(file, start, [first for first, _ in spans], parts)
-    return parts
+    folder: Path, key: str, spans: Iterable[tuple[int, int]]
+) -> Iterator[NDArray[np.float32]]:
+    """Yield the features of an analysis in each of several spans of samples."""
+    path = folder / f"{key}{FEATURES}"
+    with _open_array(path), copy_nearby(path).open("rb", buffering=0) as file:
+        offset, dims = _read_header(file)
+        for first, stop in spans:
+            part = np.empty((stop - first, dims), np.float32)
+            file.seek(offset + part.itemsize * dims * first)
+            if file.readinto(part.data) != part.nbytes:
+                raise ValueError("shorter than was written")
+            _check_plausible(part)
+            yield part
 
 
 def read_channel_samples(folder: Path, key: str, step: int = 1) -> NDArray[np.float32]:
@@ -339,17 +349,6 @@ def _read_header(file: IO[bytes]) -> tuple[int, int]:
     return 10 + length, int(header[1])
 
 
-def _read_rows(
-    file: IO[bytes], start: int, firsts: Iterable[int], parts: Iterable[NDArray[np.float32]]
-) -> None:
-    """Read rows of an npy file into ``parts``, each from a first row on."""
-    for first, part in zip(firsts, parts, strict=True):
-        file.seek(start + part.itemsize * part.shape[1] * first)
-        if file.readinto(part) != part.nbytes:  # type: ignore[attr-defined]
-            raise ValueError("shorter than was written")
-        _check_plausible(part)
-
-
 def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
     with _open_array(path):
         rows: NDArray[Any] = np.load(copy_nearby(path), allow_pickle=False)
@@ -364,14 +363,6 @@ def _check_plausible(features: NDArray[np.float32]) -> None:
     squares = float(np.vdot(features, features))  # not finite if any value is not
     if not squares < LARGEST_SUM:
         raise ValueError("features that no recording has")
-
-
-@contextmanager
-def _open_features(folder: Path, key: str) -> Iterator[tuple[IO[bytes], int, int]]:
-    """Open the features of an analysis: the file, the byte at which rows begin, and dims."""
-    path = folder / f"{key}{FEATURES}"
-    with _open_array(path), copy_nearby(path).open("rb", buffering=0) as file:
-        yield file, *_read_header(file)
 
 
 @contextmanager

@@ -7,7 +7,7 @@ have thousands of rows, is not touched.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -70,7 +70,7 @@ def move_border(segmentation: Segmentation, level: Level, frame: int, to: int) -
         return part.insert(activities, move_border_rows(primitives, frame, to))
     moved = move_border_rows(activities, frame, to)
     if primitives:
-        primitives = reassign_primitives(primitives, activities, moved, (1, frame, to))
+        primitives = _reassign_primitives(primitives, activities, moved, frame, to)
     return part.insert(moved, primitives)
 
 
@@ -314,11 +314,8 @@ def join_rows(rows: Rows, first: int, last: int, like: int) -> Rows:
     return [*rows[:first], merged, *rows[last + 1 :]]
 
 
-def reassign_primitives(
-    primitives: Rows, before: Rows, after: Rows, move: tuple[int, int, int]
-) -> Rows:
-    """Update the primitives after a border of activities (number, from, to) has moved."""
-    number, frame, to = move
+def _reassign_primitives(primitives: Rows, before: Rows, after: Rows, frame: int, to: int) -> Rows:
+    """Update the primitives of two activities after the border between them has moved."""
     low, high = min(frame, to), max(frame, to)
     borders = list_cuts(primitives)
     # A border of activities must be one of primitives: move the nearest one that was passed.
@@ -328,7 +325,7 @@ def reassign_primitives(
             primitives, min(crossed, key=lambda border: abs(border - to)), to
         )
     # Indices of the activity that lost frames, and of the one that got them.
-    gave, took = (number - 1, number) if to < frame else (number, number - 1)
+    gave, took = (0, 1) if to < frame else (1, 0)
     # Primitives that lie completely in the moved span.
     inside = [i for i, row in enumerate(primitives) if low <= row.start_frame < high]
     inside = [i for i in inside if primitives[i].stop_frame <= high]
@@ -367,11 +364,8 @@ def count_frames(row: Segment) -> int:
     return row.stop_frame - row.start_frame
 
 
-def replace_rows(
-    segmentation: Segmentation, activities: Iterable[Segment], primitives: Iterable[Segment]
-) -> Segmentation:
+def replace_rows(segmentation: Segmentation, rows: Sequence[Segment]) -> Segmentation:
     """Replace all rows; seconds and parents are computed from their frames."""
-    rows = [*activities, *primitives]
     return replace_columns(
         segmentation, {name: [getattr(row, name) for row in rows] for name in COLUMNS}
     )

@@ -39,7 +39,12 @@ from kineme.segments.editing.borders import (
     renumber_clusters,
     replace_rows,
 )
-from kineme.segments.editing.clusters import cluster_names, name_cluster, set_cluster_names
+from kineme.segments.editing.clusters import (
+    cluster_names,
+    has_own_name,
+    name_cluster,
+    set_cluster_names,
+)
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment, SegmentTable
 
@@ -78,7 +83,7 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> CarryResult:
     fixed = [row for row in before if get_span(row) in set().union(*flags.values())]
     if not len(found.primitives):
         fixed = [row for row in fixed if row.level == "activity"]
-    singles = {get_span(row) for row in _find_own_names(before)}
+    singles = {get_span(row) for row in before.table[has_own_name(before)]}
     # Names of clusters are carried over separately, so rows keep only their own names.
     placed = [row if get_span(row) in singles else replace(row, label="") for row in fixed]
     now = _impose_segments(_renumber(before, found), placed)
@@ -95,13 +100,7 @@ def carry_corrections(before: Segmentation, found: Segmentation) -> CarryResult:
 
 def count_names(segmentation: Segmentation) -> int:
     """Return the number of names of clusters and of single segments."""
-    return len(cluster_names(segmentation)) + len(_find_own_names(segmentation))
-
-
-def _find_own_names(segmentation: Segmentation) -> Rows:
-    """Return the segments whose name differs from that of their cluster."""
-    names = cluster_names(segmentation)
-    return [row for row in segmentation if row.label not in ("", names.get(row.cluster, ""))]
+    return len(cluster_names(segmentation)) + int(has_own_name(segmentation).sum())
 
 
 def _renumber(before: Segmentation, found: Segmentation) -> Segmentation:
@@ -154,16 +153,15 @@ def _carry_names(now: Segmentation, before: Segmentation, corrections: int) -> C
     """
     lost, new_names = [], dict[int, str]()
     present = set(now.table.cluster.tolist())
-    names, singles = cluster_names(before), _find_own_names(before)
-    if not names and not singles:
+    names, singles = cluster_names(before), before.table[has_own_name(before)]
+    if not names and not len(singles):
         return CarryResult(now, corrections, names=0, lost=[])
     for cluster, name in names.items():
         if cluster in present:
             new_names[cluster] = name
+            now = name_cluster(now, cluster, name)
         else:
             lost.append(f"the name “{name}” of cluster {cluster}: no cluster matches it")
-    for cluster, name in new_names.items():
-        now = name_cluster(now, cluster, name)
     labels: dict[Span, str] = {}
     for row in singles:
         match = _find_matching_segment(now, row)
@@ -174,7 +172,7 @@ def _carry_names(now: Segmentation, before: Segmentation, corrections: int) -> C
             labels[get_span(match)] = row.label
     rows = [replace(row, label=labels.get(get_span(row), row.label)) for row in now]
     # Store empty names for clusters without one, so that none is inferred from labels.
-    now = set_cluster_names(replace_rows(now, rows, []), dict.fromkeys(present, "") | new_names)
+    now = set_cluster_names(replace_rows(now, rows), dict.fromkeys(present, "") | new_names)
     return CarryResult(now, corrections, len(names) + len(singles), lost)
 
 
@@ -198,12 +196,12 @@ def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
     activities = _move_borders_out_of_primitives(list(found.activities), by_level["primitive"])
     activities = _insert_fixed(activities, by_level["activity"])
     if not len(found.primitives):
-        return replace_rows(found, activities, [])
+        return replace_rows(found, activities)
     primitives = _cut_at_borders(activities, list(found.primitives))
     for row in by_level["activity"]:
         primitives = _adopt_primitives(primitives, row, found)
     primitives = _cut_at_borders(activities, _insert_fixed(primitives, by_level["primitive"]))
-    return replace_rows(found, activities, primitives)
+    return replace_rows(found, [*activities, *primitives])
 
 
 def _cut_at_borders(activities: Rows, primitives: Rows) -> Rows:

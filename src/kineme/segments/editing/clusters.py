@@ -12,19 +12,21 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, get_args
+from typing import get_args
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from kineme._util.arrays import Masks
 from kineme.errors import ParameterError
 from kineme.segments.editing.borders import (
-    Rows,
     find_segment_at,
-    join_rows,
+    merge,
     renumber_clusters,
     replace_columns,
-    replace_rows,
 )
 from kineme.segments.segmentation import Segmentation
-from kineme.segments.table import Kind, Level, Segment, choose_kind
+from kineme.segments.table import Kind, Level, Segment
 
 
 def name_segment(segmentation: Segmentation, level: Level, frame: int, label: str) -> Segmentation:
@@ -55,7 +57,7 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     """
     row, names = find_segment_at(segmentation, level, frame), collect_names(segmentation)
     label = label or names.get(row.cluster, "")
-    named = change_columns(segmentation, [(level, row)], label=label)
+    named = _change_rows(segmentation, _mark_row(segmentation, row), label=label)
     # Store an empty name for a cluster without one, or this label might be taken for its name.
     return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
@@ -83,17 +85,9 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     >>> name_cluster(found, 0, "stroll").activities[[0, 4]].label.tolist()
     ['stroll', 'stroll']
     """
-    if not find_members(segmentation, cluster):
-        raise ParameterError(f"no segment is in cluster {cluster}")
-    names = collect_names(segmentation)
-    members = [
-        (row.level, row)
-        for row in find_members(segmentation, cluster)
-        if row.label in ("", names.get(cluster, ""))
-    ]
-    return set_cluster_names(
-        change_columns(segmentation, members, label=label), names | {cluster: label}
-    )
+    members = _mark_members(segmentation, cluster) & ~has_own_name(segmentation)
+    named = _change_rows(segmentation, members, label=label)
+    return set_cluster_names(named, collect_names(segmentation) | {cluster: label})
 
 
 def cluster_names(segmentation: Segmentation) -> dict[int, str]:
@@ -138,27 +132,40 @@ def collect_names(segmentation: Segmentation) -> dict[int, str]:
     return {cluster: names[cluster] for cluster in sorted(sizes) if 0 <= cluster in names}
 
 
-def find_members(segmentation: Segmentation, cluster: int) -> list[Segment]:
-    """Return the segments of a cluster, of both levels."""
-    table = segmentation.table
-    return [*table.select(table.cluster == cluster)] if cluster >= 0 else []
+def has_own_name(segmentation: Segmentation) -> Masks:
+    """Return which rows have a label that is not the name of their cluster."""
+    table, names = segmentation.table, collect_names(segmentation)
+    inherited = np.array([names.get(cluster, "") for cluster in table.cluster.tolist()])
+    own: Masks = (table.label != "") & (table.label != inherited)
+    return own
 
 
-def change_columns(
-    segmentation: Segmentation, members: Sequence[tuple[Level, Segment]], **columns: object
-) -> Segmentation:
-    """Set columns of the members to new values."""
-    chosen = {(level, row.start_frame) for level, row in members}
+def _mark_row(segmentation: Segmentation, row: Segment) -> Masks:
     table = segmentation.table
-    keys = zip(table.level.tolist(), table.start_frame.tolist(), strict=True)
-    rows = [i for i, key in enumerate(keys) if key in chosen]
-    values: dict[str, Any] = table.columns()
-    for name, value in columns.items():
-        # Lists, as a fixed-width array would truncate texts.
-        values[name] = values[name].tolist()
-        for row in rows:
-            values[name][row] = value
-    return replace_columns(segmentation, values)
+    found: Masks = (table.level == row.level) & (table.start_frame == row.start_frame)
+    return found
+
+
+def _mark_members(segmentation: Segmentation, cluster: int) -> Masks:
+    """Return which rows are in a cluster; raise ParameterError if none is."""
+    members: Masks = segmentation.table.cluster == cluster
+    if cluster < 0 or not members.any():
+        raise ParameterError(f"no segment is in cluster {cluster}")
+    return members
+
+
+def _change_rows(segmentation: Segmentation, rows: Masks, **columns: ArrayLike) -> Segmentation:
+    """Set columns of some rows to new values."""
+    table = segmentation.table
+    changed = {
+        name: np.where(rows, values, getattr(table, name)) for name, values in columns.items()
+    }
+    return replace_columns(segmentation, table.columns() | changed)
+
+
+def _choose_new_cluster(segmentation: Segmentation) -> int:
+    """Return the next number, as numbers must have no gaps."""
+    return int(segmentation.table.cluster.max()) + 1
 
 
 def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: int) -> Segmentation:
@@ -189,19 +196,15 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     >>> again.activities[-1].label, again.repetitions()[3]
     ('jump', 8)
     """
-    # Numbers must have no gaps: the only new number allowed is the next one.
-    new_cluster = int(segmentation.table.cluster.max(initial=-1)) + 1
+    new_cluster = _choose_new_cluster(segmentation)
     if not -1 <= cluster <= new_cluster:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {new_cluster}")
-    chosen = find_segment_at(segmentation, level, frame)
-    members = [(level, chosen)]
+    chosen, table = find_segment_at(segmentation, level, frame), segmentation.table
+    members = _mark_row(segmentation, chosen)
     if level == "activity":
-        inside = segmentation.primitives.select(segmentation.primitives.activity == chosen.activity)
-        members += [("primitive", row) for row in inside if row.cluster == chosen.cluster]
-    moved = _move_members(segmentation, members, cluster)
-    transition = cluster < 0 and chosen.kind == "transition"
-    keys = {(row.level, row.start_frame) for _, row in members}
-    return replace_rows(moved, _change_kinds(moved, keys, transition=transition), [])
+        members |= (table.activity == chosen.activity) & (table.cluster == chosen.cluster)
+    kind = chosen.kind if cluster < 0 else "activity"
+    return _move_members(segmentation, members, cluster, kind=kind)
 
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
@@ -227,14 +230,11 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
     >>> merge_clusters(found, 4, 0).repetitions()
     {0: 15, 1: 4, 2: 5, 3: 4, 5: 4}
     """
-    for each in (cluster, into):
-        if not find_members(segmentation, each):
-            raise ParameterError(f"no segment is in cluster {each}")
+    members, _ = (_mark_members(segmentation, each) for each in (cluster, into))
     if cluster == into:
         raise ParameterError(
             f"cluster {cluster} cannot be merged with itself: name another cluster"
         )
-    members = [(row.level, row) for row in find_members(segmentation, cluster)]
     return _move_members(segmentation, members, into)
 
 
@@ -263,26 +263,20 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     >>> split_cluster(found, 0, [962, 1027]).repetitions()
     {0: 7, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4, 6: 2}
     """
-    chosen, rows = set(frames), find_members(segmentation, cluster)
-    level: Level = "primitive" if any(row.level == "primitive" for row in rows) else "activity"
-    members = [row for row in rows if row.level == level]
-    leavers = [row for row in members if row.start_frame in chosen]
-    if not leavers or len(leavers) == len(members):
+    table = segmentation.table
+    in_cluster = (table.cluster == cluster) & (cluster >= 0)
+    has_primitives = (in_cluster & (table.level == "primitive")).any()
+    members = in_cluster & (table.level == ("primitive" if has_primitives else "activity"))
+    leaving = members & np.isin(table.start_frame, [*frames])
+    if not 0 < leaving.sum() < members.sum():
         raise ParameterError(
-            f"{len(leavers)} of {len(members)} segments of cluster {cluster} are selected: "
+            f"{leaving.sum()} of {members.sum()} segments of cluster {cluster} are selected: "
             "select some of them, not all"
         )
     # An activity moves only if all of its primitives of the cluster move.
-    staying = {row.activity for row in members if row.start_frame not in chosen}
-    leaving = {row.activity for row in leavers} - staying
-    moved: list[tuple[Level, Segment]] = [(row.level, row) for row in leavers]
-    if level == "primitive":
-        numbered = enumerate(segmentation.activities)
-        moved += [
-            ("activity", row) for i, row in numbered if i in leaving and row.cluster == cluster
-        ]
-    new_cluster = int(segmentation.table.cluster.max(initial=-1)) + 1
-    return _move_members(segmentation, moved, new_cluster)
+    emptied = np.setdiff1d(table.activity[leaving], table.activity[members & ~leaving])
+    leaving |= in_cluster & (table.level == "activity") & np.isin(table.activity, emptied)
+    return _move_members(segmentation, leaving, _choose_new_cluster(segmentation))
 
 
 def order_clusters(segmentation: Segmentation, order: Sequence[int]) -> Segmentation:
@@ -345,53 +339,27 @@ def set_kind(segmentation: Segmentation, level: Level, frame: int, kind: Kind) -
     """
     if kind not in get_args(Kind):
         raise ParameterError(f"kind must be {' or '.join(get_args(Kind))}, not {kind!r}")
-    chosen = find_segment_at(segmentation, level, frame)
-    if (kind == "transition") == (chosen.kind == "transition"):
+    chosen, is_transition = find_segment_at(segmentation, level, frame), kind == "transition"
+    if is_transition == (chosen.kind == "transition"):
         return segmentation
-    activities, primitives = list(segmentation.activities), list(segmentation.primitives)
-    keys: set[tuple[Level, int]] = {(level, frame)}
+    inside = segmentation.primitives.activity == chosen.activity
+    if level == "activity" and is_transition and inside.sum() > 1:
+        segmentation = merge(segmentation, "primitive", chosen.start_frame, chosen.stop_frame)
+    rows = _mark_row(segmentation, chosen)
     if level == "activity":
-        inside = [i for i, row in enumerate(primitives) if row.activity == chosen.activity]
-        if inside and kind == "transition":
-            # Merge its primitives to one transition.
-            primitives = join_rows(primitives, inside[0], inside[-1], inside[0])
-            inside = inside[:1]
-        keys |= {("primitive", primitives[i].start_frame) for i in inside}
-    rows = _change_kinds([*activities, *primitives], keys, transition=kind == "transition")
-    return replace_rows(segmentation, rows, [])
-
-
-def _change_kinds(
-    rows: Iterable[Segment], keys: set[tuple[Level, int]], *, transition: bool
-) -> Rows:
-    """Make the rows with these levels and starts transitions without a cluster, or movements."""
-    changed: Rows = []
-    for row in rows:
-        if (row.level, row.start_frame) in keys:
-            kind = choose_kind(row.level, transition=transition)
-            cluster = -1 if transition else row.cluster
-            row = replace(row, kind=kind, cluster=cluster, confidence=math.nan)  # noqa: PLW2901
-        changed.append(row)
-    return changed
+        rows |= segmentation.table.activity == chosen.activity
+    if is_transition:
+        return _change_rows(segmentation, rows, kind=kind, cluster=-1, confidence=math.nan)
+    return _change_rows(segmentation, rows, kind="activity", confidence=math.nan)
 
 
 def _move_members(
-    segmentation: Segmentation,
-    members: Sequence[tuple[Level, Segment]],
-    cluster: int,
+    segmentation: Segmentation, members: Masks, cluster: int, **columns: ArrayLike
 ) -> Segmentation:
     """Move members to another cluster, and label them with its name, except own names."""
     names = collect_names(segmentation)
-    moved = segmentation
-    # First the members with the name of their cluster, then those with their own name.
-    for inherits in (True, False):
-        group = [
-            (level, row)
-            for level, row in members
-            if (row.label in ("", names.get(row.cluster, ""))) == inherits
-        ]
-        label = {"label": names.get(cluster, "")} if inherits else {}
-        if group:
-            moved = change_columns(moved, group, cluster=cluster, confidence=math.nan, **label)
+    labels = np.where(has_own_name(segmentation), segmentation.table.label, names.get(cluster, ""))
+    columns |= {"cluster": cluster, "confidence": math.nan, "label": labels}
+    moved = _change_rows(segmentation, members, **columns)
     # Store an empty name for a nameless cluster, or labels of members might be taken for its name.
     return set_cluster_names(moved, ({cluster: ""} if cluster >= 0 else {}) | names)
