@@ -210,9 +210,13 @@ class RecentPast:
         # A sample near a change averages over both sides.
         changes = np.flatnonzero(np.diff(group))
         is_inside = (np.abs(frames[:, None] - changes) > EDGE_S * self.layout.fps).all(axis=1)
-        samples = np.where(is_inside, group[frames], -1)
-        examples = {number: np.flatnonzero(samples == i) for i, number in enumerate(older)}
-        clusters = {local: np.flatnonzero(samples == local + len(older)) for local in unseen}
+
+        def list_samples(number: int) -> Ints:
+            chosen = group[frames] == number
+            return np.flatnonzero(chosen & is_inside if (chosen & is_inside).any() else chosen)
+
+        examples = {number: list_samples(i) for i, number in enumerate(older)}
+        clusters = {local: list_samples(local + len(older)) for local in unseen}
         return _match_nearest(view, unit, examples, clusters)
 
     def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float]:
