@@ -235,8 +235,8 @@ def average_by_cluster(shares: Floats, weights: NDArray[np.integer], labels: Fra
 def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
     """Replace the primitives of free segments by the occurrences found in them.
 
-    Free are transitions, and activities of clusters that are not periodic. Clusters of occurrences
-    are numbered after all others.
+    Transitions are free, and so are activities of clusters that are not periodic. Clusters of
+    occurrences are numbered after all others.
     """
     # A border inside an occurrence moves to its nearer end, which may empty a segment.
     borders, old = _drop_empty(_move_borders_out(found, segments.borders), segments.labels)
